@@ -1,0 +1,64 @@
+"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash.
+
+numba's own cache does not notice an edit in a *callee* of another file and would go on
+running the old code. The cache folder is therefore named by a hash over the sources of every
+package whose kernels may be inlined.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+import numba
+from numba.core import config
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+F = TypeVar("F", bound="Callable[..., object]")
+
+
+class KernelDecorator(Protocol):
+    """A decorator that keeps the signature of what it compiles."""
+
+    def __call__(self, function: F) -> F:
+        """Return the compiled `function`."""
+        ...
+
+
+def source_hash(*folders: Path) -> str:
+    """Return a short hash over the Python sources below `folders` (contents and names)."""
+    digest = hashlib.sha256()
+    for folder in folders:
+        for path in sorted(folder.rglob("*.py")):
+            digest.update(path.relative_to(folder).as_posix().encode())
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder(*folders: Path) -> Path:
+    """Return the folder that holds the compiled kernels of the packages in `folders`."""
+    base = os.environ.get("LIR_CACHE_DIR") or Path.home() / ".cache" / "lir-dcfp"
+    return Path(base) / source_hash(*folders)
+
+
+def kernels_of(*folders: Path) -> KernelDecorator:
+    """Return a decorator that compiles kernels of the packages in `folders`."""
+    target = str(cache_folder(*folders))
+
+    def decorate(function: F) -> F:
+        kept = config.CACHE_DIR
+        config.CACHE_DIR = target
+        try:
+            compiled: F = numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+        finally:
+            config.CACHE_DIR = kept
+        return compiled
+
+    return decorate
+
+
+kernel = kernels_of(Path(__file__).parent)

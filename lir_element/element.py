@@ -1,0 +1,206 @@
+"""One bearing as a finite element: trial, commit, revert, force, tangent, responses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from lir_element import pendulum_tangent, pendulum_trial
+from lir_element.errors import AnalysisError, RunStatus
+from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from lir_element.bearing import LIRBearing
+
+Level = Literal["pendulum"]
+LEVELS = ("pendulum",)
+_ZERO = np.zeros(3)
+_AXES = np.eye(3)
+
+
+def initial_state(props: Records) -> Records:
+    """Return the state records (n,) of undeformed, unloaded bearings with properties `props`."""
+    state = np.zeros(len(props), dtype=STATE)
+    state["axis"][:, 2] = 1.0
+    state["axis_top"][:, 2] = 1.0
+    state["string"] = props["length"]
+    state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
+    return state
+
+
+def as_words(records: Records) -> Floats:
+    """Return records (n,) as rows of 64-bit words (n, m), sharing their memory."""
+    return records.view(np.int64).reshape(len(records), -1)
+
+
+class Element:
+    """An LIR-DCFP bearing between node i (below) and node j (above).
+
+    Six degrees of freedom a node: ux, uy, uz, rx, ry, rz; z upwards. Displacements are measured
+    from the undeformed, unloaded bearing. Node i lies at the vertex of the bottom concave
+    surface, node j at that of the top one (`plate_thickness` moves them outwards); in a model
+    they may coincide.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    level : {"pendulum"}
+        Level of fidelity.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> element = Element(bearing)
+    >>> u = np.zeros(12)
+    >>> u[8] = -1e-4
+    >>> element.set_trial(u, np.zeros(12), 0.0)
+    >>> element.commit()
+    >>> float(element.response("axial_force")) > 0.0
+    True
+    """
+
+    def __init__(self, bearing: LIRBearing, level: Level = "pendulum") -> None:
+        if level not in LEVELS:
+            msg = f"level = {level!r}: choose one of {LEVELS}"
+            raise ValueError(msg)
+        self.bearing = bearing
+        self.level = level
+        self._props = bearing.to_record()
+        self._start = initial_state(self._props)
+        self._committed = self._start.copy()
+        self._trial = self._start.copy()
+        self._work = np.zeros(1, dtype=WORK)
+        self._tangent = np.zeros((12, 12))
+        self._has_tangent = False
+        self._initial: Floats | None = None
+        self.set_trial(np.zeros(12), np.zeros(12), 0.0)
+
+    def set_trial(self, displacement: ArrayLike, velocity: ArrayLike, time: float) -> None:
+        """Determine the trial state.
+
+        Parameters
+        ----------
+        displacement, velocity : array_like, shape (12,)
+            Of node i, then of node j [m, rad; m/s, rad/s].
+        time : float
+            Time of the trial [s]. Where it lies after the committed time, all rates inside (sliding
+            speeds, closing speeds of contacts) are differences over the step and the tangent holds
+            their part; otherwise the trial is static, and the sliding speeds come from `velocity`.
+
+        Raises
+        ------
+        AnalysisError
+            If there is no such state (not finite, beyond the spheres, no equilibrium inside).
+        ValueError
+            If an array has the wrong shape.
+        """
+        u, v = _twelve("displacement", displacement), _twelve("velocity", velocity)
+        code = pendulum_trial.trial_one(
+            self._props, self._committed, self._trial, self._work, u, v, float(time), _ZERO
+        )
+        self._has_tangent = False
+        status = RunStatus(code)
+        if status is not RunStatus.OK and not _is_limit(status):
+            self._trial[:] = self._committed
+            raise AnalysisError(status, float(time), "bearing element")
+
+    def resisting_force(self) -> Floats:
+        """Return the resisting forces (12,) of the trial state [N, N m]."""
+        return np.array(self._trial["force"][0])
+
+    def tangent_stiffness(self) -> Floats:
+        """Return the consistent tangent (12, 12) of the trial state, unsymmetric as it comes."""
+        if not self._has_tangent:
+            pendulum_trial.tangent_one(
+                self._props, self._trial, self._work, self._tangent, _ZERO, _AXES
+            )
+            self._has_tangent = True
+        return self._tangent.copy()
+
+    def initial_stiffness(self) -> Floats:
+        """Return the stiffness (12, 12) of the undeformed, sticking bearing under its design load."""
+        if self._initial is None:
+            other = Element.__new__(Element)
+            other.__dict__ |= self.__dict__
+            options = self.bearing.resolved()
+            other._committed, other._trial = self._start.copy(), self._start.copy()
+            other._work, other._tangent = np.zeros_like(self._work), np.zeros((12, 12))
+            u = np.zeros(12)
+            u[8] = -options["design_load"] / options["axial_stiffness"]
+            other.set_trial(u, np.zeros(12), 0.0)
+            self._initial = other.tangent_stiffness()
+        return self._initial.copy()
+
+    def commit(self) -> None:
+        """Accept the trial state.
+
+        Raises
+        ------
+        AnalysisError
+            If the state lies beyond a limit of the bearing (it is committed all the same, so that
+            it can be looked at).
+        """
+        pendulum_trial.accumulate_one(self._committed, self._trial, 0.5, 0.5)
+        self._committed[:] = self._trial
+        status = RunStatus(int(self._committed["status"][0]))
+        if _is_limit(status):
+            detail = limit_detail(self._props, self._committed, 0)
+            time = float(self._committed["time"][0])
+            raise AnalysisError(status, time, "bearing element", detail)
+
+    def revert_to_last_commit(self) -> None:
+        """Forget the trial state."""
+        committed = self._committed
+        u = np.array(committed["displacement"][0])
+        self.set_trial(u, np.zeros(12), float(committed["time"][0]))
+        self._trial[:] = committed
+
+    def revert_to_start(self) -> None:
+        """Forget everything: the undeformed, unloaded bearing at time zero."""
+        self._committed[:] = self._start
+        self.set_trial(np.zeros(12), np.zeros(12), 0.0)
+
+    def response(self, name: str) -> Any:
+        """Return a response of the trial state by name (see `responses`)."""
+        if name not in STATE_BY_NAME:
+            msg = f"response {name!r} is not known: choose one of {', '.join(STATE_BY_NAME)}"
+            raise KeyError(msg)
+        value = np.array(self._trial[name][0])
+        return value if value.ndim else value[()]
+
+    @staticmethod
+    def responses() -> dict[str, str]:
+        """Return the names of all responses with meaning and unit."""
+        return {f.name: f"{f.meaning} [{f.unit}]" for f in STATE_BY_NAME.values()}
+
+
+def limit_detail(props: Records, state: Records, index: int) -> str:
+    """Return how far a bearing lies beyond its limit."""
+    status = RunStatus(int(state["status"][index]))
+    if status is RunStatus.SLIP_EXCEEDED:
+        slip = float(np.hypot(*state["slip"][index]))
+        limit = float(props["slip_capacity"][index])
+        return f"slip {slip:.4g} m, slip_capacity {limit:.4g} m"
+    if status is RunStatus.RIM_OVERRUN:
+        closure = float(state["rim_closure"][index].max())
+        limit = float(props["rim_overrun"][index])
+        return f"rim deformation {closure:.4g} m, rim_overrun {limit:.4g} m"
+    return ""
+
+
+def _is_limit(status: RunStatus) -> bool:
+    return status in {RunStatus.SLIP_EXCEEDED, RunStatus.RIM_OVERRUN}
+
+
+def _twelve(name: str, value: ArrayLike) -> Floats:
+    array = np.ascontiguousarray(value, dtype=np.float64)
+    if array.shape != (12,):
+        msg = f"{name} has shape {array.shape}: it must be (12,), node i then node j"
+        raise ValueError(msg)
+    return array

@@ -1,0 +1,119 @@
+"""Statuses of an analysis, their meaning, and the errors that carry them."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any
+
+
+class RunStatus(IntEnum):
+    """Outcome of a state determination or of an analysis."""
+
+    OK = 0
+    NOT_FINITE = 1
+    NO_EQUILIBRIUM = 2
+    SLIP_EXCEEDED = 3
+    RIM_OVERRUN = 4
+    SPHERE_EXCEEDED = 5
+    NEWTON_FAILED = 6
+    STEP_TOO_SMALL = 7
+    SINGULAR = 8
+    UPLIFTED = 9
+
+    @property
+    def meaning(self) -> str:
+        """What happened, in a sentence."""
+        return _TEXT[self][0]
+
+    @property
+    def remedy(self) -> str:
+        """What to try."""
+        return _TEXT[self][1]
+
+    @property
+    def is_bearing_failure(self) -> bool:
+        """Whether the bearing itself failed (the computation did not)."""
+        return self in {
+            RunStatus.SLIP_EXCEEDED,
+            RunStatus.RIM_OVERRUN,
+            RunStatus.SPHERE_EXCEEDED,
+        }
+
+
+_TEXT = {
+    RunStatus.OK: ("completed", "nothing"),
+    RunStatus.NOT_FINITE: (
+        "a displacement, velocity or force is not finite",
+        "check the input for NaN or infinite values, and the units of the motion",
+    ),
+    RunStatus.NO_EQUILIBRIUM: (
+        "the slider found no equilibrium inside the bearing",
+        "use a smaller step; check that mu_h exceeds mu_d and that the yield displacements "
+        "are not extremely small",
+    ),
+    RunStatus.SLIP_EXCEEDED: (
+        "the interface slipped further than the sliders' overlap supports: the bearing failed",
+        "use a larger slider or slip_capacity, more lateral capacity, or a higher mu_h",
+    ),
+    RunStatus.RIM_OVERRUN: (
+        "the slider overran a restraining rim: the bearing failed",
+        "use more lateral capacity, or a stiffer rim (rim_stiffness, rim_overrun)",
+    ),
+    RunStatus.SPHERE_EXCEEDED: (
+        "the slider left the concave surfaces (its axis tilted beyond 72 degrees)",
+        "use rims (capacity) or larger radii; check the motion's scale",
+    ),
+    RunStatus.NEWTON_FAILED: (
+        "Newton's method did not converge",
+        "use a smaller dt; check for a mechanism or a load beyond what the model can carry",
+    ),
+    RunStatus.STEP_TOO_SMALL: (
+        "the step was halved down to its smallest size without convergence",
+        "add contact damping, soften axial_stiffness or rim_stiffness, or check the model",
+    ),
+    RunStatus.SINGULAR: (
+        "the tangent stiffness is singular",
+        "check for a mechanism, or for bearings that all lifted off",
+    ),
+    RunStatus.UPLIFTED: (
+        "a bearing carries no compression under the permanent loads",
+        "add weight over the bearing, or leave the bearing out",
+    ),
+}
+
+
+class AnalysisError(RuntimeError):
+    """An analysis that failed: what happened, when, where, and what to try.
+
+    Attributes
+    ----------
+    status : RunStatus
+        Why it failed.
+    time : float
+        Time of the failure [s].
+    where : str
+        The bearing or degree of freedom concerned.
+    data : xarray.Dataset or None
+        What was computed up to the failure.
+    """
+
+    def __init__(
+        self, status: RunStatus, time: float, where: str, detail: str = "", data: Any = None
+    ) -> None:
+        self.status = status
+        self.time = time
+        self.where = where
+        self.data = data
+        super().__init__(failure_message(status, time, where, detail))
+
+
+def failure_message(status: RunStatus, time: float, where: str, detail: str = "") -> str:
+    """Return the sentence that reports a failure: what, when, where, and what to try."""
+    extra = f" ({detail})" if detail else ""
+    return (
+        f"at t = {time:.6g} s, {where}: {status.meaning}{extra}. What to try: {status.remedy}."
+    )
+
+
+class AnalysisWarning(UserWarning):
+    """An analysis that stopped early and handed back what it had computed."""

@@ -1,0 +1,161 @@
+"""Record layouts, declared once: dtypes, response names, units and labels all come from here.
+
+Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (what is
+committed) and `WORK` (scratch of one state determination; nothing in it survives).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+
+class Field(NamedTuple):
+    """One field of a record: its name, unit, symbol, meaning, shape and number type."""
+
+    name: str
+    unit: str
+    symbol: str
+    meaning: str
+    shape: tuple[int, ...] = ()
+    kind: str = "f8"
+
+
+PROPS_FIELDS = (
+    Field("radius", "m", "R", "radius of the concave surface: bottom, top", (2,)),
+    Field("lever", "m", "a", "distance from the node to the sphere's centre: bottom, top", (2,)),
+    Field("length", "m", "L", "effective radius, the string's length"),
+    Field("friction_max", "-", "f_max", "friction coefficient at high speed: bottom, top", (2,)),
+    Field("friction_drop", "-", "f_max - f_min", "its drop at low speed: bottom, top", (2,)),
+    Field("friction_rate", "s/m", "alpha", "rate parameter of Eq. (1): bottom, top", (2,)),
+    Field("interface_friction", "-", "mu_h", "friction coefficient of the plane interface"),
+    Field("fused", "-", "", "1 where the slider is one piece (a plain DCFP)", (), "i8"),
+    Field("bouc_wen", "-", "", "1 for Bouc-Wen, 0 for elastic-plastic friction", (), "i8"),
+    Field("exponent", "-", "eta", "exponent of the Bouc-Wen law"),
+    Field("yield_displacement", "m", "u_y", "elastic sliding before slip: bottom, top", (2,)),
+    Field("interface_yield", "m", "u_yh", "elastic sliding of the interface before slip"),
+    Field("axial_stiffness", "N/m", "k_v", "stiffness of the contact along the slider's axis"),
+    Field("axial_damping", "N s/m", "c_v", "damping of the contact along the slider's axis"),
+    Field("axial_floor", "N", "N_min", "force below which all forces fade in proportion"),
+    Field("rim_displacement", "m", "d_max", "sliding at which the rim is met: bottom, top", (2,)),
+    Field("rim_stiffness", "N/m", "k_r", "radial stiffness of a rim"),
+    Field("rim_damping", "N s/m", "c_r", "radial damping of a rim"),
+    Field("rim_overrun", "m", "", "deformation of a rim beyond which the slider has overrun it"),
+    Field("slip_capacity", "m", "s_max", "interface slip that the sliders' overlap supports"),
+    Field("torsion_lever", "m", "", "torque of friction about the axis over friction force"),
+    Field("torsion_yield", "rad", "", "elastic twist before torsional slip"),
+)
+
+STATE_FIELDS = (
+    Field("time", "s", "t", "time of this state"),
+    Field("displacement", "m, rad", "u", "displacements of node i, then of node j", (12,)),
+    Field("force", "N, N m", "f", "resisting forces on node i, then on node j", (12,)),
+    Field("axis", "-", "n", "slider axis, in axes that turn with the bottom plate", (3,)),
+    Field("axis_top", "-", "n", "slider axis, in axes that turn with the top plate", (3,)),
+    Field("string", "m", "l", "length between the sphere centres along the slider's axis"),
+    Field("closure", "m", "pen", "axial closure of the contact, zero when uplifted"),
+    Field("axial_force", "N", "N", "axial force, compression positive"),
+    Field("slip", "m", "s", "interface slip in the plane of the interface", (2,)),
+    Field("slip_total", "m", "s", "interface slip in global axes, top slider on bottom", (3,)),
+    Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
+    Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
+    Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
+    Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
+    Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
+    Field("friction_force", "N", "F", "friction force, tangent plane: bottom, top", (2, 2)),
+    Field("interface_force", "N", "F_h", "friction force of the interface, in its plane", (2,)),
+    Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
+    Field("sliding_speed", "m/s", "v", "sliding speed: bottom, top", (2,)),
+    Field("eccentricity", "m", "d", "radial sliding in the plane of the plate: bottom, top", (2,)),
+    Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
+    Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
+    Field("twist", "rad", "psi", "relative rotation about the vertical axis"),
+    Field("twist_hysteresis", "-", "z_t", "hysteretic variable of the torsional friction"),
+    Field("torque", "N m", "T", "torsional friction moment"),
+    Field("work_friction", "J", "", "work of low friction: bottom, top (torsion halved)", (2,)),
+    Field("work_interface", "J", "", "work of the high-friction interface"),
+    Field("work_rim", "J", "", "work done on the rims: bottom, top", (2,)),
+    Field("work_contact", "J", "", "work done on the axial contact"),
+    Field("travel", "m", "", "sliding path travelled since the start: bottom, top", (2,)),
+    Field("interface_travel", "m", "", "path slipped in the interface since the start"),
+    Field("largest_slip", "m", "", "largest interface slip since the start"),
+    Field("status", "-", "", "a RunStatus code", (), "i8"),
+    Field("iterations", "-", "", "iterations of the last state determination", (), "i8"),
+)
+
+_W_VECTOR, _W_MATRIX, _W_PAIR = (3,), (3, 3), (2,)
+WORK_FIELDS = (
+    Field("q_i", "-", "Q_i", "rotation of the bottom plate", _W_MATRIX),
+    Field("q_j", "-", "Q_j", "rotation of the top plate", _W_MATRIX),
+    Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", _W_MATRIX),
+    Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", _W_MATRIX),
+    Field("a", "-", "Q_i^T Q_j", "rotation of the top plate seen from the bottom one", _W_MATRIX),
+    Field("c_global", "m", "c", "from sphere centre to sphere centre, global", _W_VECTOR),
+    Field("c", "m", "c", "the same in axes of the bottom plate", _W_VECTOR),
+    Field("n", "-", "n", "slider axis", _W_VECTOR),
+    Field("t", "-", "t_1, t_2", "basis of the plane normal to it", (2, 3)),
+    Field("l", "m", "l", "string length"),
+    Field("sigma", "m", "sigma", "interface slip in the basis t", _W_PAIR),
+    Field("dt", "s", "", "time since the committed state, zero if static"),
+    Field("static_speed", "m/s", "", "sliding speeds of a static trial", _W_PAIR),
+    Field("n_true", "N", "N", "axial force"),
+    Field("n_hat", "N", "", "axial force, not below its floor"),
+    Field("stiff_n", "N/m", "", "derivative of the axial force"),
+    Field("scale", "-", "", "n_true / n_hat"),
+    Field("closure", "m", "", "axial closure"),
+    Field("z", "-", "z", "hysteretic variable", (2, 2)),
+    Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
+    Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
+    Field("dw", "m", "dw", "sliding increment", (2, 2)),
+    Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
+    Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
+    Field("phi", "-", "", "friction force over axial force", (2, 2)),
+    Field("h", "1/m", "", "its derivative by the sliding increment", (2, 2, 2)),
+    Field("z_s", "-", "z_h", "hysteretic variable of the interface", _W_PAIR),
+    Field("phi_s", "-", "", "interface force over axial force", _W_PAIR),
+    Field("h_s", "1/m", "", "its derivative by the slip", (2, 2)),
+    Field("n_hor", "-", "", "size of the axis' horizontal part", _W_PAIR),
+    Field("unit", "-", "", "its direction, in axes of the plate", (2, 2)),
+    Field("r_top", "-", "", "direction of the top rim's contact", _W_VECTOR),
+    Field("b_top", "-", "", "tangent of the top rim at the contact", _W_VECTOR),
+    Field("rim", "N", "P", "rim force", _W_PAIR),
+    Field("stiff_rim", "N/m", "", "its derivative", _W_PAIR),
+    Field("rim_closure", "m", "g", "rim deformation", _W_PAIR),
+    Field("residual", "N m", "", "equilibrium of the slider", _W_PAIR),
+    Field("jacobian", "N m", "", "its derivative by a turn of the axis", (2, 2)),
+    Field("g", "N", "g", "force on the top sphere's centre, axes of the bottom plate", _W_VECTOR),
+    Field("tau", "N m", "tau", "moment about the top sphere's centre", _W_VECTOR),
+    Field("k6", "N/m, N, N m", "", "derivative of g and tau by centre and spin", (6, 6)),
+    Field("dn6", "N/m, N", "", "derivative of the axial force by centre and spin", (6,)),
+    Field("eta6", "1/m, -", "", "turn of the axis by centre and spin", (2, 6)),
+    Field("d_rows", "", "", "rows of the global tangent: force, moment", (6, 12)),
+    Field("torque", "N m", "T", "torsional friction moment"),
+    Field("torque_stiffness", "N m", "", "its derivative by the twist"),
+    Field("torque_axial", "m", "", "its derivative by the axial force"),
+    Field("axial_rate", "N", "", "derivative of the axial force by a turn of the axis", _W_PAIR),
+    Field("start", "-", "", "axis and basis at which a search begins", _W_MATRIX),
+    Field("start_circle", "-", "", "unit radial direction and radius of its parallel", _W_VECTOR),
+    Field("inverse", "1/(N m)", "", "inverse of the jacobian, by rows", (4,)),
+    Field("half", "", "", "spare", _W_MATRIX),
+    Field("sums", "", "", "spare", _W_VECTOR),
+    Field("spare_u", "", "", "displacements of a caller", (12,)),
+    Field("spare_v", "", "", "velocities of a caller", (12,)),
+)
+
+
+def dtype_of(fields: tuple[Field, ...]) -> np.dtype[Any]:
+    """Return the aligned record dtype of a table of fields."""
+    entries = [(f.name, f.kind, f.shape) for f in fields]
+    return np.dtype((np.record, np.dtype(entries, align=True)))
+
+
+PROPS = dtype_of(PROPS_FIELDS)
+STATE = dtype_of(STATE_FIELDS)
+WORK = dtype_of(WORK_FIELDS)
+
+STATE_BY_NAME = {f.name: f for f in STATE_FIELDS}
+
+Records = npt.NDArray[Any]
+Floats = npt.NDArray[np.float64]

@@ -1,0 +1,328 @@
+"""Kernels of the level 'pendulum': derivatives of its residual and forces, and the tangent.
+
+One kernel takes the derivative in a direction (a turn `eta` of the slider's axis, a shift `d`
+of the top sphere's centre, a spin `v` of the top plate, all in axes of the bottom plate); the
+slider's jacobian and the condensed tangent are made of it. docs/theory.md derives each line.
+"""
+
+from __future__ import annotations
+
+from lir_element._jit import kernel
+
+
+@kernel
+def friction_rate(w, k, axial_rate, dw_1, dw_2):
+    """Return the derivative of the friction force of surface `k`."""
+    return (
+        w.n_hat * (w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2) + w.phi[k, 0] * axial_rate,
+        w.n_hat * (w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2) + w.phi[k, 1] * axial_rate,
+    )
+
+
+@kernel
+def top_rates(p, w, e_1, e_2, v):
+    """Return d(axis against the top plate) (3), rate of the top's radial sliding, d(r_top) (3)."""
+    y_1 = w.t[0, 0] * e_1 + w.t[1, 0] * e_2 - (v[1] * w.n[2] - v[2] * w.n[1])
+    y_2 = w.t[0, 1] * e_1 + w.t[1, 1] * e_2 - (v[2] * w.n[0] - v[0] * w.n[2])
+    y_3 = w.t[0, 2] * e_1 + w.t[1, 2] * e_2 - (v[0] * w.n[1] - v[1] * w.n[0])
+    radial = w.r_top[0] * y_1 + w.r_top[1] * y_2 + w.r_top[2] * y_3
+    hoop = 0.0
+    if w.n_hor[1] > 0.0:
+        hoop = (w.b_top[0] * y_1 + w.b_top[1] * y_2 + w.b_top[2] * y_3) / w.n_hor[1]
+    return (
+        p.radius[1] * radial,
+        v[1] * w.r_top[2] - v[2] * w.r_top[1] + w.b_top[0] * hoop,
+        v[2] * w.r_top[0] - v[0] * w.r_top[2] + w.b_top[1] * hoop,
+        v[0] * w.r_top[1] - v[1] * w.r_top[0] + w.b_top[2] * hoop,
+    )
+
+
+@kernel
+def basis_rate(w, x, y, z, e_1, e_2, spin):
+    """Return d(t_a) . (x, y, z) for a = 1, 2 when the axis turns by eta."""
+    along = w.n[0] * x + w.n[1] * y + w.n[2] * z
+    on_1 = w.t[0, 0] * x + w.t[0, 1] * y + w.t[0, 2] * z
+    on_2 = w.t[1, 0] * x + w.t[1, 1] * y + w.t[1, 2] * z
+    return -e_1 * along + spin * on_2, -e_2 * along - spin * on_1
+
+
+@kernel
+def direction(p, w, e_1, e_2, d, v):
+    """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin.
+
+    Where the interface is fused its force is left out: it follows from the residual.
+    """
+    k = 1.0 / (1.0 + w.n[2])
+    s_1, s_2 = w.sigma[0], w.sigma[1]
+    spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
+    tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
+    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
+    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
+    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * d[2]
+    d_n = w.stiff_n * d_l
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    # surfaces
+    f_11, f_12 = friction_rate(
+        w, 0, d_hat,
+        p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1]),
+        p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0]),
+    )  # fmt: skip
+    m = w.old_top
+    o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
+    t = w.t
+    f_21, f_22 = friction_rate(
+        w, 1, d_hat,
+        p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1]
+                       + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3),
+        p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
+                       + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
+    )  # fmt: skip
+    r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
+    r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
+    # rims
+    d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
+    if w.stiff_rim[0] > 0.0:
+        u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
+        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
+        hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
+        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
+        r_1 += p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
+        r_2 += p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
+    if w.stiff_rim[1] > 0.0:
+        rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
+        d_rim = w.stiff_rim[1] * rate
+        b_1, b_2 = basis_rate(w, w.r_top[0], w.r_top[1], w.r_top[2], e_1, e_2, spin)
+        for a, b in ((0, b_1), (1, b_2)):
+            part = w.rim[1] * (b + t[a, 0] * q_1 + t[a, 1] * q_2 + t[a, 2] * q_3) + d_rim * (
+                t[a, 0] * w.r_top[0] + t[a, 1] * w.r_top[1] + t[a, 2] * w.r_top[2]
+            )
+            if a == 0:
+                r_1 += p.radius[1] * part
+            else:
+                r_2 += p.radius[1] * part
+    # interface and string
+    g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    g_d1, g_d2 = 0.0, 0.0
+    if not p.fused:
+        g_d1 = w.n_hat * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2) + w.phi_s[0] * d_hat
+        g_d2 = w.n_hat * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2) + w.phi_s[1] * d_hat
+    chi = s_2 * g_1 - s_1 * g_2
+    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * chi
+    chi *= k
+    r_1 += d_l * g_1 + w.l * g_d1 + d_chi * w.n[1] + chi * (e_2 - k * w.n[1] * tilt)
+    r_2 += d_l * g_2 + w.l * g_d2 - d_chi * w.n[0] - chi * (e_1 - k * w.n[0] * tilt)
+    r_1 -= d_hat * s_1 + w.n_hat * d_s1
+    r_2 -= d_hat * s_2 + w.n_hat * d_s2
+    return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin
+
+
+@kernel
+def slider_jacobian(p, w, zero):
+    """Set the derivative of the slider's residual, and of N, by a turn of its axis."""
+    r = direction(p, w, 1.0, 0.0, zero, zero)
+    w.jacobian[0, 0], w.jacobian[1, 0], w.axial_rate[0] = r[0], r[1], r[2]
+    r = direction(p, w, 0.0, 1.0, zero, zero)
+    w.jacobian[0, 1], w.jacobian[1, 1], w.axial_rate[1] = r[0], r[1], r[2]
+
+
+@kernel
+def column(p, w, inv, col, d, v):
+    """Set column `col` of the condensed 6 x 6 stiffness: g and tau by centre and spin."""
+    if p.fused:
+        along = w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
+        e_1 = -along / w.l
+        along = w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
+        e_2 = -along / w.l
+    else:
+        r = direction(p, w, 0.0, 0.0, d, v)
+        e_1 = -(inv[0] * r[0] + inv[1] * r[1])
+        e_2 = -(inv[2] * r[0] + inv[3] * r[1])
+    r_1, r_2, d_n, g_d1, g_d2, f_1, f_2, d_rim, q_1, q_2, q_3, spin = direction(
+        p, w, e_1, e_2, d, v
+    )
+    if p.fused:
+        g_d1, g_d2 = -r_1 / w.l, -r_2 / w.l
+    n_0, n_1, n_2 = w.n[0], w.n[1], w.n[2]
+    t = w.t
+    d_0 = t[0, 0] * e_1 + t[1, 0] * e_2
+    d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
+    d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
+    fade = 0.0 if w.scale == 1.0 else d_n / w.n_hat
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    s_1, s_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
+    k_1, k_2 = w.n_hat * w.phi[1, 0], w.n_hat * w.phi[1, 1]
+    x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
+    m = w.sums  # the top plate's force on the slider and its rate
+    for a in range(3):
+        d_axis = d_0 if a == 0 else (d_1 if a == 1 else d_2)
+        w.k6[a, col] = w.scale * (
+            -d_hat * w.n[a] - w.n_hat * d_axis
+            + t[0, a] * twist_1 + t[1, a] * twist_2 + along * w.n[a]
+        ) + fade * (-w.n_hat * w.n[a] + t[0, a] * s_1 + t[1, a] * s_2)  # fmt: skip
+        d_r = q_1 if a == 0 else (q_2 if a == 1 else q_3)
+        m[a] = t[0, a] * x_1 + t[1, a] * x_2 + x_3 * w.n[a] - d_rim * w.r_top[a] - w.rim[1] * d_r
+    p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - w.rim[1] * w.r_top[0]
+    p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - w.rim[1] * w.r_top[1]
+    p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - w.rim[1] * w.r_top[2]
+    full, part = w.scale * p.radius[1], fade * p.radius[1]
+    w.k6[3, col] = full * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1]) + part * (
+        n_1 * p_2 - n_2 * p_1
+    )
+    w.k6[4, col] = full * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2]) + part * (
+        n_2 * p_0 - n_0 * p_2
+    )
+    w.k6[5, col] = full * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0]) + part * (
+        n_0 * p_1 - n_1 * p_0
+    )
+    w.dn6[col] = d_n
+
+
+@kernel
+def condense(p, w, zero, axes):
+    """Set the condensed 6 x 6 stiffness in axes of the bottom plate.
+
+    `zero` is (3,) of zeros and `axes` the (3, 3) unit matrix.
+    """
+    inv = w.inverse
+    if not p.fused:
+        slider_jacobian(p, w, zero)
+        j = w.jacobian
+        det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
+        inv[0], inv[1] = j[1, 1] / det, -j[0, 1] / det
+        inv[2], inv[3] = -j[1, 0] / det, j[0, 0] / det
+    for a in range(3):
+        column(p, w, inv, a, axes[a], zero)
+        column(p, w, inv, 3 + a, zero, axes[a])
+
+
+@kernel
+def rotate_to_global(w):
+    """Turn the 6 x 6 stiffness (four 3 x 3 blocks) and dn6 into global axes, in place."""
+    q = w.q_i
+    for block_row in (0, 3):
+        for block_col in (0, 3):
+            for a in range(3):  # rows: Q k
+                for b in range(3):
+                    w.half[a, b] = 0.0
+                    for k in range(3):
+                        w.half[a, b] += q[a, k] * w.k6[block_row + k, block_col + b]
+            for a in range(3):  # columns: k Q'
+                for b in range(3):
+                    total = 0.0
+                    for k in range(3):
+                        total += w.half[a, k] * q[b, k]
+                    w.k6[block_row + a, block_col + b] = total
+    for block in (0, 3):
+        x, y, z = w.dn6[block], w.dn6[block + 1], w.dn6[block + 2]
+        for a in range(3):
+            w.dn6[block + a] = q[a, 0] * x + q[a, 1] * y + q[a, 2] * z
+
+
+@kernel
+def spread(row, x, y, z, w, lever_i, lever_j, s_x, s_y, s_z):
+    """Fill the 12 entries of `row`: derivative by (shift of centre x, y, z; spin s) in B form.
+
+    shift = u_j - u_i + (a_i e_i + c) x phi_i + a_j e_j x phi_j, spin = phi_j - phi_i.
+    """
+    row[0], row[1], row[2] = -x, -y, -z
+    row[6], row[7], row[8] = x, y, z
+    a = lever_j * w.q_j[0, 2]
+    b = lever_j * w.q_j[1, 2]
+    c = lever_j * w.q_j[2, 2]
+    # x . (e x phi) = phi . (x x e)
+    row[9] = y * c - z * b + s_x
+    row[10] = z * a - x * c + s_y
+    row[11] = x * b - y * a + s_z
+    a = lever_i * w.q_i[0, 2] + w.c_global[0]
+    b = lever_i * w.q_i[1, 2] + w.c_global[1]
+    c = lever_i * w.q_i[2, 2] + w.c_global[2]
+    row[3] = y * c - z * b - s_x
+    row[4] = z * a - x * c - s_y
+    row[5] = x * b - y * a - s_z
+
+
+@kernel
+def add_cross(k, first, col, x, y, z, sign):
+    """Add the derivative of ``sign * phi x (x, y, z)`` by phi to rows `first`, columns `col`."""
+    k[first, col + 1] += sign * z
+    k[first, col + 2] -= sign * y
+    k[first + 1, col] -= sign * z
+    k[first + 1, col + 2] += sign * x
+    k[first + 2, col] += sign * y
+    k[first + 2, col + 1] -= sign * x
+
+
+@kernel
+def fill_tangent(p, w, force, k, zero, axes):
+    """Fill the 12 x 12 tangent `k` of the trial that `w` holds; `force` is its (12,) force.
+
+    Unsymmetric. Rows: node i, node j; each forces, then moments.
+    """
+    condense(p, w, zero, axes)
+    rotate_to_global(w)
+    g_x, g_y, g_z = force[6], force[7], force[8]
+    m_x, m_y, m_z = w.tau[0], w.tau[1], w.tau[2]
+    rows = w.d_rows
+    for a in range(6):
+        r = w.k6[a]
+        spread(rows[a], r[0], r[1], r[2], w, p.lever[0], p.lever[1], r[3], r[4], r[5])
+    add_cross(rows, 0, 3, g_x, g_y, g_z, 1.0)  # g and tau turn with the bottom plate
+    add_cross(rows, 3, 3, m_x, m_y, m_z, 1.0)
+    a_x, a_y, a_z = p.lever[1] * w.q_j[0, 2], p.lever[1] * w.q_j[1, 2], p.lever[1] * w.q_j[2, 2]
+    b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
+    b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
+    b_z = p.lever[0] * w.q_i[2, 2] + w.c_global[2]
+    for col in range(12):
+        d_x, d_y, d_z = rows[0, col], rows[1, col], rows[2, col]
+        t_x, t_y, t_z = rows[3, col], rows[4, col], rows[5, col]
+        k[0, col], k[1, col], k[2, col] = -d_x, -d_y, -d_z
+        k[6, col], k[7, col], k[8, col] = d_x, d_y, d_z
+        k[3, col] = -(b_y * d_z - b_z * d_y) - t_x
+        k[4, col] = -(b_z * d_x - b_x * d_z) - t_y
+        k[5, col] = -(b_x * d_y - b_y * d_x) - t_z
+        k[9, col] = -(a_y * d_z - a_z * d_y) + t_x
+        k[10, col] = -(a_z * d_x - a_x * d_z) + t_y
+        k[11, col] = -(a_x * d_y - a_y * d_x) + t_z
+    # levers move: m_i = -(a_i e_i + c) x g - tau, whose arm shifts by u_j - u_i + a_j e_j x phi_j
+    add_cross(k, 3, 6, g_x, g_y, g_z, -1.0)
+    add_cross(k, 3, 0, g_x, g_y, g_z, 1.0)
+    # ... and m_j = -a_j e_j x g + tau, whose arm turns: (phi x arm) x g = arm (phi.g) - phi (arm.g)
+    dot = a_x * g_x + a_y * g_y + a_z * g_z
+    arm = (a_x, a_y, a_z)
+    g = (g_x, g_y, g_z)
+    for a in range(3):
+        for b in range(3):
+            turn = arm[a] * g[b] - (dot if a == b else 0.0)
+            k[9 + a, 9 + b] -= turn
+            k[3 + a, 9 + b] += turn
+    axial_torsion(p, w, k)
+    apply_spin(w.spin_i, k, 3)
+    apply_spin(w.spin_j, k, 9)
+    k[11, 11] += w.torque_stiffness  # its twist is a difference of rotation vectors
+    k[11, 5] -= w.torque_stiffness
+    k[5, 11] -= w.torque_stiffness
+    k[5, 5] += w.torque_stiffness
+
+
+@kernel
+def axial_torsion(p, w, k):
+    """Add the change of the torsional friction (about z, + on node j) with the axial force."""
+    if w.torque_axial == 0.0:
+        return
+    row = w.d_rows[0]
+    n = w.dn6
+    spread(row, n[0], n[1], n[2], w, p.lever[0], p.lever[1], n[3], n[4], n[5])
+    for col in range(12):
+        value = w.torque_axial * row[col]
+        k[11, col] += value
+        k[5, col] -= value
+
+
+@kernel
+def apply_spin(spin, k, first):
+    """Turn columns `first`.. from derivatives by spin into derivatives by the rotation vector."""
+    for row in range(12):
+        x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]
+        for b in range(3):
+            k[row, first + b] = x * spin[0, b] + y * spin[1, b] + z * spin[2, b]

@@ -1,0 +1,131 @@
+"""Labelled results: bearing states as an xarray Dataset with units and names."""
+
+from __future__ import annotations
+
+import warnings
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from lir_element.errors import AnalysisError, AnalysisWarning, RunStatus, failure_message
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lir_element.layout import Floats, Records
+
+AXES = ("x", "y", "z")
+SURFACES = ("bottom", "top")
+
+
+def labelled(dims: tuple[str, ...], values: Any, units: str, long_name: str) -> xr.Variable:
+    """Return a variable with its units and meaning."""
+    return xr.Variable(dims, values, {"units": units, "long_name": long_name})
+
+
+def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str, xr.Variable]:
+    """Return the variables of the contract from states (n_steps, n_bearings).
+
+    Parameters
+    ----------
+    step : str
+        Name of the first dimension, 'time' or 'step'.
+    states : records, shape (n_steps, n_bearings)
+        Committed states.
+    velocity : ndarray, shape (n_steps, n_bearings, 3)
+        Velocity of node j relative to node i [m/s].
+    """
+    u, f = states["displacement"], states["force"]
+    each = (step, "bearing")
+    vector, surface = (*each, "axis"), (*each, "surface")
+    slip_size = np.linalg.norm(states["slip_total"], axis=-1)
+    return {
+        "bearing_displacement": labelled(
+            vector, u[..., 6:9] - u[..., 0:3], "m", "displacement of node j relative to node i"
+        ),
+        "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
+        "bearing_force": labelled(
+            vector, f[..., 6:9].copy(), "N",
+            "resisting force on node j, positive with positive displacement",
+        ),
+        "bearing_moment": labelled(
+            (*each, "end", "axis"),
+            np.stack([f[..., 3:6], f[..., 9:12]], axis=-2),
+            "N m",
+            "resisting moment on node i and on node j",
+        ),
+        "axial_force": labelled(each, states["axial_force"].copy(), "N", "axial force, compression positive"),
+        "slider_displacement": labelled(
+            (*surface, "axis"), states["slider_displacement"].copy(), "m",
+            "sliding on each concave surface",
+        ),
+        "interface_slip": labelled(
+            vector, states["slip_total"].copy(), "m", "top slider relative to bottom slider"
+        ),
+        "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
+        "rim_force": labelled(surface, states["rim_force"].copy(), "N", "radial force of each rim"),
+        "rim_closure": labelled(surface, states["rim_closure"].copy(), "m", "deformation of each rim"),
+        "friction_coefficient": labelled(
+            surface, states["friction_coefficient"].copy(), "1", "friction coefficient of each surface"
+        ),
+        "sliding_speed": labelled(
+            surface, states["sliding_speed"].copy(), "m/s", "sliding speed on each surface"
+        ),
+        "torsional_moment": labelled(
+            each, states["torque"].copy(), "N m", "friction moment about the vertical axis"
+        ),
+        "work_low_friction": labelled(
+            surface, states["work_friction"].copy(), "J", "work of low friction, each surface"
+        ),
+        "work_high_friction": labelled(
+            each, states["work_interface"].copy(), "J", "work of the high-friction interface"
+        ),
+        "work_rims": labelled(each, states["work_rim"].sum(axis=-1), "J", "work done on the rims"),
+        "work_contact": labelled(
+            each, states["work_contact"].copy(), "J", "work done on the axial contact"
+        ),
+    }  # fmt: skip
+
+
+def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:
+    """Return the coordinates shared by all bearing variables."""
+    return {
+        "bearing": list(names),
+        "axis": list(AXES),
+        "surface": list(SURFACES),
+        "end": ["i", "j"],
+    }
+
+
+def package_version() -> str:
+    """Return the installed version, or 'unknown' outside an installation."""
+    try:
+        return version("lir-dcfp")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def report(
+    data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str, *, on_failure: str
+) -> xr.Dataset:
+    """Write the outcome into the attributes; on failure warn or raise, keeping the data."""
+    data.attrs["status"] = status.name.lower()
+    data.attrs["lir_dcfp_version"] = package_version()
+    data.attrs["message"] = "completed"
+    if status is RunStatus.OK:
+        return data
+    message = failure_message(status, time, where, detail)
+    data.attrs |= {"message": message, "failed_at": time, "failed_where": where}
+    if on_failure == "raise":
+        raise AnalysisError(status, time, where, detail, data)
+    warnings.warn(message, AnalysisWarning, stacklevel=3)
+    return data
+
+
+def require_on_failure(value: str) -> None:
+    """Raise unless `value` is 'warn' or 'raise'."""
+    if value not in {"warn", "raise"}:
+        msg = f"on_failure = {value!r}: choose 'warn' (hand back what was computed) or 'raise'"
+        raise ValueError(msg)

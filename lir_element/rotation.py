@@ -1,0 +1,48 @@
+"""Kernels of finite rotations: a rotation vector's matrix and its spin operator.
+
+Sources: Rodrigues' formula; Crisfield (1997), Non-linear Finite Element Analysis, vol. 2,
+section 16.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lir_element._jit import kernel
+
+
+@kernel
+def coefficients(square):
+    """Return sin(x)/x, (1 - cos(x))/x^2 and (x - sin(x))/x^3 of x^2 = `square`."""
+    if square < 2.5e-3:  # series: the next terms lie below round-off
+        s = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
+        c = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0))
+        d = 1.0 / 6.0 - square / 120.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0))
+        return s, c, d
+    x = math.sqrt(square)
+    s = math.sin(x) / x
+    return s, (1.0 - math.cos(x)) / square, (1.0 - s) / square
+
+
+@kernel
+def rotate(x, y, z, q, spin):
+    """Fill `q` (3, 3) with the matrix of the rotation vector and `spin` (3, 3) with d(spin)."""
+    s, c, d = coefficients(x * x + y * y + z * z)
+    for row in range(3):
+        for col in range(3):
+            q[row, col] = 0.0
+            spin[row, col] = 0.0
+    xx, yy, zz = x * x, y * y, z * z
+    xy, yz, zx = x * y, y * z, z * x
+    q[0, 0] = 1.0 - c * (yy + zz)
+    q[1, 1] = 1.0 - c * (zz + xx)
+    q[2, 2] = 1.0 - c * (xx + yy)
+    q[0, 1], q[1, 0] = c * xy - s * z, c * xy + s * z
+    q[1, 2], q[2, 1] = c * yz - s * x, c * yz + s * x
+    q[2, 0], q[0, 2] = c * zx - s * y, c * zx + s * y
+    spin[0, 0] = 1.0 - d * (yy + zz)
+    spin[1, 1] = 1.0 - d * (zz + xx)
+    spin[2, 2] = 1.0 - d * (xx + yy)
+    spin[0, 1], spin[1, 0] = d * xy - c * z, d * xy + c * z
+    spin[1, 2], spin[2, 1] = d * yz - c * x, d * yz + c * x
+    spin[2, 0], spin[0, 2] = d * zx - c * y, d * zx + c * y

@@ -1,0 +1,93 @@
+"""Kernels of friction and contact laws: one return map, one friction law, one contact law.
+
+Both regularisations share one form. With the trial value ``b = z_old + dw / u_y`` the new
+hysteretic variable is ``z = rho(|b|, kappa) b / |b|``, ``kappa = (b / |b|) . dw / u_y``:
+
+- elastic-plastic: ``rho = min(|b|, 1)``;
+- biaxial Bouc-Wen (isotropic, A = 1, beta = gamma = 1/2; Park, Wen and Ang 1986), implicit:
+  ``rho + kappa rho^eta = |b|`` while loading (kappa > 0), ``rho = |b|`` while unloading.
+
+The second becomes the first as eta grows without bound. ``|z| <= 1`` holds for both.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lir_element._jit import kernel
+
+
+@kernel
+def bouc_wen_radius(size, kappa, exponent):
+    """Return rho of ``rho + kappa rho^eta = size`` and d(rho)/d(size) by Newton's method."""
+    rho = min(size, 1.0)
+    for _ in range(60):
+        power = rho ** (exponent - 1.0)
+        slope = 1.0 + kappa * exponent * power
+        change = (rho + kappa * rho * power - size) / slope
+        rho -= change
+        if abs(change) < 1e-15:
+            break
+    return rho, 1.0 / (1.0 + kappa * exponent * rho ** (exponent - 1.0))
+
+
+@kernel
+def return_map(bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y):
+    """Return the hysteretic variable (2) and its derivative by the sliding (2 x 2, by rows)."""
+    d_1, d_2 = dw_1 / u_y, dw_2 / u_y
+    b_1, b_2 = old_1 + d_1, old_2 + d_2
+    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
+    inv = 1.0 / u_y
+    if size == 0.0:
+        return b_1, b_2, inv, 0.0, 0.0, inv
+    e_1, e_2 = b_1 / size, b_2 / size
+    kappa = e_1 * d_1 + e_2 * d_2
+    if bouc_wen:
+        if kappa <= 0.0:
+            return b_1, b_2, inv, 0.0, 0.0, inv
+        rho, by_size = bouc_wen_radius(size, kappa, exponent)
+        across = (d_2 * e_1 - d_1 * e_2) / size  # turn of the direction, times dw
+        power = rho**exponent
+        grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
+        grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
+    elif size <= 1.0:
+        return b_1, b_2, inv, 0.0, 0.0, inv
+    else:
+        rho, grad_1, grad_2 = 1.0, 0.0, 0.0
+    hoop = rho / size
+    return (
+        rho * e_1,
+        rho * e_2,
+        inv * (e_1 * grad_1 + hoop * e_2 * e_2),
+        inv * (e_1 * grad_2 - hoop * e_1 * e_2),
+        inv * (e_2 * grad_1 - hoop * e_1 * e_2),
+        inv * (e_2 * grad_2 + hoop * e_1 * e_1),
+    )
+
+
+@kernel
+def friction_coefficient(f_max, drop, rate, speed):
+    """Return mu and d(mu)/d(speed) of Eq. (1) of the paper (Mokha et al. 1990)."""
+    if drop == 0.0:
+        return f_max, 0.0
+    decay = drop * math.exp(-rate * speed)
+    return f_max - decay, rate * decay
+
+
+@kernel
+def kelvin_voigt(gap, closure_old, stiffness, damping, dt):
+    """Return force, its derivative and the closure of a contact that never pulls (Eq. 2).
+
+    The damper acts on the closure, which is zero while the contact is open: the force stays
+    continuous at the impact, however large the step.
+    """
+    if not gap > 0.0:
+        return 0.0, 0.0, 0.0
+    slope = stiffness
+    force = stiffness * gap
+    if dt > 0.0:
+        force += damping * (gap - closure_old) / dt
+        slope += damping / dt
+    if force <= 0.0:
+        return 0.0, 0.0, gap
+    return force, slope, gap
