@@ -47,7 +47,7 @@ def run_path(props, states, words, work, path, loads, velocity, increment, k, ze
     code = hold_load(p, old, new, w, u, v, 0.0, loads[0], k, zero, axes)
     if code != _OK:
         return 0, code, 0.0
-    accumulate(old, new, 0.5, 0.5)
+    accumulate(old, new)
     copy_words(words[1], words[0])
     time, x, y, load = 0.0, 0.0, 0.0, loads[0]
     for point in range(path.shape[0]):
@@ -66,7 +66,7 @@ def run_path(props, states, words, work, path, loads, velocity, increment, k, ze
             code = hold_load(p, old, new, w, u, v, now, level, k, zero, axes)
             if code != _OK:
                 return point, code, now
-            accumulate(old, new, 0.5, 0.5)
+            accumulate(old, new)
             copy_words(words[1], words[0])
         time, x, y, load = time + duration, path[point, 0], path[point, 1], loads[point]
         copy_words(words[0], out[point])

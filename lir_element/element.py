@@ -146,7 +146,7 @@ class Element:
             If the state lies beyond a limit of the bearing (it is committed all the same, so that
             it can be looked at).
         """
-        pendulum_trial.accumulate_one(self._committed, self._trial, 0.5, 0.5)
+        pendulum_trial.accumulate_one(self._committed, self._trial)
         self._committed[:] = self._trial
         status = RunStatus(int(self._committed["status"][0]))
         if _is_limit(status):

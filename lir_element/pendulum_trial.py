@@ -298,35 +298,33 @@ def trial(p, old, new, w, u, v, time, zero):
 
 
 @kernel
-def accumulate(old, new, weight_old, weight_new):
+def accumulate(old, new):
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
-    The weights are those of the time integration's own balance: 1/2 and 1/2 for the
-    trapezoidal rule.
+    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces.
     """
+    twisting = 0.25 * (old.torque + new.torque) * (new.twist - old.twist)  # half for each surface
     for k in range(2):
-        work = 0.0
-        path = 0.0
+        work, path = twisting, 0.0
         for a in range(2):
-            force = weight_old * old.friction_force[k, a] + weight_new * new.friction_force[k, a]
+            force = 0.5 * (old.friction_force[k, a] + new.friction_force[k, a])
             work += force * new.sliding_increment[k, a]
             path += new.sliding_increment[k, a] ** 2
-        twisting = (weight_old * old.torque + weight_new * new.torque) * (new.twist - old.twist)
-        new.work_friction[k] = old.work_friction[k] + work + 0.5 * twisting
+        new.work_friction[k] = old.work_friction[k] + work
         new.travel[k] = old.travel[k] + math.sqrt(path)
-        push = weight_old * old.rim_force[k] + weight_new * new.rim_force[k]
+        push = 0.5 * (old.rim_force[k] + new.rim_force[k])
         new.work_rim[k] = old.work_rim[k] + push * (new.eccentricity[k] - old.eccentricity[k])
     work, path, size = 0.0, 0.0, 0.0
     for a in range(2):
-        force = weight_old * old.interface_force[a] + weight_new * new.interface_force[a]
+        force = 0.5 * (old.interface_force[a] + new.interface_force[a])
         work += force * new.slip_increment[a]
         path += new.slip_increment[a] ** 2
         size += new.slip[a] ** 2
     new.work_interface = old.work_interface + work
     new.interface_travel = old.interface_travel + math.sqrt(path)
     new.largest_slip = max(old.largest_slip, math.sqrt(size))
-    axial = weight_old * old.axial_force + weight_new * new.axial_force
-    new.work_contact = old.work_contact + axial * (new.string - old.string)
+    push = 0.5 * (old.axial_force + new.axial_force)
+    new.work_contact = old.work_contact + push * (new.string - old.string)
 
 
 @kernel
@@ -349,6 +347,6 @@ def tangent_one(props, trial_state, work, k, zero, axes):
 
 
 @kernel
-def accumulate_one(committed, trial_state, weight_old, weight_new):
+def accumulate_one(committed, trial_state):
     """Run `accumulate` on arrays of one record."""
-    accumulate(committed[0], trial_state[0], weight_old, weight_new)
+    accumulate(committed[0], trial_state[0])

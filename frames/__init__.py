@@ -1,0 +1,1 @@
+"""Structures on seismic isolation bearings."""

@@ -1,0 +1,10 @@
+"""The kernel decorator of this package; its cache also depends on the bearing's sources."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import lir_element
+from lir_element._jit import kernels_of
+
+kernel = kernels_of(Path(lir_element.__file__).parent, Path(__file__).parent)

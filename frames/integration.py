@@ -1,0 +1,326 @@
+"""Kernels of the time integration: one step of the generalised-alpha family, and the time loop.
+
+Newmark's method is the member alpha_m = alpha_f = 0; Chung and Hulbert (1993) give the others.
+All works are taken by the trapezoidal rule, with which Newmark's average acceleration conserves
+energy; what another member of the family adds or takes is the term 'numerical'.
+"""
+
+from __future__ import annotations
+
+import math
+
+from frames._jit import kernel
+from frames.kernel_data import MAX_LEVEL
+from frames.stepping import commit_bearings, gather, newton
+from lir_element.errors import RunStatus
+from lir_element.pendulum_trial import copy_words
+
+_OK = int(RunStatus.OK)
+_STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
+_MAX_LEVEL = MAX_LEVEL
+
+
+@kernel
+def ground_acceleration(motion, motion_dt, time, axis):
+    """Return the ground acceleration along `axis`, linear between samples, zero outside."""
+    place = time / motion_dt
+    first = int(math.floor(place))
+    if first < 0 or first >= motion.shape[0] - 1:
+        if first == motion.shape[0] - 1 and place - first < 1e-9:
+            return motion[first, axis]
+        return 0.0
+    share = place - first
+    return (1.0 - share) * motion[first, axis] + share * motion[first + 1, axis]
+
+
+@kernel
+def times(matrix, x, factor, out):
+    """Add ``factor * matrix @ x`` to `out`."""
+    for a in range(matrix.shape[0]):
+        total = 0.0
+        for c in range(matrix.shape[1]):
+            total += matrix[a, c] * x[c]
+        out[a] += factor * total
+
+
+@kernel
+def reduced_stiffness(model, run, settings, level, dt):
+    """Return the effective stiffness of b with the modes eliminated, for this step size."""
+    out = run.reduced[level]
+    if run.has_reduced[level] == 1:
+        return out
+    c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
+    c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)
+    c_k = 1.0 - settings.alpha_f
+    n_b, n_e = model.mass_be.shape
+    for a in range(n_b):
+        for c in range(n_b):
+            out[a, c] = c_m * model.mass_b[a, c] + c_c * model.damping_b[a, c] + (
+                c_k * model.stiffness_b[a, c]
+            )
+    for k in range(n_e):
+        inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+        for a in range(n_b):
+            value = inv * model.mass_eb[k, a]
+            for c in range(n_b):
+                out[a, c] -= value * model.mass_eb[k, c]
+    run.has_reduced[level] = 1
+    return out
+
+
+@kernel
+def set_load(model, run, settings, motion, motion_dt, time, dt):
+    """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
+    am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
+    known_v = (1.0 - am) / (beta * dt)
+    known_a = (1.0 - am) * (0.5 / beta - 1.0) - am
+    damp_v = (1.0 - af) * (1.0 - gamma / beta) + af
+    damp_a = (1.0 - af) * dt * (1.0 - 0.5 * gamma / beta)
+    for a in range(run.b.shape[0]):
+        run.rhs_b[a] = model.load_b[a] - af * run.force_old[a]
+        run.h_b[a] = known_v * run.v_b[a] + known_a * run.a_b[a]
+        run.g_b[a] = damp_v * run.v_b[a] + damp_a * run.a_b[a]
+    for k in range(run.e.shape[0]):
+        run.h_e[k] = known_v * run.v_e[k] + known_a * run.a_e[k]
+        run.rhs_e[k] = (
+            model.load_e[k]
+            + run.h_e[k]
+            - model.damping_e[k] * (damp_v * run.v_e[k] + damp_a * run.a_e[k])
+            - model.omega2[k] * run.e[k]
+        )
+    for axis in range(3):
+        ground = (1.0 - af) * ground_acceleration(motion, motion_dt, time + dt, axis) + (
+            af * ground_acceleration(motion, motion_dt, time, axis)
+        )
+        for a in range(run.b.shape[0]):
+            run.rhs_b[a] -= model.inertia_b[a, axis] * ground
+        for k in range(run.e.shape[0]):
+            run.rhs_e[k] -= model.inertia_e[k, axis] * ground
+    times(model.mass_b, run.h_b, 1.0, run.rhs_b)
+    times(model.mass_be, run.h_e, 1.0, run.rhs_b)
+    times(model.mass_eb, run.h_b, 1.0, run.rhs_e)
+    times(model.damping_b, run.g_b, -1.0, run.rhs_b)
+    times(model.stiffness_b, run.b, -1.0, run.rhs_b)
+    # the modes, eliminated
+    c_m = (1.0 - am) / (beta * dt * dt)
+    c_c = (1.0 - af) * gamma / (beta * dt)
+    for k in range(run.e.shape[0]):
+        run.h_e[k] = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + (1.0 - af) * model.omega2[k])
+    times(model.mass_be, run.h_e, -c_m, run.rhs_b)
+
+
+@kernel
+def finish_step(model, run, settings, dt):
+    """Set the new displacements, velocities and accelerations from ``run.step``."""
+    beta, gamma = settings.beta, settings.gamma
+    c_m = (1.0 - settings.alpha_m) / (beta * dt * dt)
+    c_c = (1.0 - settings.alpha_f) * gamma / (beta * dt)
+    for k in range(run.e.shape[0]):
+        run.g_e[k] = run.rhs_e[k]
+    times(model.mass_eb, run.step, -c_m, run.g_e)
+    for k in range(run.e.shape[0]):
+        run.g_e[k] /= c_m + c_c * model.damping_e[k] + (1.0 - settings.alpha_f) * model.omega2[k]
+        run.e_new[k] = run.e[k] + run.g_e[k]
+        run.a_e_new[k] = (run.g_e[k] / dt - run.v_e[k]) / (beta * dt) - (
+            0.5 / beta - 1.0
+        ) * run.a_e[k]
+        run.v_e_new[k] = run.v_e[k] + dt * (
+            (1.0 - gamma) * run.a_e[k] + gamma * run.a_e_new[k]
+        )
+    for a in range(run.b.shape[0]):
+        run.b_new[a] = run.b[a] + run.step[a]
+        run.a_b_new[a] = (run.step[a] / dt - run.v_b[a]) / (beta * dt) - (
+            0.5 / beta - 1.0
+        ) * run.a_b[a]
+        run.v_b_new[a] = run.v_b[a] + dt * (
+            (1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a]
+        )
+
+
+@kernel
+def quadratic(mass, coupling, x, y, unit):
+    """Return ``x' mass x + 2 x' coupling y + unit y' y`` halved."""
+    total = 0.0
+    for a in range(x.shape[0]):
+        part = 0.0
+        for c in range(x.shape[0]):
+            part += mass[a, c] * x[c]
+        for k in range(y.shape[0]):
+            part += 2.0 * coupling[a, k] * y[k]
+        total += x[a] * part
+    for k in range(y.shape[0]):
+        total += unit * y[k] * y[k]
+    return 0.5 * total
+
+
+@kernel
+def elastic_energy(model, b, e):
+    """Return the strain energy of the structure, geometric part included."""
+    total = 0.0
+    for a in range(b.shape[0]):
+        part = 0.0
+        for c in range(b.shape[0]):
+            part += model.stiffness_b[a, c] * b[c]
+        total += b[a] * part
+    for k in range(e.shape[0]):
+        total += model.omega2[k] * e[k] * e[k]
+    return 0.5 * total
+
+
+@kernel
+def add_energy(model, run, motion, motion_dt, time, dt):
+    """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
+
+    Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
+    unbalanced at the ends of the step: nothing for Newmark's method but Newton's tolerance.
+    Order of terms: frames.kernel_data.ENERGY_TERMS.
+    """
+    energy = run.energy
+    supplied, lifted, damped, bearings = 0.0, 0.0, 0.0, 0.0
+    for axis in range(3):
+        ground = 0.5 * (
+            ground_acceleration(motion, motion_dt, time + dt, axis)
+            + ground_acceleration(motion, motion_dt, time, axis)
+        )
+        for a in range(run.b.shape[0]):
+            supplied -= ground * model.inertia_b[a, axis] * run.step[a]
+        for k in range(run.e.shape[0]):
+            supplied -= ground * model.inertia_e[k, axis] * run.g_e[k]
+    for a in range(run.b.shape[0]):
+        lifted -= model.load_b[a] * run.step[a]
+        bearings += 0.5 * (run.force_old[a] + run.force[a]) * run.step[a]
+        for c in range(run.b.shape[0]):
+            damped += 0.5 * run.step[a] * model.damping_b[a, c] * (run.v_b[c] + run.v_b_new[c])
+    for k in range(run.e.shape[0]):
+        lifted -= model.load_e[k] * run.g_e[k]
+        damped += 0.5 * run.g_e[k] * model.damping_e[k] * (run.v_e[k] + run.v_e_new[k])
+    kinetic = quadratic(model.mass_b, model.mass_be, run.v_b_new, run.v_e_new, 1.0)
+    elastic = elastic_energy(model, run.b_new, run.e_new) - run.clock[3]
+    energy[0] += supplied
+    energy[1] += lifted
+    energy[10] += (
+        supplied - lifted - damped - bearings - (kinetic - energy[2]) - (elastic - energy[3])
+    )
+    energy[2], energy[3] = kinetic, elastic
+    energy[4] += damped
+
+
+@kernel
+def add_bearing_energy(run):
+    """Set the bearings' terms of the energy from their accumulated works."""
+    for term in range(5, 10):
+        run.energy[term] = 0.0
+    for k in range(run.old.shape[0]):
+        run.energy[5] += run.old[k].work_friction[0]
+        run.energy[6] += run.old[k].work_friction[1]
+        run.energy[7] += run.old[k].work_interface
+        run.energy[8] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
+        run.energy[9] += run.old[k].work_contact
+
+
+@kernel
+def try_step(model, run, settings, motion, motion_dt, time, dt, level):
+    """Attempt one step; leaves it in the trial arrays. Returns a status code."""
+    linear = reduced_stiffness(model, run, settings, level, dt)
+    set_load(model, run, settings, motion, motion_dt, time, dt)
+    for a in range(run.b.shape[0]):
+        run.step[a] = dt * run.v_b[a] + 0.5 * dt * dt * run.a_b[a]
+    code = newton(
+        model, run, linear, time + dt, 1.0 - settings.alpha_f, settings.force_tolerance,
+        settings.max_iterations,
+    )  # fmt: skip
+    if code != _OK:
+        return code
+    finish_step(model, run, settings, dt)
+    return _OK
+
+
+@kernel
+def estimated_error(model, run, dt):
+    """Return the estimated error of the step in the bearings' horizontal displacement."""
+    for a in range(run.b.shape[0]):
+        run.h_b[a] = run.a_b_new[a] - run.a_b[a]
+    largest = 0.0
+    for k in range(model.props.shape[0]):
+        gather(model, k, run.h_b, run.u)
+        largest = max(largest, abs(run.u[6] - run.u[0]), abs(run.u[7] - run.u[1]))
+    return dt * dt / 12.0 * largest
+
+
+@kernel
+def accept_step(model, run, motion, motion_dt, time, dt):
+    """Commit the step; returns the status of the bearings' limits."""
+    add_energy(model, run, motion, motion_dt, time, dt)
+    commit_bearings(run)
+    add_bearing_energy(run)
+    for a in range(run.b.shape[0]):
+        run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
+    for k in range(run.e.shape[0]):
+        run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
+    run.clock[0] = time + dt
+    run.counters[0] += 1
+    for k in range(run.old.shape[0]):
+        if run.old[k].status != _OK:
+            run.counters[3] = k
+            return run.old[k].status
+    return _OK
+
+
+@kernel
+def record(run, out, place):
+    """Copy the committed state into the output arrays."""
+    out.time[place] = run.clock[0]
+    for a in range(run.b.shape[0]):
+        out.b[place, a], out.v_b[place, a], out.a_b[place, a] = run.b[a], run.v_b[a], run.a_b[a]
+    for k in range(run.e.shape[0]):
+        out.e[place, k], out.a_e[place, k] = run.e[k], run.a_e[k]
+    for k in range(run.old.shape[0]):
+        copy_words(run.old_words[k], out.words[place, k])
+    for term in range(run.energy.shape[0]):
+        out.energy[place, term] = run.energy[term]
+
+
+@kernel
+def advance(model, run, settings, motion, motion_dt, out, first, last, every):
+    """Integrate the base steps `first` to `last` (exclusive), recording each `every`-th.
+
+    A step that fails, or whose estimated error is too large, is halved; after two good steps the
+    step is doubled again where it fits. Returns a status code; ``run.clock[0]`` is the time
+    reached; ``run.counters`` holds steps, iterations, halvings, the failed bearing, and causes.
+    """
+    level = int(run.clock[1])
+    good = int(run.clock[2])
+    ticks_a_step = 1 << _MAX_LEVEL
+    for base in range(first, last):
+        ticks = 0
+        while ticks < ticks_a_step:
+            parts = 1 << (_MAX_LEVEL - level)
+            dt = settings.dt / (1 << level)
+            time = settings.dt * (base + ticks / ticks_a_step)
+            run.clock[0] = time
+            code = try_step(model, run, settings, motion, motion_dt, time, dt, level)
+            rough = code == _OK and level < _MAX_LEVEL // 2 and (
+                estimated_error(model, run, dt) > settings.error_tolerance
+            )
+            if code != _OK or rough:
+                if level == _MAX_LEVEL:
+                    run.counters[5] = code
+                    return _STEP_TOO_SMALL
+                level += 1
+                good = 0
+                run.counters[2] += 1
+                continue
+            code = accept_step(model, run, motion, motion_dt, time, dt)
+            if code != _OK:
+                record(run, out, (base + 1) // every + ((base + 1) % every > 0))
+                return code
+            ticks += parts
+            good += 1
+            if level > 0 and good >= 2 and ticks % (2 * parts) == 0:
+                level -= 1
+                good = 0
+        run.clock[0] = settings.dt * (base + 1)
+        if (base + 1) % every == 0:
+            record(run, out, (base + 1) // every)
+        run.clock[1], run.clock[2] = level, good
+    return _OK

@@ -1,0 +1,195 @@
+"""Bundles of arrays that the time loop works on, each built by one function that casts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from frames.basis import bearing_rows
+from lir_element.element import as_words, initial_state
+from lir_element.layout import STATE, WORK
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from frames.assembly import System
+    from frames.basis import Basis
+
+    Array = npt.NDArray[Any]
+
+MAX_LEVEL = 14
+"""Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
+
+ENERGY_TERMS = (
+    "input",
+    "gravity",
+    "kinetic",
+    "elastic",
+    "damping",
+    "low_friction_bottom",
+    "low_friction_top",
+    "high_friction",
+    "rims",
+    "contact",
+    "numerical",
+)
+
+
+class ModelArrays(NamedTuple):
+    """The frame in bearing coordinates, and its bearings."""
+
+    mass_b: Array
+    mass_be: Array
+    mass_eb: Array
+    stiffness_b: Array
+    damping_b: Array
+    omega2: Array
+    damping_e: Array
+    load_b: Array
+    load_e: Array
+    inertia_b: Array
+    inertia_e: Array
+    props: Array
+    start: Array  # (n_bearings, 13): first entry of each row of the maps below
+    columns: Array
+    values: Array
+
+
+class RunArrays(NamedTuple):
+    """The state of a run, committed (0) and trial (1), and scratch; changed in place."""
+
+    b: Array  # (n_b,) committed displacement, velocity, acceleration
+    v_b: Array
+    a_b: Array
+    e: Array
+    v_e: Array
+    a_e: Array
+    old: Array  # (n_bearings,) records
+    new: Array
+    old_words: Array
+    new_words: Array
+    work: Array
+    force_old: Array  # (n_b,) bearing forces, committed
+    force: Array
+    tangent: Array  # (n_b, n_b)
+    reduced: Array  # (MAX_LEVEL + 1, n_b, n_b) linear effective stiffness of each step size
+    has_reduced: Array
+    b_new: Array
+    v_b_new: Array
+    a_b_new: Array
+    e_new: Array
+    v_e_new: Array
+    a_e_new: Array
+    rhs_b: Array
+    rhs_e: Array
+    residual: Array
+    step: Array
+    trial_b: Array
+    h_b: Array
+    h_e: Array
+    g_b: Array
+    g_e: Array
+    element_k: Array  # (n_bearings, 12, 12)
+    u: Array  # (12,)
+    v: Array
+    zero: Array
+    axes: Array
+    energy: Array  # (n_terms,)
+    clock: Array  # time, level, successes, base time, ...
+    counters: Array  # int64: steps, iterations, halvings, failed bearing
+
+
+class Settings(NamedTuple):
+    """Constants of the time integration."""
+
+    dt: float
+    alpha_m: float
+    alpha_f: float
+    beta: float
+    gamma: float
+    force_tolerance: float
+    max_iterations: int
+    error_tolerance: float  # m, estimated error of a step in displacement; infinite: fixed step
+
+
+def model_arrays(system: System, basis: Basis) -> ModelArrays:
+    """Return the frame as the time loop reads it."""
+    rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
+    rows.sort_indices()
+    count = len(system.bearings)
+    pointers = rows.indptr.astype(np.int64)
+    start = np.zeros((count, 13), dtype=np.int64)
+    for k in range(count):
+        start[k] = pointers[12 * k : 12 * k + 13]
+    return ModelArrays(
+        *(
+            np.ascontiguousarray(a, dtype=np.float64)
+            for a in (
+                basis.mass_b, basis.mass_be, basis.mass_be.T, basis.stiffness_b, basis.damping_b,
+                basis.omega2, basis.damping_e, basis.load_b, basis.load_e, basis.inertia_b,
+                basis.inertia_e,
+            )
+        ),
+        props=np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings]),
+        start=start,
+        columns=rows.indices.astype(np.int64),
+        values=np.ascontiguousarray(rows.data, dtype=np.float64),
+    )  # fmt: skip
+
+
+def run_arrays(model: ModelArrays) -> RunArrays:
+    """Return a run at rest, bearings undeformed and unloaded."""
+    n_b, n_e, count = len(model.load_b), len(model.load_e), len(model.props)
+    old, new = initial_state(model.props), initial_state(model.props)
+
+    def b() -> Array:
+        return np.zeros(n_b)
+
+    def e() -> Array:
+        return np.zeros(n_e)
+
+    return RunArrays(
+        b=b(), v_b=b(), a_b=b(), e=e(), v_e=e(), a_e=e(),
+        old=old, new=new, old_words=as_words(old), new_words=as_words(new),
+        work=np.zeros(count, dtype=WORK),
+        force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
+        reduced=np.zeros((MAX_LEVEL + 1, n_b, n_b)), has_reduced=np.zeros(MAX_LEVEL + 1, np.int64),
+        b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
+        rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
+        h_b=b(), h_e=e(), g_b=b(), g_e=e(),
+        element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12), zero=np.zeros(3),
+        axes=np.eye(3), energy=np.zeros(len(ENERGY_TERMS)), clock=np.zeros(4),
+        counters=np.zeros(6, np.int64),
+    )  # fmt: skip
+
+
+class OutputArrays(NamedTuple):
+    """What a run records, one entry an output step."""
+
+    time: Array
+    b: Array
+    v_b: Array
+    a_b: Array
+    e: Array
+    a_e: Array
+    words: Array  # (n_steps, n_bearings, words)
+    energy: Array
+
+
+def output_arrays(model: ModelArrays, count: int) -> tuple[OutputArrays, Array]:
+    """Return arrays for `count` output steps, and the bearing states as records."""
+    n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)
+    states = np.zeros((count, n_bearings), dtype=STATE)
+    words = states.view(np.int64).reshape(count, n_bearings, -1)
+    arrays = OutputArrays(
+        time=np.zeros(count),
+        b=np.zeros((count, n_b)),
+        v_b=np.zeros((count, n_b)),
+        a_b=np.zeros((count, n_b)),
+        e=np.zeros((count, n_e)),
+        a_e=np.zeros((count, n_e)),
+        words=words,
+        energy=np.zeros((count, len(ENERGY_TERMS))),
+    )
+    return arrays, states

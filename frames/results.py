@@ -1,0 +1,182 @@
+"""From recorded arrays to the labelled Dataset, and what engineers read off it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from frames.kernel_data import ENERGY_TERMS
+from frames.parts import DOFS
+from frames.static import expand
+from lir_element.results import bearing_coordinates, bearing_variables, labelled
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from frames._types import FloatArray
+    from frames.ground_motion import GroundMotion
+    from frames.kernel_data import OutputArrays
+    from frames.model import Frame
+    from frames.static import GravityState
+    from lir_element.layout import Records
+
+ABSORBED = ENERGY_TERMS[1:]
+"""Terms of the energy that take up the input."""
+
+
+def build_dataset(
+    frame: Frame,
+    state: GravityState,
+    motion: GroundMotion,
+    out: OutputArrays,
+    states: Records,
+    count: int,
+) -> xr.Dataset:
+    """Return the Dataset of the first `count` recorded steps (docs/results.md)."""
+    system, basis = state.system, state.basis
+    q = expand(basis, out.b[:count], out.e[:count])
+    a = expand(basis, out.a_b[:count], out.a_e[:count], offset=False)
+    shape = (count, len(system.node_names), 6)
+    displacement = np.asarray(system.transform @ q.T).T.reshape(shape)
+    acceleration = np.asarray(system.transform @ a.T).T.reshape(shape).copy()
+    ground = ground_at(motion, out.time[:count])
+    acceleration[..., :3] += ground[:, None, :]
+    velocity = _bearing_velocity(state, out.v_b[:count])
+    variables = bearing_variables("time", states[:count], velocity)
+    node = ("time", "node", "dof")
+    reactions = _other_reactions(state, displacement)
+    forces = states["force"][:count, :, 6:9].sum(axis=1) + reactions
+    variables |= {
+        "node_displacement": labelled(
+            node, displacement, "m, rad", "displacement relative to the ground"
+        ),
+        "node_acceleration": labelled(
+            node, acceleration, "m/s2, rad/s2", "total acceleration, ground included"
+        ),
+        "ground_acceleration": labelled(("time", "axis"), ground, "m/s2", "ground acceleration"),
+        "base_shear": labelled(
+            ("time", "axis"), forces, "N", "sum of the resisting forces of bearings and supports"
+        ),
+        "energy": labelled(("time", "term"), out.energy[:count].copy(), "J", "energy since gravity"),
+        "weight": labelled((), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"),
+        "static_axial_force": labelled(
+            ("bearing",), state.axial_forces, "N", "axial force under permanent loads"
+        ),
+        "level_height": labelled(
+            ("level",), np.array([lv.z for lv in frame.levels]), "m", "elevation of the level"
+        ),
+        "level_node": labelled(
+            ("node",), _levels_of_nodes(frame, system.node_names), "1",
+            "place of the node's level, -1 for none",
+        ),
+    }  # fmt: skip
+    coordinates = {
+        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
+        "node": list(system.node_names),
+        "dof": list(DOFS),
+        "term": list(ENERGY_TERMS),
+        "level": [lv.name for lv in frame.levels],
+        **bearing_coordinates([name for name, _, _, _ in system.bearings]),
+    }
+    return xr.Dataset(variables, coordinates)
+
+
+def ground_at(motion: GroundMotion, time: FloatArray) -> FloatArray:
+    """Return the ground acceleration (n, 3) at `time`, linear between samples, zero after."""
+    samples = np.arange(len(motion.components)) * motion.dt
+    columns = [
+        np.interp(time, samples, motion.components[:, axis], right=0.0) for axis in range(3)
+    ]
+    return np.column_stack(columns)
+
+
+def energy_error(data: xr.Dataset) -> float:
+    """Return how far the ledger of energy is from closing: largest gap over largest input [-].
+
+    The gap is ``input - (sum of all other terms)``.
+    """
+    energy = data["energy"]
+    gap = np.abs(energy.sel(term="input") - energy.sel(term=list(ABSORBED)).sum("term"))
+    scale = float(np.abs(energy.sel(term="input")).max())
+    return float(gap.max()) / scale if scale > 0.0 else float(gap.max())
+
+
+def storey_drift(data: xr.Dataset) -> xr.DataArray:
+    """Return the drift ratio of each storey (time, storey, axis x and y) [-].
+
+    The drift of the mean displacement of a level's nodes against that of the level below, over
+    the storey height.
+    """
+    place = data["level_node"].to_numpy()
+    count = data.sizes["level"]
+    if count < 2:
+        msg = f"the model has {count} levels: drifts need at least two (Frame.add_level)"
+        raise ValueError(msg)
+    moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
+    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(count)], axis=1)
+    heights = np.diff(data["level_height"].to_numpy())
+    drift = np.diff(means, axis=1) / heights[None, :, None]
+    names = [str(name) for name in data["level"].to_numpy()[1:]]
+    return xr.DataArray(
+        drift,
+        dims=("time", "storey", "axis"),
+        coords={"time": data["time"], "storey": names, "axis": ["x", "y"]},
+        attrs={"units": "1", "long_name": "storey drift ratio"},
+    )
+
+
+def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
+    """Return the mean total acceleration of each level's nodes (time, level, axis) [m/s2]."""
+    place = data["level_node"].to_numpy()
+    moves = data["node_acceleration"].sel(dof=["ux", "uy", "uz"]).to_numpy()
+    count = data.sizes["level"]
+    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(count)], axis=1)
+    return xr.DataArray(
+        means,
+        dims=("time", "level", "axis"),
+        coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
+        attrs={"units": "m/s2", "long_name": "total acceleration of the level"},
+    )
+
+
+def save(data: xr.Dataset, path: str | Path) -> None:
+    """Write a Dataset to netCDF (h5netcdf engine)."""
+    data.to_netcdf(path, engine="h5netcdf")
+
+
+def load(path: str | Path) -> xr.Dataset:
+    """Read a Dataset that `save` wrote, into memory."""
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        return data.load()
+
+
+def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
+    # Velocity of node j relative to node i, (n, n_bearings, 3).
+    from frames.basis import bearing_rows
+
+    rows = bearing_rows(state.system)[:, state.basis.bearing_dofs]
+    v = np.asarray(rows @ v_b.T).T.reshape(len(v_b), -1, 12)
+    return v[..., 6:9] - v[..., :3]
+
+
+def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArray:
+    # Sum of what supports of the structure itself take (members on the ground), (n, 3).
+    system = state.system
+    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
+    stiff = np.asarray(abs(system.node_stiffness)[fixed].sum(axis=1)).ravel() > 0.0
+    rows = fixed[stiff]
+    total = np.zeros((len(displacement), 3))
+    if not len(rows):
+        return total
+    flat = displacement.reshape(len(displacement), -1)
+    forces = -np.asarray(system.node_stiffness[rows] @ flat.T).T
+    for axis in range(3):
+        total[:, axis] = -forces[:, rows % 6 == axis].sum(axis=1)
+    return -total
+
+
+def _levels_of_nodes(frame: Frame, names: tuple[str, ...]) -> Any:
+    place = {node: k for k, level in enumerate(frame.levels) for node in level.nodes}
+    return np.array([place.get(name, -1) for name in names], dtype=np.int64)

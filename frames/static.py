@@ -1,0 +1,234 @@
+"""Gravity and modes: the state a time history starts from, and the periods an engineer checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from scipy import linalg, sparse
+from scipy.sparse.linalg import spsolve
+
+from frames._validate import ModelError
+from frames.assembly import assemble, geometric_stiffness, member_axial_forces
+from frames.basis import Basis, bearing_rows, build_basis
+from frames.kernel_data import ModelArrays, RunArrays, model_arrays, run_arrays
+from frames.stepping import solve_gravity
+from lir_element.errors import AnalysisError, RunStatus
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, SparseMatrix
+    from frames.assembly import System
+    from frames.model import Frame
+
+_FORCE_TOLERANCE = 1e-9  # of the total weight
+_MAX_ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class GravityState:
+    """A frame in equilibrium under its permanent loads.
+
+    Attributes
+    ----------
+    system : System
+        Matrices over the free degrees of freedom.
+    geometric : csr_array, (n_free, n_free)
+        Geometric stiffness of the members under gravity.
+    basis : Basis
+        The frame in bearing coordinates.
+    model, run : ModelArrays, RunArrays
+        What the kernels work on; `run` holds the equilibrium as committed state.
+    displacement : ndarray, (n_free,)
+        Displacements q under gravity.
+    axial_forces : ndarray, (n_bearings,)
+        Axial forces of the bearings, compression positive [N].
+    """
+
+    system: System
+    geometric: SparseMatrix
+    basis: Basis
+    model: ModelArrays
+    run: RunArrays
+    displacement: FloatArray
+    axial_forces: FloatArray
+
+
+def gravity(frame: Frame) -> GravityState:
+    """Bring a frame into equilibrium under its permanent loads.
+
+    The members' axial forces of a first, linear solution give the geometric stiffness; the
+    bearings are then solved with all their nonlinearity, so that their axial forces are those of
+    the equilibrium.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model, with at least one bearing.
+
+    Returns
+    -------
+    GravityState
+        The equilibrium.
+
+    Raises
+    ------
+    ModelError
+        If the model cannot work, or is unstable under its permanent loads.
+    AnalysisError
+        If there is no equilibrium, or a bearing carries no compression.
+    """
+    system = assemble(frame)
+    if not system.bearings:
+        message = "the frame has no bearing: add one with add_bearing"
+        raise ModelError(message)
+    linear = spsolve(sparse.csc_array(system.stiffness + _springs(system)), system.load)
+    geometric = geometric_stiffness(system, member_axial_forces(system, linear))
+    basis = build_basis(system, geometric, frame.damping)
+    model = model_arrays(system, basis)
+    run = run_arrays(model)
+    run.b[:] = linear[basis.bearing_dofs]
+    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    status = RunStatus(solve_gravity(model, run, tolerance, _MAX_ITERATIONS))
+    if status is not RunStatus.OK:
+        name = system.bearings[int(run.counters[3])][0]
+        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"')
+    return GravityState(
+        system=system,
+        geometric=geometric,
+        basis=basis,
+        model=model,
+        run=run,
+        displacement=expand(basis, run.b, run.e),
+        axial_forces=np.array(run.old["axial_force"]),
+    )
+
+
+def force_tolerance(system: System, relative: float) -> float:
+    """Return a tolerance in N (and N m at 1 m) relative to the weight of the structure."""
+    weight = float(np.abs(system.load).sum())
+    return relative * max(weight, 1e-3 * system.gravity * float(system.node_mass[:, :3].sum()))
+
+
+def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -> FloatArray:
+    """Return displacements q (..., n_free) of the free DOFs from b (..., n_b) and eta."""
+    q: FloatArray = b @ basis.expand_b.T + e @ basis.expand_e.T
+    return q + basis.offset if offset else q
+
+
+def _springs(system: System) -> SparseMatrix:
+    # Bearings as linear springs, for the first guess: axial stiffness, a hundredth sideways.
+    rows = bearing_rows(system)
+    blocks = []
+    for _, _, _, bearing in system.bearings:
+        axial = bearing.resolved()["axial_stiffness"]
+        k = np.zeros((12, 12))
+        for dof, value in ((0, 0.01 * axial), (1, 0.01 * axial), (2, axial)):
+            k[dof, dof] = k[dof + 6, dof + 6] = value
+            k[dof, dof + 6] = k[dof + 6, dof] = -value
+        blocks.append(k)
+    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
+
+
+BearingStiffness = Literal["sliding", "sticking", "fixed"]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Natural modes of a frame on its bearings.
+
+    Attributes
+    ----------
+    periods : ndarray, (n,)
+        Periods, longest first [s].
+    shapes : ndarray, (n_nodes, 6, n)
+        Nodal displacements of each mode, scaled to a modal mass of 1 kg.
+    mass_ratios : ndarray, (n, 3)
+        Share of the total mass that takes part along x, y, z.
+    """
+
+    periods: FloatArray
+    shapes: FloatArray
+    mass_ratios: FloatArray
+
+
+def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+    """Return the first natural modes under gravity.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    count : int
+        Number of modes, at least 1; at most those that have mass.
+    bearings : {"sliding", "sticking", "fixed"}
+        How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
+        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together).
+
+    Returns
+    -------
+    Modes
+        Periods, shapes and participating masses (scipy.linalg.eigh, dense).
+
+    Raises
+    ------
+    ModelError
+        If `count` or `bearings` is out of bounds, or a mode has no positive stiffness.
+    """
+    if count < 1:
+        message = f"count = {count} must be at least 1"
+        raise ModelError(message)
+    state = gravity(frame)
+    system = state.system
+    k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
+    m = system.mass.toarray()
+    massive = np.flatnonzero(m.any(axis=1))
+    massless = np.setdiff1d(np.arange(len(m)), massive)
+    follow = np.zeros((len(massless), len(massive)))
+    if len(massless):
+        follow = -linalg.solve(k[np.ix_(massless, massless)], k[np.ix_(massless, massive)])
+    condensed = k[np.ix_(massive, massive)] + k[np.ix_(massive, massless)] @ follow
+    count = min(count, len(massive))
+    omega2, vectors = linalg.eigh(
+        0.5 * (condensed + condensed.T),
+        m[np.ix_(massive, massive)],
+        subset_by_index=[0, count - 1],
+    )
+    if omega2[0] <= 0.0:
+        message = (
+            f"the first mode has no positive stiffness (eigenvalue {omega2[0]:.4g} 1/s2): with "
+            f'bearings="{bearings}" the frame is unstable under its permanent loads'
+        )
+        raise ModelError(message)
+    q = np.zeros((len(m), count))
+    q[massive], q[massless] = vectors, follow @ vectors
+    shapes = np.asarray(system.transform @ q).reshape(-1, 6, count)
+    shares = (system.inertia_load.T @ q) ** 2
+    total = system.node_mass[:, :3].sum(axis=0)
+    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
+
+
+def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
+    system = state.system
+    rows = bearing_rows(system)
+    blocks = []
+    for place, (_, _, _, bearing) in enumerate(system.bearings):
+        axial = bearing.resolved()["axial_stiffness"]
+        load = float(state.axial_forces[place])
+        if bearings == "sliding":
+            values = [load / bearing.effective_radius] * 2 + [axial, 0.0, 0.0, 0.0]
+        elif bearings == "sticking":
+            mu = bearing.frictions
+            soft = sum(bearing.yield_displacement / max(f.f_min, 1e-6) for f in mu)
+            values = [load / soft] * 2 + [axial, 0.0, 0.0, 0.0]
+        elif bearings == "fixed":
+            values = [1e3 * axial] * 3 + [0.0] * 3
+        else:
+            message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
+            raise ModelError(message)
+        k = np.zeros((12, 12))
+        for dof, value in enumerate(values):
+            k[dof, dof] = k[dof + 6, dof + 6] = value
+            k[dof, dof + 6] = k[dof + 6, dof] = -value
+        blocks.append(k)
+    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)

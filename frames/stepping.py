@@ -1,0 +1,232 @@
+"""Kernels of the equilibrium: bearing forces in frame coordinates, Newton's method, gravity.
+
+The frame's unknowns are b (bearing coordinates) and eta (fixed-interface modes). The modes enter
+linearly, so Newton's method runs over b alone: `reduced` is the linear effective stiffness of b
+after the modes were eliminated, which depends on the step size only.
+"""
+
+from __future__ import annotations
+
+import math
+
+from frames._jit import kernel
+from lir_element.errors import RunStatus
+from lir_element.pendulum_tangent import fill_tangent
+from lir_element.pendulum_trial import accumulate, copy_words, trial
+
+_OK = int(RunStatus.OK)
+_NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
+_SINGULAR = int(RunStatus.SINGULAR)
+_UPLIFTED = int(RunStatus.UPLIFTED)
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+
+
+@kernel
+def has_no_state(code):
+    """Return whether a bearing has no state at all (a limit exceeded is a state)."""
+    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED)
+
+
+@kernel
+def gather(model, k, b, out):
+    """Set `out` (12,) to the displacements (or velocities) of bearing `k`'s nodes."""
+    for row in range(12):
+        total = 0.0
+        for entry in range(model.start[k, row], model.start[k, row + 1]):
+            total += model.values[entry] * b[model.columns[entry]]
+        out[row] = total
+
+
+@kernel
+def bearing_forces(model, run, b, v_b, time):
+    """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
+    n_b = b.shape[0]
+    for a in range(n_b):
+        run.force[a] = 0.0
+    worst = _OK
+    for k in range(model.props.shape[0]):
+        gather(model, k, b, run.u)
+        gather(model, k, v_b, run.v)
+        code = trial(
+            model.props[k], run.old[k], run.new[k], run.work[k], run.u, run.v, time, run.zero
+        )
+        if code != _OK:
+            worst = code
+            run.counters[3] = k
+            if has_no_state(code):
+                return code
+        force = run.new[k].force
+        for row in range(12):
+            for entry in range(model.start[k, row], model.start[k, row + 1]):
+                run.force[model.columns[entry]] += model.values[entry] * force[row]
+    return worst
+
+
+@kernel
+def bearing_tangents(model, run, factor):
+    """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
+    for k in range(model.props.shape[0]):
+        element = run.element_k[k]
+        fill_tangent(
+            model.props[k], run.work[k], run.new[k].force, element, run.zero, run.axes
+        )
+        for row in range(12):
+            for i in range(model.start[k, row], model.start[k, row + 1]):
+                for col in range(12):
+                    value = factor * model.values[i] * element[row, col]
+                    for j in range(model.start[k, col], model.start[k, col + 1]):
+                        run.tangent[model.columns[i], model.columns[j]] += value * model.values[j]
+
+
+@kernel
+def solve_in_place(a, x):
+    """Solve ``a x = rhs`` (rhs in `x`) by Gaussian elimination; returns False if singular.
+
+    Rows are pivoted; `a` is overwritten.
+    """
+    n = x.shape[0]
+    for col in range(n):
+        pivot = col
+        largest = abs(a[col, col])
+        for row in range(col + 1, n):
+            if abs(a[row, col]) > largest:
+                pivot, largest = row, abs(a[row, col])
+        if not largest > 0.0:
+            return False
+        if pivot != col:
+            for k in range(col, n):
+                a[col, k], a[pivot, k] = a[pivot, k], a[col, k]
+            x[col], x[pivot] = x[pivot], x[col]
+        inv = 1.0 / a[col, col]
+        for row in range(col + 1, n):
+            factor = a[row, col] * inv
+            if factor != 0.0:
+                for k in range(col + 1, n):
+                    a[row, k] -= factor * a[col, k]
+                x[row] -= factor * x[col]
+    for row in range(n - 1, -1, -1):
+        total = x[row]
+        for k in range(row + 1, n):
+            total -= a[row, k] * x[k]
+        x[row] = total / a[row, row]
+    return True
+
+
+@kernel
+def norm(x):
+    """Return the largest absolute entry; infinite if one is not finite."""
+    largest = 0.0
+    for a in range(x.shape[0]):
+        if not math.isfinite(x[a]):
+            return math.inf
+        largest = max(largest, abs(x[a]))
+    return largest
+
+
+@kernel
+def set_residual(model, run, linear, step, time, share):
+    """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
+
+    residual = rhs - linear step - share force; infinite where the bearings have no state.
+    """
+    n_b = step.shape[0]
+    dt = time - run.clock[0]
+    for a in range(n_b):
+        run.trial_b[a] = run.b[a] + step[a]
+        run.v_b_new[a] = step[a] / dt if dt > 0.0 else 0.0
+    code = bearing_forces(model, run, run.trial_b, run.v_b_new, time)
+    run.counters[4] = code
+    if has_no_state(code):
+        return math.inf
+    for a in range(n_b):
+        total = run.rhs_b[a] - share * run.force[a]
+        for c in range(n_b):
+            total -= linear[a, c] * step[c]
+        run.residual[a] = total
+    return norm(run.residual)
+
+
+@kernel
+def newton(model, run, linear, time, share, tolerance, max_iterations):
+    """Find ``run.step`` with a residual below `tolerance`; returns a status code.
+
+    `run.step` holds the first guess. A step that does not reduce the residual is shortened.
+    """
+    n_b = run.step.shape[0]
+    size = set_residual(model, run, linear, run.step, time, share)
+    if size == math.inf:  # start from rest instead
+        for a in range(n_b):
+            run.step[a] = 0.0
+        size = set_residual(model, run, linear, run.step, time, share)
+        if size == math.inf:
+            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+    for _ in range(max_iterations):
+        if size <= tolerance:
+            return _OK
+        run.counters[1] += 1
+        for a in range(n_b):
+            run.h_b[a] = run.residual[a]
+            for c in range(n_b):
+                run.tangent[a, c] = linear[a, c]
+        bearing_tangents(model, run, share)
+        if not solve_in_place(run.tangent, run.h_b):
+            return _SINGULAR
+        factor = 1.0
+        for attempt in range(6):
+            for a in range(n_b):
+                run.g_b[a] = run.step[a] + factor * run.h_b[a]
+            new = set_residual(model, run, linear, run.g_b, time, share)
+            if new < size or (attempt >= 3 and new < 2.0 * size):
+                break
+            factor *= 0.4
+        if new == math.inf:
+            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+        for a in range(n_b):
+            run.step[a] = run.g_b[a]
+        size = new
+    return _NEWTON_FAILED
+
+
+@kernel
+def solve_gravity(model, run, tolerance, max_iterations):
+    """Bring the frame into equilibrium under its permanent loads; returns a status code.
+
+    `run.b` holds the first guess; `run.step` is used. On success the state is committed.
+    """
+    n_b = run.b.shape[0]
+    for a in range(n_b):
+        run.step[a] = run.b[a]
+        run.b[a] = 0.0
+        run.rhs_b[a] = model.load_b[a]
+    code = newton(model, run, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
+    if code != _OK:
+        return code
+    for k in range(run.new.shape[0]):
+        if run.new[k].axial_force <= 0.0:
+            run.counters[3] = k
+            return _UPLIFTED
+    for a in range(n_b):
+        run.b[a] = run.step[a]
+    for a in range(run.e.shape[0]):
+        run.e[a] = model.load_e[a] / model.omega2[a]
+    commit_bearings(run)
+    for k in range(run.old.shape[0]):  # works count from here
+        for side in range(2):
+            run.old[k].work_friction[side] = 0.0
+            run.old[k].work_rim[side] = 0.0
+            run.old[k].travel[side] = 0.0
+        run.old[k].work_interface = 0.0
+        run.old[k].work_contact = 0.0
+    return _OK
+
+
+@kernel
+def commit_bearings(run):
+    """Accept the trial states and forces of all bearings."""
+    for k in range(run.old.shape[0]):
+        accumulate(run.old[k], run.new[k])
+        copy_words(run.new_words[k], run.old_words[k])
+    for a in range(run.force.shape[0]):
+        run.force_old[a] = run.force[a]
