@@ -31,7 +31,7 @@ def number(name: str, value: object, meaning: str) -> float:
     return result
 
 
-def component(axis: str, values: object) -> FloatArray:
+def checked_component(axis: str, values: object) -> FloatArray:
     """Return a copy of one component, checked."""
     try:
         array = np.array(values, dtype=np.float64)

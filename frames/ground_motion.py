@@ -13,14 +13,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
-import xarray as xr
 
-from frames._motion_checks import MotionError, component, equal_lengths, number
+from frames._motion_checks import MotionError, checked_component, equal_lengths, number
 from frames._types import FloatArray
 from frames.contents import STANDARD_GRAVITY
-from frames.records import ColumnLayout, read_at2, read_columns, source_file
+from frames.records import (
+    AccelerationTrace,
+    ColumnLayout,
+    PathLike,
+    Source,
+    read_at2,
+    read_columns,
+    source_file,
+)
 from frames.spectra import response_spectrum
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    import xarray as xr
 
 AXES = ("x", "y", "z")
 """Names of the components; z points up."""
@@ -77,7 +87,7 @@ class GroundMotion:
             raise MotionError(msg)
         object.__setattr__(self, "dt", step)
         given = {
-            axis: component(axis, values)
+            axis: checked_component(axis, values)
             for axis in AXES
             if (values := getattr(self, axis)) is not None
         }

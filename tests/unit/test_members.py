@@ -314,6 +314,10 @@ def test_box_and_i_shape_and_rectangle() -> None:
     assert_allclose(
         [ipe.area, ipe.inertia_y, ipe.inertia_z], [53.8e-4, 8356e-8, 604e-8], rtol=0.05, atol=0.0
     )
+    # BEAM from its three plates: I 0.5 x 0.2 m, flanges 0.02, web 0.012.
+    strong = 2 * (0.2 * 0.02**3 / 12 + 0.2 * 0.02 * 0.24**2) + 0.012 * 0.46**3 / 12
+    weak = 2 * 0.02 * 0.2**3 / 12 + 0.46 * 0.012**3 / 12
+    assert_allclose([BEAM.inertia_y, BEAM.inertia_z], [strong, weak], rtol=1e-13, atol=0.0)
     # Saint-Venant constants of a square and of a 2:1 rectangle [Timoshenko & Goodier, art. 109].
     square, oblong = Section.rectangle(0.2, 0.2), Section.rectangle(0.4, 0.2)
     assert_allclose(square.torsion_constant, 0.1406 * 0.2**4, rtol=5e-4, atol=0.0)
