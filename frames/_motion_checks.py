@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
@@ -20,11 +20,10 @@ class MotionError(ValueError):
 
 def number(name: str, value: object, meaning: str) -> float:
     """Return a finite number, or raise."""
-    try:
-        result = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError) as cause:
+    if isinstance(value, bool) or not isinstance(value, SupportsFloat):
         msg = f"{name} = {value!r} must be a number: give {meaning}"
-        raise MotionError(msg) from cause
+        raise MotionError(msg)
+    result = float(value)
     if not math.isfinite(result):
         msg = f"{name} = {result:g} must be finite: give {meaning}"
         raise MotionError(msg)

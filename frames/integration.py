@@ -224,7 +224,7 @@ def try_step(model, run, settings, motion, motion_dt, time, dt, level):
     linear = reduced_stiffness(model, run, settings, level, dt)
     set_load(model, run, settings, motion, motion_dt, time, dt)
     for a in range(run.b.shape[0]):
-        run.step[a] = dt * run.v_b[a] + 0.5 * dt * dt * run.a_b[a]
+        run.step[a] = dt * run.mean_v_b[a]
     code = newton(
         model, run, linear, time + dt, 1.0 - settings.alpha_f, settings.force_tolerance,
         settings.max_iterations,
@@ -254,6 +254,7 @@ def accept_step(model, run, motion, motion_dt, time, dt):
     commit_bearings(run)
     add_bearing_energy(run)
     for a in range(run.b.shape[0]):
+        run.mean_v_b[a] = run.step[a] / dt
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]

@@ -62,6 +62,7 @@ class RunArrays(NamedTuple):
     b: Array  # (n_b,) committed displacement, velocity, acceleration
     v_b: Array
     a_b: Array
+    mean_v_b: Array  # of the last step: a guess free of what rings in v_b
     e: Array
     v_e: Array
     a_e: Array
@@ -150,7 +151,7 @@ def run_arrays(model: ModelArrays) -> RunArrays:
         return np.zeros(n_e)
 
     return RunArrays(
-        b=b(), v_b=b(), a_b=b(), e=e(), v_e=e(), a_e=e(),
+        b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_words(old), new_words=as_words(new),
         work=np.zeros(count, dtype=WORK),
         force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),

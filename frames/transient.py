@@ -33,7 +33,7 @@ METHODS = ("direct",)
 _LARGEST_STEP = 0.005  # s, where the program chooses
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
-_ERROR_TOLERANCE = 2e-5  # of the effective radius, a step, where the program chooses
+_ERROR_TOLERANCE = 2e-7  # of the effective radius, a step, where the program chooses
 _CHUNKS = 50
 
 

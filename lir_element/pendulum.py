@@ -137,18 +137,18 @@ def surface(p, old, w, k):
         w.dw[k, a] = p.radius[k] * w.old[k, a]
     w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
-    z_1, z_2, h_11, h_12, h_21, h_22 = return_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
         p.yield_displacement[k],
     )  # fmt: skip
-    distance = math.sqrt(d_1 * d_1 + d_2 * d_2)
-    w.speed[k] = distance / w.dt if w.dt > 0.0 else w.static_speed[k]
+    # the speed of slip, not of the elastic part: friction must not grow while it unloads
+    w.speed[k] = slip / w.dt if w.dt > 0.0 else w.static_speed[k]
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
     by_1, by_2 = 0.0, 0.0
-    if w.dt > 0.0 and distance > 0.0:
-        by_1, by_2 = slope * d_1 / (distance * w.dt), slope * d_2 / (distance * w.dt)
+    if w.dt > 0.0:
+        by_1, by_2 = slope * s_1 / w.dt, slope * s_2 / w.dt
     w.mu[k] = mu
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
@@ -159,7 +159,7 @@ def surface(p, old, w, k):
 @kernel
 def interface(p, old, w):
     """Set the friction of the plane interface: force and derivative over N."""
-    z_1, z_2, h_11, h_12, h_21, h_22 = return_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _ = return_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
     )  # fmt: skip

@@ -202,7 +202,7 @@ def torsion(p, old, w, new):
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    z, _, slope, _, _, _ = return_map(
+    z, _, slope, _, _, _, _, _, _ = return_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
         p.torsion_yield,
     )  # fmt: skip

