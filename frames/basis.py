@@ -75,7 +75,22 @@ def bearing_rows(system: System) -> SparseMatrix:
 
 
 def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
-    """Return the frame in bearing coordinates and all fixed-interface modes.
+    """Change a frame to bearing coordinates and all fixed-interface modes.
+
+    Parameters
+    ----------
+    system : System
+        Matrices over the free degrees of freedom.
+    geometric : csr_array, (n_free, n_free)
+        Geometric stiffness of the members.
+    damping : Damping or None
+        Damping of the structure. It acts on its motion relative to the one that follows the
+        bearings quasi-statically: what moves with the isolation is not damped.
+
+    Returns
+    -------
+    Basis
+        The same frame in other coordinates.
 
     Raises
     ------
@@ -132,9 +147,7 @@ def _static_following(
     if not len(massless):
         return np.zeros((0, len(kept))), np.zeros(0)
     block = stiffness[np.ix_(massless, massless)]
-    right = np.column_stack(
-        [-stiffness[np.ix_(massless, kept)], system.load[massless]]
-    )
+    right = np.column_stack([-stiffness[np.ix_(massless, kept)], system.load[massless]])
     try:
         solution = linalg.solve(block, right, assume_a="pos")
     except linalg.LinAlgError as error:
@@ -159,7 +172,7 @@ def _interface_modes(
         label = system.dof_labels[kept[n_b + int(np.argmax(np.abs(phi[:, 0])))]]
         message = (
             "the structure buckles under its permanent loads with its bearings held: lowest "
-            f"eigenvalue {omega2[0]:.4g} 1/s2 at \"{label}\"; reduce the loads or stiffen columns"
+            f'eigenvalue {omega2[0]:.4g} 1/s2 at "{label}"; reduce the loads or stiffen columns'
         )
         raise ModelError(message)
     psi = -linalg.solve(_symmetric(inner), k[n_b:, :n_b], assume_a="pos")

@@ -8,6 +8,7 @@ energy; what another member of the family adds or takes is the term 'numerical'.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from frames._jit import kernel
 from frames.kernel_data import MAX_LEVEL
@@ -15,16 +16,20 @@ from frames.stepping import commit_bearings, gather, newton
 from lir_element.errors import RunStatus
 from lir_element.pendulum_trial import copy_words
 
+if TYPE_CHECKING:
+    from frames.kernel_data import Model, Output, Run, Setup
+    from lir_element.layout import Floats
+
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
 _MAX_LEVEL = MAX_LEVEL
 
 
 @kernel
-def ground_acceleration(motion, motion_dt, time, axis):
+def ground_acceleration(motion: Floats, motion_dt: float, time: float, axis: int) -> float:
     """Return the ground acceleration along `axis`, linear between samples, zero outside."""
     place = time / motion_dt
-    first = int(math.floor(place))
+    first = math.floor(place)
     if first < 0 or first >= motion.shape[0] - 1:
         if first == motion.shape[0] - 1 and place - first < 1e-9:
             return motion[first, axis]
@@ -34,7 +39,7 @@ def ground_acceleration(motion, motion_dt, time, axis):
 
 
 @kernel
-def times(matrix, x, factor, out):
+def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
     """Add ``factor * matrix @ x`` to `out`."""
     for a in range(matrix.shape[0]):
         total = 0.0
@@ -44,7 +49,7 @@ def times(matrix, x, factor, out):
 
 
 @kernel
-def reduced_stiffness(model, run, settings, level, dt):
+def reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: float) -> Floats:
     """Return the effective stiffness of b with the modes eliminated, for this step size."""
     out = run.reduced[level]
     if run.has_reduced[level] == 1:
@@ -55,8 +60,10 @@ def reduced_stiffness(model, run, settings, level, dt):
     n_b, n_e = model.mass_be.shape
     for a in range(n_b):
         for c in range(n_b):
-            out[a, c] = c_m * model.mass_b[a, c] + c_c * model.damping_b[a, c] + (
-                c_k * model.stiffness_b[a, c]
+            out[a, c] = (
+                c_m * model.mass_b[a, c]
+                + c_c * model.damping_b[a, c]
+                + (c_k * model.stiffness_b[a, c])
             )
     for k in range(n_e):
         inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
@@ -69,7 +76,15 @@ def reduced_stiffness(model, run, settings, level, dt):
 
 
 @kernel
-def set_load(model, run, settings, motion, motion_dt, time, dt):
+def set_load(
+    model: Model,
+    run: Run,
+    settings: Setup,
+    motion: Floats,
+    motion_dt: float,
+    time: float,
+    dt: float,
+) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
     known_v = (1.0 - am) / (beta * dt)
@@ -110,7 +125,7 @@ def set_load(model, run, settings, motion, motion_dt, time, dt):
 
 
 @kernel
-def finish_step(model, run, settings, dt):
+def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     beta, gamma = settings.beta, settings.gamma
     c_m = (1.0 - settings.alpha_m) / (beta * dt * dt)
@@ -124,21 +139,17 @@ def finish_step(model, run, settings, dt):
         run.a_e_new[k] = (run.g_e[k] / dt - run.v_e[k]) / (beta * dt) - (
             0.5 / beta - 1.0
         ) * run.a_e[k]
-        run.v_e_new[k] = run.v_e[k] + dt * (
-            (1.0 - gamma) * run.a_e[k] + gamma * run.a_e_new[k]
-        )
+        run.v_e_new[k] = run.v_e[k] + dt * ((1.0 - gamma) * run.a_e[k] + gamma * run.a_e_new[k])
     for a in range(run.b.shape[0]):
         run.b_new[a] = run.b[a] + run.step[a]
         run.a_b_new[a] = (run.step[a] / dt - run.v_b[a]) / (beta * dt) - (
             0.5 / beta - 1.0
         ) * run.a_b[a]
-        run.v_b_new[a] = run.v_b[a] + dt * (
-            (1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a]
-        )
+        run.v_b_new[a] = run.v_b[a] + dt * ((1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a])
 
 
 @kernel
-def quadratic(mass, coupling, x, y, unit):
+def quadratic(mass: Floats, coupling: Floats, x: Floats, y: Floats, unit: float) -> float:
     """Return ``x' mass x + 2 x' coupling y + unit y' y`` halved."""
     total = 0.0
     for a in range(x.shape[0]):
@@ -154,7 +165,7 @@ def quadratic(mass, coupling, x, y, unit):
 
 
 @kernel
-def elastic_energy(model, b, e):
+def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
     """Return the strain energy of the structure, geometric part included."""
     total = 0.0
     for a in range(b.shape[0]):
@@ -168,7 +179,9 @@ def elastic_energy(model, b, e):
 
 
 @kernel
-def add_energy(model, run, motion, motion_dt, time, dt):
+def add_energy(
+    model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
+) -> None:
     """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
 
     Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
@@ -206,7 +219,7 @@ def add_energy(model, run, motion, motion_dt, time, dt):
 
 
 @kernel
-def add_bearing_energy(run):
+def add_bearing_energy(run: Run) -> None:
     """Set the bearings' terms of the energy from their accumulated works."""
     for term in range(5, 10):
         run.energy[term] = 0.0
@@ -219,7 +232,16 @@ def add_bearing_energy(run):
 
 
 @kernel
-def try_step(model, run, settings, motion, motion_dt, time, dt, level):
+def try_step(
+    model: Model,
+    run: Run,
+    settings: Setup,
+    motion: Floats,
+    motion_dt: float,
+    time: float,
+    dt: float,
+    level: int,
+) -> int:
     """Attempt one step; leaves it in the trial arrays. Returns a status code."""
     linear = reduced_stiffness(model, run, settings, level, dt)
     set_load(model, run, settings, motion, motion_dt, time, dt)
@@ -236,7 +258,7 @@ def try_step(model, run, settings, motion, motion_dt, time, dt, level):
 
 
 @kernel
-def estimated_error(model, run, dt):
+def estimated_error(model: Model, run: Run, dt: float) -> float:
     """Return the estimated error of the step in the bearings' horizontal displacement."""
     for a in range(run.b.shape[0]):
         run.h_b[a] = run.a_b_new[a] - run.a_b[a]
@@ -248,7 +270,9 @@ def estimated_error(model, run, dt):
 
 
 @kernel
-def accept_step(model, run, motion, motion_dt, time, dt):
+def accept_step(
+    model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
+) -> int:
     """Commit the step; returns the status of the bearings' limits."""
     add_energy(model, run, motion, motion_dt, time, dt)
     commit_bearings(run)
@@ -268,7 +292,7 @@ def accept_step(model, run, motion, motion_dt, time, dt):
 
 
 @kernel
-def record(run, out, place):
+def record(run: Run, out: Output, place: int) -> None:
     """Copy the committed state into the output arrays."""
     out.time[place] = run.clock[0]
     for a in range(run.b.shape[0]):
@@ -282,7 +306,17 @@ def record(run, out, place):
 
 
 @kernel
-def advance(model, run, settings, motion, motion_dt, out, first, last, every):
+def advance(
+    model: Model,
+    run: Run,
+    settings: Setup,
+    motion: Floats,
+    motion_dt: float,
+    out: Output,
+    first: int,
+    last: int,
+    every: int,
+) -> int:
     """Integrate the base steps `first` to `last` (exclusive), recording each `every`-th.
 
     A step that fails, or whose estimated error is too large, is halved; after two good steps the
@@ -300,8 +334,10 @@ def advance(model, run, settings, motion, motion_dt, out, first, last, every):
             time = settings.dt * (base + ticks / ticks_a_step)
             run.clock[0] = time
             code = try_step(model, run, settings, motion, motion_dt, time, dt, level)
-            rough = code == _OK and level < _MAX_LEVEL // 2 and (
-                estimated_error(model, run, dt) > settings.error_tolerance
+            rough = (
+                code == _OK
+                and level < _MAX_LEVEL // 2
+                and (estimated_error(model, run, dt) > settings.error_tolerance)
             )
             if code != _OK or rough:
                 if level == _MAX_LEVEL:

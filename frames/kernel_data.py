@@ -36,7 +36,7 @@ ENERGY_TERMS = (
 )
 
 
-class ModelArrays(NamedTuple):
+class Model(NamedTuple):
     """The frame in bearing coordinates, and its bearings."""
 
     mass_b: Array
@@ -56,7 +56,7 @@ class ModelArrays(NamedTuple):
     values: Array
 
 
-class RunArrays(NamedTuple):
+class Run(NamedTuple):
     """The state of a run, committed (0) and trial (1), and scratch; changed in place."""
 
     b: Array  # (n_b,) committed displacement, velocity, acceleration
@@ -101,7 +101,7 @@ class RunArrays(NamedTuple):
     counters: Array  # int64: steps, iterations, halvings, failed bearing
 
 
-class Settings(NamedTuple):
+class Setup(NamedTuple):
     """Constants of the time integration."""
 
     dt: float
@@ -114,7 +114,7 @@ class Settings(NamedTuple):
     error_tolerance: float  # m, estimated error of a step in displacement; infinite: fixed step
 
 
-def model_arrays(system: System, basis: Basis) -> ModelArrays:
+def model_arrays(system: System, basis: Basis) -> Model:
     """Return the frame as the time loop reads it."""
     rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
     rows.sort_indices()
@@ -123,23 +123,30 @@ def model_arrays(system: System, basis: Basis) -> ModelArrays:
     start = np.zeros((count, 13), dtype=np.int64)
     for k in range(count):
         start[k] = pointers[12 * k : 12 * k + 13]
-    return ModelArrays(
-        *(
-            np.ascontiguousarray(a, dtype=np.float64)
-            for a in (
-                basis.mass_b, basis.mass_be, basis.mass_be.T, basis.stiffness_b, basis.damping_b,
-                basis.omega2, basis.damping_e, basis.load_b, basis.load_e, basis.inertia_b,
-                basis.inertia_e,
-            )
-        ),
+
+    def plain(array: Array) -> Array:
+        return np.ascontiguousarray(array, dtype=np.float64)
+
+    return Model(
+        mass_b=plain(basis.mass_b),
+        mass_be=plain(basis.mass_be),
+        mass_eb=plain(basis.mass_be.T),
+        stiffness_b=plain(basis.stiffness_b),
+        damping_b=plain(basis.damping_b),
+        omega2=plain(basis.omega2),
+        damping_e=plain(basis.damping_e),
+        load_b=plain(basis.load_b),
+        load_e=plain(basis.load_e),
+        inertia_b=plain(basis.inertia_b),
+        inertia_e=plain(basis.inertia_e),
         props=np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings]),
         start=start,
         columns=rows.indices.astype(np.int64),
-        values=np.ascontiguousarray(rows.data, dtype=np.float64),
-    )  # fmt: skip
+        values=plain(rows.data),
+    )
 
 
-def run_arrays(model: ModelArrays) -> RunArrays:
+def run_arrays(model: Model) -> Run:
     """Return a run at rest, bearings undeformed and unloaded."""
     n_b, n_e, count = len(model.load_b), len(model.load_e), len(model.props)
     old, new = initial_state(model.props), initial_state(model.props)
@@ -150,7 +157,7 @@ def run_arrays(model: ModelArrays) -> RunArrays:
     def e() -> Array:
         return np.zeros(n_e)
 
-    return RunArrays(
+    return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_words(old), new_words=as_words(new),
         work=np.zeros(count, dtype=WORK),
@@ -165,7 +172,7 @@ def run_arrays(model: ModelArrays) -> RunArrays:
     )  # fmt: skip
 
 
-class OutputArrays(NamedTuple):
+class Output(NamedTuple):
     """What a run records, one entry an output step."""
 
     time: Array
@@ -178,12 +185,12 @@ class OutputArrays(NamedTuple):
     energy: Array
 
 
-def output_arrays(model: ModelArrays, count: int) -> tuple[OutputArrays, Array]:
+def output_arrays(model: Model, count: int) -> tuple[Output, Array]:
     """Return arrays for `count` output steps, and the bearing states as records."""
     n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)
     states = np.zeros((count, n_bearings), dtype=STATE)
     words = states.view(np.int64).reshape(count, n_bearings, -1)
-    arrays = OutputArrays(
+    arrays = Output(
         time=np.zeros(count),
         b=np.zeros((count, n_b)),
         v_b=np.zeros((count, n_b)),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from frames.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS
 from frames.parts import DOFS
 from frames.static import expand
@@ -15,9 +16,10 @@ from lir_element.results import bearing_coordinates, bearing_variables, labelled
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from frames._types import FloatArray
+    from frames._types import FloatArray, IntArray
+    from frames.assembly import System
     from frames.ground_motion import GroundMotion
-    from frames.kernel_data import OutputArrays
+    from frames.kernel_data import Output
     from frames.model import Frame
     from frames.static import GravityState
     from lir_element.layout import Records
@@ -30,11 +32,11 @@ def build_dataset(
     frame: Frame,
     state: GravityState,
     motion: GroundMotion,
-    out: OutputArrays,
+    out: Output,
     states: Records,
     count: int,
 ) -> xr.Dataset:
-    """Return the Dataset of the first `count` recorded steps (docs/results.md)."""
+    """Put the first `count` recorded steps into a Dataset (docs/results.md)."""
     system, basis = state.system, state.basis
     q = expand(basis, out.b[:count], out.e[:count])
     a = expand(basis, out.a_b[:count], out.a_e[:count], offset=False)
@@ -46,8 +48,9 @@ def build_dataset(
     velocity = _bearing_velocity(state, out.v_b[:count])
     variables = bearing_variables("time", states[:count], velocity)
     node = ("time", "node", "dof")
-    reactions = _other_reactions(state, displacement)
-    forces = states["force"][:count, :, 6:9].sum(axis=1) + reactions
+    grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
+    forces = states["force"][:count, grounded, 6:9].sum(axis=1)
+    forces += _other_reactions(state, displacement)
     variables |= {
         "node_displacement": labelled(
             node, displacement, "m, rad", "displacement relative to the ground"
@@ -57,7 +60,7 @@ def build_dataset(
         ),
         "ground_acceleration": labelled(("time", "axis"), ground, "m/s2", "ground acceleration"),
         "base_shear": labelled(
-            ("time", "axis"), forces, "N", "sum of the resisting forces of bearings and supports"
+            ("time", "axis"), forces, "N", "resisting force of the ground: bearings on it, and other supports"
         ),
         "energy": labelled(("time", "term"), out.energy[:count].copy(), "J", "energy since gravity"),
         "weight": labelled((), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"),
@@ -86,16 +89,23 @@ def build_dataset(
 def ground_at(motion: GroundMotion, time: FloatArray) -> FloatArray:
     """Return the ground acceleration (n, 3) at `time`, linear between samples, zero after."""
     samples = np.arange(len(motion.components)) * motion.dt
-    columns = [
-        np.interp(time, samples, motion.components[:, axis], right=0.0) for axis in range(3)
-    ]
+    columns = [np.interp(time, samples, motion.components[:, axis], right=0.0) for axis in range(3)]
     return np.column_stack(columns)
 
 
 def energy_error(data: xr.Dataset) -> float:
-    """Return how far the ledger of energy is from closing: largest gap over largest input [-].
+    """Measure how far the ledger of energy is from closing.
 
-    The gap is ``input - (sum of all other terms)``.
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    float
+        Largest gap ``|input - (sum of all other terms)|`` over the largest input [-]; in joule
+        where there was no input.
     """
     energy = data["energy"]
     gap = np.abs(energy.sel(term="input") - energy.sel(term=list(ABSORBED)).sum("term"))
@@ -104,10 +114,23 @@ def energy_error(data: xr.Dataset) -> float:
 
 
 def storey_drift(data: xr.Dataset) -> xr.DataArray:
-    """Return the drift ratio of each storey (time, storey, axis x and y) [-].
+    """Take the drifts of the storeys from a time history.
 
-    The drift of the mean displacement of a level's nodes against that of the level below, over
-    the storey height.
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history of a model with levels.
+
+    Returns
+    -------
+    xarray.DataArray
+        Drift ratio (time, storey, axis x and y) [-]: the mean displacement of a level's nodes
+        against that of the level below, over the storey height.
+
+    Raises
+    ------
+    ValueError
+        If the model has fewer than two levels.
     """
     place = data["level_node"].to_numpy()
     count = data.sizes["level"]
@@ -154,27 +177,28 @@ def load(path: str | Path) -> xr.Dataset:
 
 def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
     # Velocity of node j relative to node i, (n, n_bearings, 3).
-    from frames.basis import bearing_rows
-
     rows = bearing_rows(state.system)[:, state.basis.bearing_dofs]
     v = np.asarray(rows @ v_b.T).T.reshape(len(v_b), -1, 12)
-    return v[..., 6:9] - v[..., :3]
+    relative: FloatArray = v[..., 6:9] - v[..., :3]
+    return relative
+
+
+def _fixed_dofs(system: System) -> IntArray:
+    return np.flatnonzero(np.diff(system.transform.indptr) == 0)
 
 
 def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArray:
-    # Sum of what supports of the structure itself take (members on the ground), (n, 3).
+    # What supports of the structure itself resist (members on the ground), signed as bearing forces
+    # are: positive with positive displacement of the structure.
     system = state.system
-    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
-    stiff = np.asarray(abs(system.node_stiffness)[fixed].sum(axis=1)).ravel() > 0.0
-    rows = fixed[stiff]
-    total = np.zeros((len(displacement), 3))
-    if not len(rows):
-        return total
+    fixed = _fixed_dofs(system)
+    fixed = fixed[fixed % 6 < 3]
     flat = displacement.reshape(len(displacement), -1)
-    forces = -np.asarray(system.node_stiffness[rows] @ flat.T).T
+    forces = -np.asarray(system.node_stiffness[fixed] @ flat.T).T
+    total = np.zeros((len(displacement), 3))
     for axis in range(3):
-        total[:, axis] = -forces[:, rows % 6 == axis].sum(axis=1)
-    return -total
+        total[:, axis] = forces[:, fixed % 6 == axis].sum(axis=1)
+    return total
 
 
 def _levels_of_nodes(frame: Frame, names: tuple[str, ...]) -> Any:

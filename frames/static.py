@@ -12,7 +12,8 @@ from scipy.sparse.linalg import spsolve
 from frames._validate import ModelError
 from frames.assembly import assemble, geometric_stiffness, member_axial_forces
 from frames.basis import Basis, bearing_rows, build_basis
-from frames.kernel_data import ModelArrays, RunArrays, model_arrays, run_arrays
+from frames.kernel_data import Model, Run, model_arrays, run_arrays
+from frames.parts import bearing_axial_stiffness
 from frames.stepping import solve_gravity
 from lir_element.errors import AnalysisError, RunStatus
 
@@ -37,7 +38,7 @@ class GravityState:
         Geometric stiffness of the members under gravity.
     basis : Basis
         The frame in bearing coordinates.
-    model, run : ModelArrays, RunArrays
+    model, run : Model, Run
         What the kernels work on; `run` holds the equilibrium as committed state.
     displacement : ndarray, (n_free,)
         Displacements q under gravity.
@@ -48,8 +49,8 @@ class GravityState:
     system: System
     geometric: SparseMatrix
     basis: Basis
-    model: ModelArrays
-    run: RunArrays
+    model: Model
+    run: Run
     displacement: FloatArray
     axial_forces: FloatArray
 
@@ -118,15 +119,16 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
 
 def _springs(system: System) -> SparseMatrix:
     # Bearings as linear springs, for the first guess: axial stiffness, a hundredth sideways.
+    values = np.zeros((len(system.bearings), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
+    values[:, :2] = 0.01 * values[:, 2:3]
+    return _spring_matrix(system, values)
+
+
+def _spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
+    # Springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs.
     rows = bearing_rows(system)
-    blocks = []
-    for _, _, _, bearing in system.bearings:
-        axial = bearing.resolved()["axial_stiffness"]
-        k = np.zeros((12, 12))
-        for dof, value in ((0, 0.01 * axial), (1, 0.01 * axial), (2, axial)):
-            k[dof, dof] = k[dof + 6, dof + 6] = value
-            k[dof, dof + 6] = k[dof + 6, dof] = -value
-        blocks.append(k)
+    blocks = [np.kron([[1.0, -1.0], [-1.0, 1.0]], np.diag(row)) for row in values]
     return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
 
 
@@ -178,6 +180,9 @@ def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") 
     if count < 1:
         message = f"count = {count} must be at least 1"
         raise ModelError(message)
+    if bearings not in {"sliding", "sticking", "fixed"}:
+        message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
+        raise ModelError(message)
     state = gravity(frame)
     system = state.system
     k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
@@ -209,26 +214,17 @@ def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") 
 
 
 def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
-    system = state.system
-    rows = bearing_rows(system)
-    blocks = []
-    for place, (_, _, _, bearing) in enumerate(system.bearings):
-        axial = bearing.resolved()["axial_stiffness"]
-        load = float(state.axial_forces[place])
-        if bearings == "sliding":
-            values = [load / bearing.effective_radius] * 2 + [axial, 0.0, 0.0, 0.0]
-        elif bearings == "sticking":
-            mu = bearing.frictions
-            soft = sum(bearing.yield_displacement / max(f.f_min, 1e-6) for f in mu)
-            values = [load / soft] * 2 + [axial, 0.0, 0.0, 0.0]
-        elif bearings == "fixed":
-            values = [1e3 * axial] * 3 + [0.0] * 3
-        else:
-            message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
-            raise ModelError(message)
-        k = np.zeros((12, 12))
-        for dof, value in enumerate(values):
-            k[dof, dof] = k[dof + 6, dof + 6] = value
-            k[dof, dof + 6] = k[dof + 6, dof] = -value
-        blocks.append(k)
-    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
+    devices = [bearing for _, _, _, bearing in state.system.bearings]
+    values = np.zeros((len(devices), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
+    if bearings == "sliding":
+        length = np.array([bearing.effective_radius for bearing in devices])
+        values[:, :2] = (state.axial_forces / length)[:, None]
+    elif bearings == "sticking":
+        soft = [
+            sum(b.yield_displacement / max(f.f_min, 1e-6) for f in b.frictions) for b in devices
+        ]
+        values[:, :2] = (state.axial_forces / np.array(soft))[:, None]
+    else:
+        values[:, :3] = 1e3 * values[:, 2:3]
+    return _spring_matrix(state.system, values)

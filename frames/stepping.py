@@ -8,11 +8,16 @@ after the modes were eliminated, which depends on the step size only.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from frames._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum_tangent import fill_tangent
 from lir_element.pendulum_trial import accumulate, copy_words, trial
+
+if TYPE_CHECKING:
+    from frames.kernel_data import Model, Run
+    from lir_element.layout import Floats
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
@@ -24,13 +29,13 @@ _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 
 
 @kernel
-def has_no_state(code):
+def has_no_state(code: int) -> bool:
     """Return whether a bearing has no state at all (a limit exceeded is a state)."""
     return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED)
 
 
 @kernel
-def gather(model, k, b, out):
+def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
     """Set `out` (12,) to the displacements (or velocities) of bearing `k`'s nodes."""
     for row in range(12):
         total = 0.0
@@ -40,7 +45,7 @@ def gather(model, k, b, out):
 
 
 @kernel
-def bearing_forces(model, run, b, v_b, time):
+def bearing_forces(model: Model, run: Run, b: Floats, v_b: Floats, time: float) -> int:
     """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
     n_b = b.shape[0]
     for a in range(n_b):
@@ -65,13 +70,11 @@ def bearing_forces(model, run, b, v_b, time):
 
 
 @kernel
-def bearing_tangents(model, run, factor):
+def bearing_tangents(model: Model, run: Run, factor: float) -> None:
     """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
-        fill_tangent(
-            model.props[k], run.work[k], run.new[k].force, element, run.zero, run.axes
-        )
+        fill_tangent(model.props[k], run.work[k], run.new[k].force, element, run.zero, run.axes)
         for row in range(12):
             for i in range(model.start[k, row], model.start[k, row + 1]):
                 for col in range(12):
@@ -81,7 +84,7 @@ def bearing_tangents(model, run, factor):
 
 
 @kernel
-def solve_in_place(a, x):
+def solve_in_place(a: Floats, x: Floats) -> bool:
     """Solve ``a x = rhs`` (rhs in `x`) by Gaussian elimination; returns False if singular.
 
     Rows are pivoted; `a` is overwritten.
@@ -115,7 +118,7 @@ def solve_in_place(a, x):
 
 
 @kernel
-def norm(x):
+def norm(x: Floats) -> float:
     """Return the largest absolute entry; infinite if one is not finite."""
     largest = 0.0
     for a in range(x.shape[0]):
@@ -126,7 +129,9 @@ def norm(x):
 
 
 @kernel
-def set_residual(model, run, linear, step, time, share):
+def set_residual(
+    model: Model, run: Run, linear: Floats, step: Floats, time: float, share: float
+) -> float:
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
     residual = rhs - linear step - share force; infinite where the bearings have no state.
@@ -149,7 +154,15 @@ def set_residual(model, run, linear, step, time, share):
 
 
 @kernel
-def newton(model, run, linear, time, share, tolerance, max_iterations):
+def newton(
+    model: Model,
+    run: Run,
+    linear: Floats,
+    time: float,
+    share: float,
+    tolerance: float,
+    max_iterations: int,
+) -> int:
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
     `run.step` holds the first guess. A step that does not reduce the residual is shortened.
@@ -190,7 +203,7 @@ def newton(model, run, linear, time, share, tolerance, max_iterations):
 
 
 @kernel
-def solve_gravity(model, run, tolerance, max_iterations):
+def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int) -> int:
     """Bring the frame into equilibrium under its permanent loads; returns a status code.
 
     `run.b` holds the first guess; `run.step` is used. On success the state is committed.
@@ -223,7 +236,7 @@ def solve_gravity(model, run, tolerance, max_iterations):
 
 
 @kernel
-def commit_bearings(run):
+def commit_bearings(run: Run) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
         accumulate(run.old[k], run.new[k])

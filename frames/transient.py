@@ -10,7 +10,7 @@ import numpy as np
 from scipy import linalg
 
 from frames.integration import advance, record
-from frames.kernel_data import ENERGY_TERMS, Settings, output_arrays
+from frames.kernel_data import ENERGY_TERMS, Setup, output_arrays
 from frames.results import build_dataset
 from frames.static import force_tolerance, gravity
 from lir_element.element import LEVELS, limit_detail
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.basis import Basis
     from frames.ground_motion import GroundMotion
-    from frames.kernel_data import RunArrays
     from frames.model import Frame
     from frames.static import GravityState
 
@@ -133,9 +131,7 @@ def time_history(
     }
     name = state.system.bearings[int(counters[3])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else _culprit(state)
-    return report(
-        data, status, float(state.run.clock[0]), where, detail, on_failure=on_failure
-    )
+    return report(data, status, float(state.run.clock[0]), where, detail, on_failure=on_failure)
 
 
 def _check_options(
@@ -158,12 +154,12 @@ def _check_options(
 
 def _settings(
     state: GravityState, dt: float, controlled: bool, integrator: str, radius: float
-) -> Settings:
+) -> Setup:
     alpha_m, alpha_f = 0.0, 0.0
     if integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
     length = min(bearing.effective_radius for _, _, _, bearing in state.system.bearings)
-    return Settings(
+    return Setup(
         dt=float(dt),
         alpha_m=float(alpha_m),
         alpha_f=float(alpha_f),
@@ -179,9 +175,7 @@ def _start(state: GravityState, motion: GroundMotion) -> None:
     # Accelerations at rest: the ground's first sample acts on what has mass.
     run, basis = state.run, state.basis
     first = np.array([motion.components[0, axis] for axis in range(3)])
-    mass = np.block(
-        [[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.eye(len(basis.omega2))]]
-    )
+    mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.eye(len(basis.omega2))]])
     right = -np.concatenate([basis.inertia_b, basis.inertia_e]) @ first
     acceleration = linalg.pinvh(mass) @ right if first.any() else np.zeros(len(right))
     n_b = len(run.b)
@@ -194,7 +188,7 @@ def _start(state: GravityState, motion: GroundMotion) -> None:
 
 def _march(
     state: GravityState,
-    settings: Settings,
+    settings: Setup,
     motion: GroundMotion,
     out: Any,
     steps: int,

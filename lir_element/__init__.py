@@ -2,10 +2,10 @@
 
 from lir_element.bearing import DesignWarning as DesignWarning
 from lir_element.bearing import LIRBearing as LIRBearing
+from lir_element.cyclic_test import cyclic_test as cyclic_test
 from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError
 from lir_element.errors import AnalysisWarning as AnalysisWarning
 from lir_element.errors import RunStatus as RunStatus
 from lir_element.friction import CoulombFriction as CoulombFriction
 from lir_element.friction import VelocityFriction as VelocityFriction
-from lir_element.cyclic_test import cyclic_test as cyclic_test

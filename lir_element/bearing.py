@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -169,7 +169,7 @@ class LIRBearing:
             raise ValueError(msg)
 
     def _check_friction(self) -> None:
-        pair = as_pair("friction", self.friction)
+        pair: tuple[object, object] = as_pair("friction", self.friction)
         for law in pair:
             if not isinstance(law, (CoulombFriction, VelocityFriction)):
                 msg = (
@@ -178,7 +178,7 @@ class LIRBearing:
                 )
                 raise TypeError(msg)
         mu_h = require_positive("interface_friction", self.interface_friction, "-", infinite=True)
-        largest = max(law.f_max for law in pair)
+        largest = max(law.f_max for law in self.frictions)
         if self.allow_weak_interface:
             return
         if mu_h <= largest:
@@ -205,7 +205,7 @@ class LIRBearing:
         if self.capacity is not None:
             require_positive("capacity", self.capacity, "m", infinite=True)
         if self.rims is not None:
-            for value in as_pair("rims", self.rims):
+            for value in self.rims:
                 require_positive("rims", value, "m", infinite=True)
             if self.capacity is not None and not math.isclose(
                 self.capacity, self.lateral_capacity, rel_tol=1e-6
@@ -222,7 +222,9 @@ class LIRBearing:
                 f"exceed {_LARGEST_SINE} L = {limit:.4g} m; use larger radii"
             )
             raise ValueError(msg)
-        for name, reach, r in zip(("bottom", "top"), self.rim_displacement, self.radii, strict=True):
+        for name, reach, r in zip(
+            ("bottom", "top"), self.rim_displacement, self.radii, strict=True
+        ):
             if math.isfinite(reach) and reach + self.slider_radius >= r:
                 msg = (
                     f"the slider does not fit the {name} plate: at its rim it reaches "
@@ -240,7 +242,7 @@ class LIRBearing:
     @property
     def frictions(self) -> tuple[Friction, Friction]:
         """Friction of the bottom and of the top surface."""
-        return as_pair("friction", self.friction)
+        return cast("tuple[Friction, Friction]", as_pair("friction", self.friction))
 
     @property
     def effective_radius(self) -> float:
@@ -264,7 +266,10 @@ class LIRBearing:
 
     @property
     def effective_friction(self) -> float:
-        """Sliding force at zero displacement over weight, at high speed: (mu1 R1 + mu2 R2)/L [-]."""
+        """Sliding force at zero displacement over weight, at high speed [-].
+
+        (mu1 R1 + mu2 R2) / L, from the moment equilibrium of the slider.
+        """
         moment = sum(f.f_max * r for f, r in zip(self.frictions, self.radii, strict=True))
         return moment / self.effective_radius
 
@@ -288,7 +293,19 @@ class LIRBearing:
 
         ``W tan(theta_max + atan(mu_h))`` with ``sin(theta_max) = U_cap / L``: the interface,
         tilted by theta_max, carries W and mu_h times its normal force.
+
+        Parameters
+        ----------
+        axial_load : float
+            Vertical load W [N].
+
+        Returns
+        -------
+        float
+            Lateral force [N]; infinite for a bearing without rims or with its slider in one piece.
         """
+        if self.is_dcfp or math.isinf(self.lateral_capacity):
+            return math.inf
         tilt = math.asin(self.lateral_capacity / self.effective_radius)
         return axial_load * math.tan(tilt + math.atan(self.interface_friction))
 

@@ -3,18 +3,34 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum_tangent import fill_tangent
 from lir_element.pendulum_trial import accumulate, copy_words, trial
 
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, Records, State, Words, Work
+
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 
 
 @kernel
-def hold_load(p, old, new, w, u, v, time, load, k, zero, axes):
+def hold_load(
+    p: Props,
+    old: State,
+    new: State,
+    w: Work,
+    u: Floats,
+    v: Floats,
+    time: float,
+    load: float,
+    k: Floats,
+    zero: Floats,
+    axes: Floats,
+) -> int:
     """Find the vertical displacement ``u[8]`` that carries `load`; return a status code."""
     code = _NEWTON_FAILED
     for _ in range(40):
@@ -33,7 +49,21 @@ def hold_load(p, old, new, w, u, v, time, load, k, zero, axes):
 
 
 @kernel
-def run_path(props, states, words, work, path, loads, velocity, increment, k, zero, axes, out, v_out):
+def run_path(
+    props: Records,
+    states: Records,
+    words: Words,
+    work: Records,
+    path: Floats,
+    loads: Floats,
+    velocity: float,
+    increment: float,
+    k: Floats,
+    zero: Floats,
+    axes: Floats,
+    out: Words,
+    v_out: Floats,
+) -> tuple[int, int, float]:
     """Go through `path` (n, 2) at `velocity`; fill `out` (n, words) and `v_out` (n, 2).
 
     Returns the number of points reached, a status code and the time. `states` and `words` hold
@@ -53,7 +83,7 @@ def run_path(props, states, words, work, path, loads, velocity, increment, k, ze
     for point in range(path.shape[0]):
         d_x, d_y = path[point, 0] - x, path[point, 1] - y
         distance = math.sqrt(d_x * d_x + d_y * d_y)
-        parts = max(1, int(math.ceil(distance / increment)))
+        parts = max(1, math.ceil(distance / increment))
         duration = distance / velocity
         speed = velocity if distance > 0.0 else 0.0
         v[6] = d_x / distance * speed if distance > 0.0 else 0.0

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lir_element import pendulum_tangent, pendulum_trial
+from lir_element import pendulum_trial
 from lir_element.errors import AnalysisError, RunStatus
-from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
+from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records, Words
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -31,7 +31,7 @@ def initial_state(props: Records) -> Records:
     return state
 
 
-def as_words(records: Records) -> Floats:
+def as_words(records: Records) -> Words:
     """Return records (n,) as rows of 64-bit words (n, m), sharing their memory."""
     return records.view(np.int64).reshape(len(records), -1)
 
@@ -124,7 +124,7 @@ class Element:
         return self._tangent.copy()
 
     def initial_stiffness(self) -> Floats:
-        """Return the stiffness (12, 12) of the undeformed, sticking bearing under its design load."""
+        """Return the stiffness (12, 12) of the undeformed bearing, sticking under its design load."""
         if self._initial is None:
             other = Element.__new__(Element)
             other.__dict__ |= self.__dict__

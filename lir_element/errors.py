@@ -110,9 +110,7 @@ class AnalysisError(RuntimeError):
 def failure_message(status: RunStatus, time: float, where: str, detail: str = "") -> str:
     """Return the sentence that reports a failure: what, when, where, and what to try."""
     extra = f" ({detail})" if detail else ""
-    return (
-        f"at t = {time:.6g} s, {where}: {status.meaning}{extra}. What to try: {status.remedy}."
-    )
+    return f"at t = {time:.6g} s, {where}: {status.meaning}{extra}. What to try: {status.remedy}."
 
 
 class AnalysisWarning(UserWarning):

@@ -43,7 +43,7 @@ class CoulombFriction:
         """Rate parameter [s/m]; none."""
         return 0.0
 
-    def at_speed(self, speed: float) -> float:  # noqa: ARG002  (one interface for both laws)
+    def at_speed(self, speed: float) -> float:
         """Return the friction coefficient [-] at sliding speed `speed` [m/s]."""
         return float(self.coefficient)
 

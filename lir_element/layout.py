@@ -6,7 +6,7 @@ committed) and `WORK` (scratch of one state determination; nothing in it survive
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -157,5 +157,20 @@ WORK = dtype_of(WORK_FIELDS)
 
 STATE_BY_NAME = {f.name: f for f in STATE_FIELDS}
 
-Records = npt.NDArray[Any]
-Floats = npt.NDArray[np.float64]
+Records: TypeAlias = npt.NDArray[Any]
+"""Array of records."""
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+"""Array of float64; the shape is given where it is used."""
+
+Words: TypeAlias = npt.NDArray[np.int64]
+"""Records seen as rows of 64-bit words."""
+
+Props: TypeAlias = Any
+"""One record of dtype PROPS, as kernels see it."""
+
+State: TypeAlias = Any
+"""One record of dtype STATE."""
+
+Work: TypeAlias = Any
+"""One record of dtype WORK."""

@@ -19,14 +19,18 @@ All vectors here are in axes that turn with the bottom plate.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.rotation import rotate
 from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
 
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, State, Work
+
 
 @kernel
-def place_plates(p, w, u):
+def place_plates(p: Props, w: Work, u: Floats) -> None:
     """Set rotations and the line of centres from the nodes' displacements `u` (12,)."""
     rotate(u[3], u[4], u[5], w.q_i, w.spin_i)
     rotate(u[9], u[10], u[11], w.q_j, w.spin_j)
@@ -46,7 +50,7 @@ def place_plates(p, w, u):
 
 
 @kernel
-def set_axis(w, x, y, z):
+def set_axis(w: Work, x: float, y: float, z: float) -> None:
     """Set the axis n (normalised), the basis t, the string length and the slip."""
     size = math.sqrt(x * x + y * y + z * z)
     x, y, z = x / size, y / size, z / size
@@ -60,7 +64,7 @@ def set_axis(w, x, y, z):
 
 
 @kernel
-def turn_axis(w, x, y, z, eta_1, eta_2):
+def turn_axis(w: Work, x: float, y: float, z: float, eta_1: float, eta_2: float) -> None:
     """Set the axis to (x, y, z), whose basis is current, turned by eta."""
     set_axis(
         w,
@@ -71,7 +75,7 @@ def turn_axis(w, x, y, z, eta_1, eta_2):
 
 
 @kernel
-def aim_axis(p, old, w):
+def aim_axis(p: Props, old: State, w: Work) -> None:
     """Set the axis that keeps the slip as it was: the exact axis where the interface is fused."""
     if p.fused:
         set_axis(w, -w.c[0], -w.c[1], -w.c[2])
@@ -87,7 +91,7 @@ def aim_axis(p, old, w):
 
 
 @kernel
-def static_speeds(p, w, v):
+def static_speeds(p: Props, w: Work, v: Floats) -> None:
     """Set the sliding speeds of a trial at the committed time from the nodes' velocities."""
     rate = w.sums
     for k in range(3):
@@ -116,7 +120,7 @@ def static_speeds(p, w, v):
 
 
 @kernel
-def axial(p, old, w):
+def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike)."""
     gap = w.l - p.length
     w.n_true, w.stiff_n, w.closure = kelvin_voigt(
@@ -129,7 +133,7 @@ def axial(p, old, w):
 
 
 @kernel
-def surface(p, old, w, k):
+def surface(p: Props, old: State, w: Work, k: int) -> None:
     """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
     m = w.old_top if k == 1 else old.axis
     for a in range(2):
@@ -157,7 +161,7 @@ def surface(p, old, w, k):
 
 
 @kernel
-def interface(p, old, w):
+def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
     z_1, z_2, h_11, h_12, h_21, h_22, _, _, _ = return_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
@@ -170,7 +174,7 @@ def interface(p, old, w):
 
 
 @kernel
-def rims(p, old, w):
+def rims(p: Props, old: State, w: Work) -> None:
     """Set the rim forces of both plates."""
     for k in range(2):
         if k == 0:
@@ -195,7 +199,7 @@ def rims(p, old, w):
 
 
 @kernel
-def evaluate(p, old, w):
+def evaluate(p: Props, old: State, w: Work) -> None:
     """Set all forces at the current axis and the residual of the slider's equilibrium."""
     axial(p, old, w)
     surface(p, old, w, 0)
@@ -221,7 +225,7 @@ def evaluate(p, old, w):
 
 
 @kernel
-def elastic_jacobian(p, w):
+def elastic_jacobian(p: Props, w: Work) -> None:
     """Set the slider's jacobian as if nothing slipped: a safe direction when Newton's is not."""
     friction = w.n_hat * (
         w.l * w.l * p.interface_friction / p.interface_yield

@@ -7,11 +7,18 @@ slider's jacobian and the condensed tangent are made of it. docs/theory.md deriv
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from lir_element._jit import kernel
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, Work
 
 
 @kernel
-def friction_rate(w, k, axial_rate, dw_1, dw_2):
+def friction_rate(
+    w: Work, k: int, axial_rate: float, dw_1: float, dw_2: float
+) -> tuple[float, float]:
     """Return the derivative of the friction force of surface `k`."""
     return (
         w.n_hat * (w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2) + w.phi[k, 0] * axial_rate,
@@ -20,7 +27,9 @@ def friction_rate(w, k, axial_rate, dw_1, dw_2):
 
 
 @kernel
-def top_rates(p, w, e_1, e_2, v):
+def top_rates(
+    p: Props, w: Work, e_1: float, e_2: float, v: Floats
+) -> tuple[float, float, float, float]:
     """Return d(axis against the top plate) (3), rate of the top's radial sliding, d(r_top) (3)."""
     y_1 = w.t[0, 0] * e_1 + w.t[1, 0] * e_2 - (v[1] * w.n[2] - v[2] * w.n[1])
     y_2 = w.t[0, 1] * e_1 + w.t[1, 1] * e_2 - (v[2] * w.n[0] - v[0] * w.n[2])
@@ -38,7 +47,9 @@ def top_rates(p, w, e_1, e_2, v):
 
 
 @kernel
-def basis_rate(w, x, y, z, e_1, e_2, spin):
+def basis_rate(
+    w: Work, x: float, y: float, z: float, e_1: float, e_2: float, spin: float
+) -> tuple[float, float]:
     """Return d(t_a) . (x, y, z) for a = 1, 2 when the axis turns by eta."""
     along = w.n[0] * x + w.n[1] * y + w.n[2] * z
     on_1 = w.t[0, 0] * x + w.t[0, 1] * y + w.t[0, 2] * z
@@ -47,7 +58,9 @@ def basis_rate(w, x, y, z, e_1, e_2, spin):
 
 
 @kernel
-def direction(p, w, e_1, e_2, d, v):
+def direction(
+    p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats
+) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
     """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin.
 
     Where the interface is fused its force is left out: it follows from the residual.
@@ -117,7 +130,7 @@ def direction(p, w, e_1, e_2, d, v):
 
 
 @kernel
-def slider_jacobian(p, w, zero):
+def slider_jacobian(p: Props, w: Work, zero: Floats) -> None:
     """Set the derivative of the slider's residual, and of N, by a turn of its axis."""
     r = direction(p, w, 1.0, 0.0, zero, zero)
     w.jacobian[0, 0], w.jacobian[1, 0], w.axial_rate[0] = r[0], r[1], r[2]
@@ -126,7 +139,7 @@ def slider_jacobian(p, w, zero):
 
 
 @kernel
-def column(p, w, inv, col, d, v):
+def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> None:
     """Set column `col` of the condensed 6 x 6 stiffness: g and tau by centre and spin."""
     if p.fused:
         along = w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
@@ -179,7 +192,7 @@ def column(p, w, inv, col, d, v):
 
 
 @kernel
-def condense(p, w, zero, axes):
+def condense(p: Props, w: Work, zero: Floats, axes: Floats) -> None:
     """Set the condensed 6 x 6 stiffness in axes of the bottom plate.
 
     `zero` is (3,) of zeros and `axes` the (3, 3) unit matrix.
@@ -197,7 +210,7 @@ def condense(p, w, zero, axes):
 
 
 @kernel
-def rotate_to_global(w):
+def rotate_to_global(w: Work) -> None:
     """Turn the 6 x 6 stiffness (four 3 x 3 blocks) and dn6 into global axes, in place."""
     q = w.q_i
     for block_row in (0, 3):
@@ -220,7 +233,18 @@ def rotate_to_global(w):
 
 
 @kernel
-def spread(row, x, y, z, w, lever_i, lever_j, s_x, s_y, s_z):
+def spread(
+    row: Floats,
+    x: float,
+    y: float,
+    z: float,
+    w: Work,
+    lever_i: float,
+    lever_j: float,
+    s_x: float,
+    s_y: float,
+    s_z: float,
+) -> None:
     """Fill the 12 entries of `row`: derivative by (shift of centre x, y, z; spin s) in B form.
 
     shift = u_j - u_i + (a_i e_i + c) x phi_i + a_j e_j x phi_j, spin = phi_j - phi_i.
@@ -243,7 +267,7 @@ def spread(row, x, y, z, w, lever_i, lever_j, s_x, s_y, s_z):
 
 
 @kernel
-def add_cross(k, first, col, x, y, z, sign):
+def add_cross(k: Floats, first: int, col: int, x: float, y: float, z: float, sign: float) -> None:
     """Add the derivative of ``sign * phi x (x, y, z)`` by phi to rows `first`, columns `col`."""
     k[first, col + 1] += sign * z
     k[first, col + 2] -= sign * y
@@ -254,7 +278,7 @@ def add_cross(k, first, col, x, y, z, sign):
 
 
 @kernel
-def fill_tangent(p, w, force, k, zero, axes):
+def fill_tangent(p: Props, w: Work, force: Floats, k: Floats, zero: Floats, axes: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial that `w` holds; `force` is its (12,) force.
 
     Unsymmetric. Rows: node i, node j; each forces, then moments.
@@ -306,7 +330,7 @@ def fill_tangent(p, w, force, k, zero, axes):
 
 
 @kernel
-def axial_torsion(p, w, k):
+def axial_torsion(p: Props, w: Work, k: Floats) -> None:
     """Add the change of the torsional friction (about z, + on node j) with the axial force."""
     if w.torque_axial == 0.0:
         return
@@ -320,7 +344,7 @@ def axial_torsion(p, w, k):
 
 
 @kernel
-def apply_spin(spin, k, first):
+def apply_spin(spin: Floats, k: Floats, first: int) -> None:
     """Turn columns `first`.. from derivatives by spin into derivatives by the rotation vector."""
     for row in range(12):
         x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]

@@ -7,6 +7,7 @@ twice gives the same bits. To commit: `accumulate`, then `copy_words` of the new
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
@@ -20,6 +21,9 @@ from lir_element.pendulum import (
 )
 from lir_element.pendulum_tangent import fill_tangent, slider_jacobian
 from lir_element.slip import return_map
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, Records, State, Words, Work
 
 _OK = int(RunStatus.OK)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
@@ -35,13 +39,13 @@ _SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing lef
 
 
 @kernel
-def residual_size(w):
+def residual_size(w: Work) -> float:
     """Return the residual of the slider's equilibrium over axial force and length."""
     return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
 
 
 @kernel
-def mark_start(w):
+def mark_start(w: Work) -> None:
     """Keep the current axis as the start of a search; on a rim, keep its parallel circle too."""
     for a in range(3):
         w.start[0, a], w.start[1, a], w.start[2, a] = w.n[a], w.t[0, a], w.t[1, a]
@@ -53,7 +57,7 @@ def mark_start(w):
 
 
 @kernel
-def move(p, old, w, e_1, e_2):
+def move(p: Props, old: State, w: Work, e_1: float, e_2: float) -> None:
     """Turn the axis from the start of the search by eta and evaluate there.
 
     On a rim the turn follows the rim's circle: a straight one would run into the rim's stiffness
@@ -72,14 +76,12 @@ def move(p, old, w, e_1, e_2):
         along = (-u_2 * e_1 + u_1 * e_2) / radius
         tilt = math.atan2(radius, s[0, 2]) + u_1 * e_1 + u_2 * e_2
         cos, sin, out = math.cos(along), math.sin(along), math.sin(tilt)
-        set_axis(
-            w, out * (cos * u_1 - sin * u_2), out * (sin * u_1 + cos * u_2), math.cos(tilt)
-        )
+        set_axis(w, out * (cos * u_1 - sin * u_2), out * (sin * u_1 + cos * u_2), math.cos(tilt))
     evaluate(p, old, w)
 
 
 @kernel
-def newton_turn(p, old, w, zero):
+def newton_turn(p: Props, old: State, w: Work, zero: Floats) -> float:
     """Turn the axis along Newton's direction; return the new relative residual, -1 if no gain."""
     size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
     slider_jacobian(p, w, zero)
@@ -106,7 +108,7 @@ def newton_turn(p, old, w, zero):
 
 
 @kernel
-def steepest_turn(p, old, w):
+def steepest_turn(p: Props, old: State, w: Work) -> float:
     """Turn the axis against the residual until its part along that direction vanishes.
 
     The safeguard where everything slides and Newton sees no stiffness: expand, then bisect
@@ -142,7 +144,7 @@ def steepest_turn(p, old, w):
 
 
 @kernel
-def solve_axis(p, old, w, zero):
+def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
     """Find the axis in equilibrium; return the iterations taken, or -1."""
     evaluate(p, old, w)
     if p.fused:
@@ -165,7 +167,7 @@ def solve_axis(p, old, w, zero):
 
 
 @kernel
-def set_forces(w, p, new, old):
+def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     """Set the nodes' forces from the evaluated string, surfaces and rims."""
     s_1, s_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     k_1, k_2 = w.n_hat * w.phi[1, 0], w.n_hat * w.phi[1, 1]
@@ -195,7 +197,7 @@ def set_forces(w, p, new, old):
 
 
 @kernel
-def torsion(p, old, w, new):
+def torsion(p: Props, old: State, w: Work, new: State) -> None:
     """Set the friction moment about the vertical: the weakest of the three contacts slips.
 
     Full circular contacts under uniform pressure; the friction coefficients are those of the
@@ -214,7 +216,7 @@ def torsion(p, old, w, new):
 
 
 @kernel
-def set_state(p, old, w, new):
+def set_state(p: Props, old: State, w: Work, new: State) -> None:
     """Fill what the record keeps of the sliders."""
     n, t, q = w.n, w.t, w.q_i
     for a in range(3):
@@ -246,7 +248,7 @@ def set_state(p, old, w, new):
 
 
 @kernel
-def limit_status(p, new):
+def limit_status(p: Props, new: State) -> int:
     """Return whether the bearing's limits hold in the state `new`."""
     if math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > p.slip_capacity:
         return _SLIP_EXCEEDED
@@ -256,7 +258,9 @@ def limit_status(p, new):
 
 
 @kernel
-def trial(p, old, new, w, u, v, time, zero):
+def trial(
+    p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float, zero: Floats
+) -> int:
     """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
 
     Returns a RunStatus code. A limit of the bearing that is exceeded leaves a valid state:
@@ -298,7 +302,7 @@ def trial(p, old, new, w, u, v, time, zero):
 
 
 @kernel
-def accumulate(old, new):
+def accumulate(old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Works by the trapezoidal rule: over the step they sum to that of the nodes' forces.
@@ -328,25 +332,36 @@ def accumulate(old, new):
 
 
 @kernel
-def copy_words(source, target):
+def copy_words(source: Words, target: Words) -> None:
     """Copy one record, seen as a row of 64-bit words."""
     for k in range(source.shape[0]):
         target[k] = source[k]
 
 
 @kernel
-def trial_one(props, committed, trial_state, work, u, v, time, zero):
+def trial_one(
+    props: Records,
+    committed: Records,
+    trial_state: Records,
+    work: Records,
+    u: Floats,
+    v: Floats,
+    time: float,
+    zero: Floats,
+) -> int:
     """Run `trial` on arrays of one record (records cross into kernels as arrays)."""
     return trial(props[0], committed[0], trial_state[0], work[0], u, v, time, zero)
 
 
 @kernel
-def tangent_one(props, trial_state, work, k, zero, axes):
+def tangent_one(
+    props: Records, trial_state: Records, work: Records, k: Floats, zero: Floats, axes: Floats
+) -> None:
     """Fill the tangent `k` (12, 12) of the trial in `work`, for arrays of one record."""
     fill_tangent(props[0], work[0], trial_state[0].force, k, zero, axes)
 
 
 @kernel
-def accumulate_one(committed, trial_state):
+def accumulate_one(committed: Records, trial_state: Records) -> None:
     """Run `accumulate` on arrays of one record."""
     accumulate(committed[0], trial_state[0])

@@ -36,6 +36,11 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         Committed states.
     velocity : ndarray, shape (n_steps, n_bearings, 3)
         Velocity of node j relative to node i [m/s].
+
+    Returns
+    -------
+    dict
+        Variables by name.
     """
     u, f = states["displacement"], states["force"]
     each = (step, "bearing")

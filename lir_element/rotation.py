@@ -7,12 +7,16 @@ section 16.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 
+if TYPE_CHECKING:
+    from lir_element.layout import Floats
+
 
 @kernel
-def coefficients(square):
+def coefficients(square: float) -> tuple[float, float, float]:
     """Return sin(x)/x, (1 - cos(x))/x^2 and (x - sin(x))/x^3 of x^2 = `square`."""
     if square < 2.5e-3:  # series: the next terms lie below round-off
         s = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
@@ -25,7 +29,7 @@ def coefficients(square):
 
 
 @kernel
-def rotate(x, y, z, q, spin):
+def rotate(x: float, y: float, z: float, q: Floats, spin: Floats) -> None:
     """Fill `q` (3, 3) with the matrix of the rotation vector and `spin` (3, 3) with d(spin)."""
     s, c, d = coefficients(x * x + y * y + z * z)
     for row in range(3):

@@ -18,7 +18,7 @@ from lir_element._jit import kernel
 
 
 @kernel
-def bouc_wen_radius(size, kappa, exponent):
+def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, float]:
     """Return rho of ``rho + kappa rho^eta = size`` and d(rho)/d(size) by Newton's method."""
     rho = min(size, 1.0)
     for _ in range(60):
@@ -32,7 +32,9 @@ def bouc_wen_radius(size, kappa, exponent):
 
 
 @kernel
-def return_map(bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y):
+def return_map(
+    bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
+) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Return the hysteretic variable, its derivative, the slip, and that one's derivative.
 
     Nine numbers: z (2), dz/d(dw) (2 x 2, by rows), the slipped part of the sliding (>= 0, along
@@ -73,7 +75,9 @@ def return_map(bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y):
 
 
 @kernel
-def friction_coefficient(f_max, drop, rate, speed):
+def friction_coefficient(
+    f_max: float, drop: float, rate: float, speed: float
+) -> tuple[float, float]:
     """Return mu and d(mu)/d(speed) of Eq. (1) of the paper (Mokha et al. 1990)."""
     if drop == 0.0:
         return f_max, 0.0
@@ -82,7 +86,9 @@ def friction_coefficient(f_max, drop, rate, speed):
 
 
 @kernel
-def kelvin_voigt(gap, closure_old, stiffness, damping, dt):
+def kelvin_voigt(
+    gap: float, closure_old: float, stiffness: float, damping: float, dt: float
+) -> tuple[float, float, float]:
     """Return force, its derivative and the closure of a contact that never pulls (Eq. 2).
 
     The damper acts on the closure, which is zero while the contact is open: the force stays

@@ -101,7 +101,7 @@ def smooth_path(
     seed: int,
     count: int,
     *,
-    reach: float = 1.12,
+    reach: float = 1.35,
     tilt: float = 0.008,
     twist: float = 0.02,
     load: float = 1e5,

@@ -1,0 +1,305 @@
+"""Where the bodies of a bearing are: numbers for drawing its vertical section to scale.
+
+Everything lies in one vertical plane through the bottom plate's axis; a point is (horizontal,
+vertical), in m, from the vertex of the bottom concave surface. Displacements across that plane
+are left out. Notation and signs: docs/conventions.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from lir_element import LIRBearing
+
+_ARC_POINTS = 121
+_RIM_SHARE = 0.6  # of the height that is free for a rim
+BODIES = ("bottom plate", "bottom slider", "top slider", "top plate")
+
+
+@dataclass(frozen=True)
+class Posture:
+    """A bearing's bodies in the plane of the section.
+
+    Attributes
+    ----------
+    axis : ndarray, shape (2,)
+        Unit vector n of the slider, upwards.
+    plate_axis : ndarray, shape (2,)
+        Unit vector of the top plate e_j, upwards; that of the bottom plate is (0, 1).
+    slip : float
+        Interface slip of the top slider on the bottom one, along `across` [m].
+    """
+
+    axis: FloatArray
+    plate_axis: FloatArray
+    slip: float
+
+    @property
+    def across(self) -> FloatArray:
+        """Unit vector in the interface, to the right."""
+        return np.array([self.axis[1], -self.axis[0]])
+
+
+def slider_axis(data: xr.Dataset, bearing: LIRBearing, name: str) -> FloatArray:
+    """Return the slider's axis of a bearing over time, from its sliding on the bottom plate.
+
+    With ``d1 = -R1 (n - e_i)`` and a bottom plate that stays level, ``n = (0, 0, 1) - d1 / R1``.
+
+    Parameters
+    ----------
+    data : Dataset
+        Holds `slider_displacement`.
+    bearing : LIRBearing
+        The device.
+    name : str
+        Its name in the Dataset.
+
+    Returns
+    -------
+    ndarray, shape (n_steps, 3)
+        Unit vectors n.
+    """
+    sliding = data["slider_displacement"].sel(bearing=name, surface="bottom").to_numpy()
+    return np.array([0.0, 0.0, 1.0]) - sliding / bearing.radii[0]
+
+
+def posture(
+    data: xr.Dataset, bearing: LIRBearing, name: str, time: float, direction: FloatArray
+) -> Posture:
+    """Return the bodies at an instant, projected on a vertical plane.
+
+    Parameters
+    ----------
+    data : Dataset
+        Result of `frames.time_history`.
+    bearing : LIRBearing
+        The device.
+    name : str
+        Its name in the Dataset.
+    time : float
+        Instant [s]; the nearest recorded one is taken.
+    direction : ndarray, shape (2,)
+        Horizontal unit vector of the plane.
+
+    Returns
+    -------
+    Posture
+        Axes and slip in the plane.
+    """
+    now = data.sel(time=time, method="nearest")
+    place = int(np.argmin(np.abs(data["time"].to_numpy() - time)))
+    axis = slider_axis(data, bearing, name)[place]
+    top = now["slider_displacement"].sel(bearing=name, surface="top").to_numpy()
+    plate = axis + top / bearing.radii[1]  # d2 = -R2 (n - e_j)
+    flat = _in_plane(axis, direction)
+    slip = now["interface_slip"].sel(bearing=name).to_numpy()
+    across = np.array([flat[1], -flat[0]])
+    inside = np.array([slip[:2] @ direction, slip[2]])
+    return Posture(flat, _in_plane(plate, direction), float(inside @ across))
+
+
+def contact_points(bearing: LIRBearing, now: Posture) -> dict[str, FloatArray]:
+    """Return the points that fix the bodies, shape (2,) each [m].
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    now : Posture
+        Its bodies.
+
+    Returns
+    -------
+    dict of str to ndarray
+        "centre bottom", "centre top": of the spheres, C1 and C2; "bottom", "top": contacts on the
+        sliders' axes; "interface bottom", "interface top": where the axes of the bottom and the
+        top slider pierce the interface; "vertex": of the top concave surface.
+    """
+    r_1, r_2 = bearing.radii
+    centre = np.array([0.0, r_1])
+    bottom = centre - r_1 * now.axis
+    middle = bottom + interface_height(bearing) * now.axis
+    middle_top = middle + now.slip * now.across
+    top = middle_top + (bearing.slider_height - interface_height(bearing)) * now.axis
+    centre_top = top - r_2 * now.axis
+    return {
+        "centre bottom": centre,
+        "centre top": centre_top,
+        "bottom": bottom,
+        "top": top,
+        "interface bottom": middle,
+        "interface top": middle_top,
+        "vertex": centre_top + r_2 * now.plate_axis,
+    }
+
+
+def interface_height(bearing: LIRBearing) -> float:
+    """Return the height of the interface over the bottom contact, along the axis [m].
+
+    Half the slider's height; where a cap is higher than that, so that both sliders have the same
+    thickness at their edges.
+    """
+    half = 0.5 * bearing.slider_height
+    caps = [_sagitta(r, bearing.slider_radius) for r in bearing.radii]
+    if half > max(caps):
+        return half
+    return caps[0] + 0.5 * (bearing.slider_height - sum(caps))
+
+
+def rim_face(bearing: LIRBearing, surface: int) -> float:
+    """Return the distance of a rim's inner face from the plate's axis [m].
+
+    The slider's edge, `slider_radius` from its axis on the sphere, is there when the axis has slid
+    by `rim_displacement`; infinite without a rim.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    surface : {0, 1}
+        Bottom or top plate.
+    """
+    reach, radius = bearing.rim_displacement[surface], bearing.radii[surface]
+    if not math.isfinite(reach):
+        return math.inf
+    return radius * math.sin(math.asin(reach / radius) + math.asin(bearing.slider_radius / radius))
+
+
+def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
+    """Return the distance from the slider's edge to the nearer rim face [m]; negative: pressed in.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    now : Posture
+        Its bodies.
+    surface : {0, 1}
+        Bottom or top plate.
+    """
+    radius = bearing.radii[surface]
+    tilt = _turn(now, surface)
+    edge = radius * math.sin(abs(tilt) + math.asin(bearing.slider_radius / radius))
+    return rim_face(bearing, surface) - edge
+
+
+def rim_height(bearing: LIRBearing) -> float:
+    """Return a height of the rims over the plates' edges that leaves all bodies free [m].
+
+    A share of the smaller of: the edge of the slider below the interface, and half the space
+    between the edges of the two plates. Zero where there is no space. The Dataset says nothing
+    about it: this one is for the picture.
+    """
+    faces = [rim_face(bearing, k) for k in (0, 1)]
+    if not all(math.isfinite(face) for face in faces):
+        return 0.0
+    free = bearing.slider_height - sum(
+        _sagitta(r, face) for r, face in zip(bearing.radii, faces, strict=True)
+    )
+    lower = interface_height(bearing)
+    edges = (
+        lower - _sagitta(bearing.radii[0], bearing.slider_radius),
+        bearing.slider_height - lower - _sagitta(bearing.radii[1], bearing.slider_radius),
+    )
+    return _RIM_SHARE * max(0.0, min(0.5 * free, *edges))
+
+
+def outlines(
+    bearing: LIRBearing, now: Posture, reach: float | None = None
+) -> dict[str, FloatArray]:
+    """Return the outlines of the four bodies, closed polygons of shape (n, 2) [m].
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    now : Posture
+        Its bodies.
+    reach : float, optional
+        Half the width of the concave surfaces of a bearing without rims [m]; a third of the
+        smaller radius if left out.
+
+    Returns
+    -------
+    dict of str to ndarray
+        "bottom plate", "bottom slider", "top slider", "top plate". A rim that is pressed in is
+        drawn moved outwards, so that nothing overlaps.
+    """
+    points = contact_points(bearing, now)
+    lower = interface_height(bearing)
+    upper = bearing.slider_height - lower
+    half = [_half_slider(r, bearing.slider_radius, h)
+            for r, h in zip(bearing.radii, (lower, upper), strict=True)]  # fmt: skip
+    sides = (_plate(bearing, now, 0, reach), _plate(bearing, now, 1, reach))
+    normal, plate = now.axis, now.plate_axis
+    return {
+        "bottom plate": sides[0],
+        "bottom slider": points["bottom"] + _placed(half[0], normal),
+        "top slider": points["top"] + _placed(half[1] * (1.0, -1.0), normal),
+        "top plate": points["vertex"] + _placed(sides[1] * (1.0, -1.0), plate),
+    }
+
+
+def area_of(outline: FloatArray) -> float:
+    """Return the area of a closed polygon of shape (n, 2) [m2]."""
+    x, z = outline.T
+    return 0.5 * abs(float(x @ np.roll(z, -1) - z @ np.roll(x, -1)))
+
+
+def _in_plane(vector: FloatArray, direction: FloatArray) -> FloatArray:
+    flat = np.array([vector[:2] @ direction, vector[2]])
+    return flat / np.linalg.norm(flat)
+
+
+def _sagitta(radius: float, half_width: float) -> float:
+    return radius - math.sqrt(radius**2 - half_width**2)
+
+
+def _turn(now: Posture, surface: int) -> float:
+    # Angle of the slider's offset against the axis of a plate [rad], positive to the right in
+    # that plate's own axes (those of the top plate hang downwards, mirrored at the horizontal).
+    plate = np.array([0.0, 1.0]) if surface == 0 else now.plate_axis
+    cross = plate[0] * now.axis[1] - plate[1] * now.axis[0]
+    angle = math.atan2(cross, float(plate @ now.axis))
+    return angle if surface == 0 else -angle
+
+
+def _placed(points: FloatArray, up: FloatArray) -> FloatArray:
+    # Points of a body whose own axis is `up`, turned with it.
+    right = np.array([up[1], -up[0]])
+    return points[:, :1] * right + points[:, 1:] * up
+
+
+def _half_slider(radius: float, half_width: float, height: float) -> FloatArray:
+    # Cap downwards, contact at the origin, plane face at `height`.
+    x = np.linspace(-half_width, half_width, _ARC_POINTS)
+    arc = np.column_stack([x, radius - np.sqrt(radius**2 - x**2)])
+    return np.vstack([arc, [[half_width, height], [-half_width, height]]])
+
+
+def _plate(bearing: LIRBearing, now: Posture, surface: int, reach: float | None) -> FloatArray:
+    # Concave surface upwards, vertex at the origin.
+    radius, face = bearing.radii[surface], rim_face(bearing, surface)
+    has_rim = math.isfinite(face)
+    if not has_rim:
+        face = min(bearing.radii) / 3.0 if reach is None else reach
+    pressed = max(0.0, -rim_gap(bearing, now, surface)) if has_rim else 0.0
+    tilt = _turn(now, surface)
+    left, right = face + pressed * (tilt < 0.0), face + pressed * (tilt > 0.0)
+    x = np.linspace(-left, right, 2 * _ARC_POINTS)
+    arc = np.column_stack([x, radius - np.sqrt(radius**2 - x**2)])
+    rim, width = rim_height(bearing) if has_rim else 0.0, 0.3 * bearing.slider_height
+    edge, below = _sagitta(radius, face), -0.35 * bearing.slider_height
+    outer = face + width
+    crown = edge + rim
+    body = [[right, crown], [outer, crown], [outer, below], [-outer, below], [-outer, crown],
+            [-left, crown]]  # fmt: skip
+    return np.vstack([arc, body])
