@@ -16,10 +16,10 @@ from frames.bearing_geometry import (
     posture,
     rim_face,
 )
-from frames.plot_style import GREY, SMALL, TITLE, new_figure
+from frames.plot_style import GREY, PAGE_WIDTH, SMALL, TITLE, add_legend, new_figure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -119,8 +119,8 @@ def bearing_sections(
     Returns
     -------
     Figure
-        A panel for each instant. Movements across the section are left out; each panel names
-        their size where it exceeds 1 mm.
+        A panel for each instant. Movements across the section are not shown; each panel names
+        those of more than 1 mm.
 
     Raises
     ------
@@ -140,12 +140,14 @@ def bearing_sections(
     plane = impact_direction(data, name, key) if direction is None else direction
     columns = 1 if len(chosen) == 1 else 2
     rows = math.ceil(len(chosen) / columns)
-    figure = new_figure(0.75 + 2.15 * rows)
+    postures = [posture(data, bearing, name, time, plane) for time in chosen.values()]
+    reach = _reach(data, bearing, name)
+    frame = _window([outlines(bearing, now, reach) for now in postures])
+    share = (frame[3] - frame[2]) / (frame[1] - frame[0])
+    figure = new_figure(0.75 + rows * (0.62 + share * (PAGE_WIDTH / columns - 0.15)))
     panels = [ax for row in figure.subplots(rows, columns, squeeze=False) for ax in row]
-    frame = _window(data, bearing, name, plane)
-    for ax, (title, time) in zip(panels, chosen.items(), strict=False):
-        now = posture(data, bearing, name, time, plane)
-        draw_section(ax, bearing, now, reach=_reach(data, bearing, name))
+    for ax, now, (title, time) in zip(panels, postures, chosen.items(), strict=False):
+        draw_section(ax, bearing, now, reach=reach)
         ax.set_xlim(frame[0], frame[1])
         ax.set_ylim(frame[2], frame[3])
         _annotate(ax, data, name, time, plane, now)
@@ -153,15 +155,14 @@ def bearing_sections(
     for ax in panels[len(chosen) :]:
         ax.set_axis_off()
     _scale_bar(panels[0], frame)
-    handles = [Polygon(np.zeros((1, 2)), facecolor=FILLS[b], edgecolor="black", linewidth=0.6,
-                       label=b.replace("bottom plate", "plates")) for b in BODIES[:3]]  # fmt: skip
-    figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False,
-                  fontsize=SMALL)  # fmt: skip
+    handles = [
+        Polygon(np.zeros((1, 2)), facecolor=FILLS[body], edgecolor="black", linewidth=0.6,
+                label=body.replace("bottom plate", "plates"))
+        for body in BODIES[:3]
+    ]  # fmt: skip
     angle = math.degrees(math.atan2(plane[1], plane[0]))
-    figure.suptitle(
-        f"{name}: section through the direction of the impact ({angle:.0f}° from x), to scale",
-        fontsize=SMALL + 2.5,
-    )
+    heading = f"{name}, to scale: section through the direction of the impact, {angle:.0f}° from x"
+    add_legend(figure, handles, title=heading)
     return figure
 
 
@@ -189,10 +190,9 @@ def draw_section(
         )
     points = contact_points(bearing, now)
     half = bearing.slider_radius * now.across
-    for end, colour in (("interface bottom", INTERFACE), ("interface top", INTERFACE)):
-        if not bearing.is_dcfp:
-            line = np.array([points[end] - half, points[end] + half])
-            ax.plot(*line.T, color=colour, linewidth=1.2, solid_capstyle="butt")
+    for end in () if bearing.is_dcfp else ("interface bottom", "interface top"):
+        line = np.array([points[end] - half, points[end] + half])
+        ax.plot(*line.T, color=INTERFACE, linewidth=1.2, solid_capstyle="butt")
     for low, high in (("bottom", "interface bottom"), ("interface top", "top")):
         ax.plot(*np.array([points[low], points[high]]).T, color="black", linewidth=0.7,
                 linestyle=(0, (6, 2, 1, 2)))  # fmt: skip
@@ -208,11 +208,15 @@ def _annotate(
     u = state["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
     aside = float(u @ np.array([-plane[1], plane[0]]))
     rim = float(state["rim_force"].max())
-    text = f"displacement {1e3 * float(u @ plane):.0f} mm, slip {1e3 * now.slip:.1f} mm"
-    if rim > 0.0:
-        text += f", rim {1e-3 * rim:.0f} kN"
+    text = f"displacement {1e3 * float(u @ plane):.0f} mm"
     if abs(aside) > 1e-3:
-        text += f"\nacross the section {1e3 * aside:.0f} mm (not shown)"
+        text += f", and {1e3 * abs(aside):.0f} mm across"
+    text += f"\nslip {1e3 * now.slip:.1f} mm"
+    slip = float(state["interface_slip_size"])
+    if slip - abs(now.slip) > 1e-3:
+        text += f" ({1e3 * slip:.1f} mm in plan)"
+    if rim > 0.0:
+        text += f", rim force {1e-3 * rim:.0f} kN"
     ax.text(0.0, -0.01, text, transform=ax.transAxes, ha="left", va="top", fontsize=SMALL)
 
 
@@ -230,20 +234,12 @@ def _reach(data: xr.Dataset, bearing: LIRBearing, name: str) -> float:
     return min(far, 0.95 * min(bearing.radii))
 
 
-def _window(
-    data: xr.Dataset, bearing: LIRBearing, name: str, plane: FloatArray
-) -> tuple[float, float, float, float]:
-    # Limits that hold the bearing at all times: left, right, bottom, top [m].
-    u = data["bearing_displacement"].sel(bearing=name, axis=["x", "y"]).to_numpy() @ plane
-    h = bearing.slider_height
-    side = _reach(data, bearing, name) + 0.4 * h
-    rise = float(np.abs(u).max()) ** 2 / (2.0 * bearing.effective_radius)
-    return (
-        min(float(u.min()), 0.0) - side,
-        max(float(u.max()), 0.0) + side,
-        -0.45 * h,
-        1.45 * h + 1.3 * rise,
-    )
+def _window(drawn: Sequence[Mapping[str, FloatArray]]) -> tuple[float, float, float, float]:
+    # Limits that hold all bodies at all instants, with a margin: left, right, bottom, top [m].
+    points = np.vstack([outline for bodies in drawn for outline in bodies.values()])
+    left, bottom = points.min(axis=0) - 0.01
+    right, top = points.max(axis=0) + 0.01
+    return float(left), float(right), float(bottom), float(top) + 0.02
 
 
 def _scale_bar(ax: Axes, frame: tuple[float, float, float, float]) -> None:

@@ -144,8 +144,16 @@ def contact_points(bearing: LIRBearing, now: Posture) -> dict[str, FloatArray]:
 def interface_height(bearing: LIRBearing) -> float:
     """Return the height of the interface over the bottom contact, along the axis [m].
 
-    Half the slider's height; where a cap is higher than that, so that both sliders have the same
-    thickness at their edges.
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        Half the slider's height; where a cap is higher than that, the height that gives both
+        sliders the same thickness at their edges.
     """
     half = 0.5 * bearing.slider_height
     caps = [_sagitta(r, bearing.slider_radius) for r in bearing.radii]
@@ -158,7 +166,7 @@ def rim_face(bearing: LIRBearing, surface: int) -> float:
     """Return the distance of a rim's inner face from the plate's axis [m].
 
     The slider's edge, `slider_radius` from its axis on the sphere, is there when the axis has slid
-    by `rim_displacement`; infinite without a rim.
+    by `rim_displacement`.
 
     Parameters
     ----------
@@ -166,6 +174,11 @@ def rim_face(bearing: LIRBearing, surface: int) -> float:
         The device.
     surface : {0, 1}
         Bottom or top plate.
+
+    Returns
+    -------
+    float
+        The distance; infinite without a rim.
     """
     reach, radius = bearing.rim_displacement[surface], bearing.radii[surface]
     if not math.isfinite(reach):
@@ -174,7 +187,7 @@ def rim_face(bearing: LIRBearing, surface: int) -> float:
 
 
 def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
-    """Return the distance from the slider's edge to the nearer rim face [m]; negative: pressed in.
+    """Return the distance from the slider's edge to the nearer rim face [m].
 
     Parameters
     ----------
@@ -184,6 +197,11 @@ def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
         Its bodies.
     surface : {0, 1}
         Bottom or top plate.
+
+    Returns
+    -------
+    float
+        The gap; negative where the rim is pressed in, infinite without a rim.
     """
     radius = bearing.radii[surface]
     tilt = _turn(now, surface)
@@ -194,9 +212,18 @@ def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
 def rim_height(bearing: LIRBearing) -> float:
     """Return a height of the rims over the plates' edges that leaves all bodies free [m].
 
-    A share of the smaller of: the edge of the slider below the interface, and half the space
-    between the edges of the two plates. Zero where there is no space. The Dataset says nothing
-    about it: this one is for the picture.
+    The model does not know it: this one is for the picture.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        A share of the smallest of: the edges of both sliders, and half the space between the
+        edges of the plates. Zero where there is no space, or no rim.
     """
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if not all(math.isfinite(face) for face in faces):

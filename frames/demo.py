@@ -55,7 +55,7 @@ RECORD_SIGNS = (1.0, -1.0, -1.0)
 """The record's axes S16E, S74W and down; turned by 180 degrees about the first, z points up."""
 
 QUICK_DURATION = 4.5  # s: covers the first impacts
-FORCE_LIMIT = 0.6  # of weight, end of the axes where impacts would flatten the loops
+FORCE_LIMIT = 0.4  # of weight, end of the axes where impacts would flatten the loops
 RESOLUTION = 150  # dots per inch
 
 
@@ -240,17 +240,18 @@ def figures_of(
     capacity = {LIR: CAPACITY, DCFP: CAPACITY, FREE: math.inf}
     return {
         "01-isolation-loops": hysteresis(results, force_limit=FORCE_LIMIT),
-        "02-orbits": orbits(results, worst, capacity=capacity),
-        "03-histories": histories(
+        "02-bearing-loops": hysteresis(results, worst, force_limit=2.0 * FORCE_LIMIT),
+        "03-orbits": orbits(results, worst, capacity=capacity),
+        "04-histories": histories(
             results,
             ("ground_acceleration", "displacement", "base_shear", "interface_slip", "axial_force"),
             worst,
             window=window,
             limits={"base_shear": FORCE_LIMIT},
         ),
-        "04-profiles": storey_profiles(results),
-        "05-energy": energy(results),
-        "06-bearing-sections": bearing_sections(results[LIR], bearings[ix, iy], worst),
+        "05-profiles": storey_profiles(results),
+        "06-energy": energy(results, window=window),
+        "07-bearing-sections": bearing_sections(results[LIR], bearings[ix, iy], worst),
     }
 
 

@@ -19,15 +19,18 @@ from matplotlib.patches import Circle, Patch
 from frames.plot_style import (
     GREY,
     LINES,
+    PAGE_WIDTH,
     PALETTE,
     SMALL,
+    TITLE,
+    WIDTHS,
     Systems,
+    add_legend,
     as_systems,
     caption,
     engineering,
     grid_of,
     label_of,
-    legend_above,
     new_figure,
     peak_of,
     system_handles,
@@ -36,6 +39,7 @@ from frames.plot_style import (
 from frames.results import floor_acceleration, storey_drift
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -75,7 +79,7 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     """
     values = np.abs(data[variable])
     peaks = values.max([dim for dim in values.dims if dim != "bearing"])
-    return str(data["bearing"].to_numpy()[int(peaks.argmax())])
+    return str(data["bearing"].to_numpy()[int(np.argmax(peaks.to_numpy()))])
 
 
 def hysteresis(
@@ -109,16 +113,14 @@ def hysteresis(
         u, force = loops[name]
         for axis, panel in enumerate(panels[k]):
             panel.plot(factor * u[:, axis], force[:, axis], color=PALETTE[k], linewidth=0.8)
-            _mark_peak(panel, force[:, axis], limit)
-            panel.set_title(
-                f"{label_of(name, data)}, {PLANE[axis]}", fontsize=SMALL + 1, loc="left"
-            )
+            _mark_peak(panel, factor * u[:, axis], force[:, axis], limit)
+            caption(panel, title=f"{label_of(name, data)}, {PLANE[axis]}")
         caption(panels[k][0], y="force / weight [-]")
     panels[0][0].set_ylim(-limit, limit)
     for axis, panel in enumerate(panels[-1]):
         caption(panel, x=text_of(f"displacement {PLANE[axis]}", unit))
     where = "isolation level" if bearing is None else bearing
-    figure.suptitle(f"Force over displacement, {where}", fontsize=SMALL + 2.5)
+    figure.suptitle(f"Force over displacement, {where}", fontsize=TITLE + 1.0)
     return figure
 
 
@@ -146,16 +148,12 @@ def orbits(systems: Systems, bearing: str | None = None, *, capacity: Capacity =
         name: data["bearing_displacement"].sel(bearing=name_of, axis=list(PLANE)).to_numpy()
         for name, data in found.items()
     }
-    reach = {
-        name: float(
-            capacity.get(name, np.inf) if isinstance(capacity, Mapping) else capacity or np.inf
-        )
-        for name in found
-    }
+    given = capacity if isinstance(capacity, Mapping) else dict.fromkeys(found, capacity or np.inf)
+    reach = {name: float(given.get(name, np.inf)) for name in found}
     rims = [c for c in reach.values() if np.isfinite(c)]
     largest = max([float(np.linalg.norm(p, axis=1).max()) for p in paths.values()] + rims)
     factor, unit = engineering("m", largest)
-    figure = new_figure(3.4 if len(found) > 1 else 5.0)
+    figure = new_figure(0.85 + (PAGE_WIDTH if len(found) > 1 else 5.0) / len(found))
     row = grid_of(figure, 1, len(found), share_x=True, share_y=True)[0]
     for k, (name, data) in enumerate(found.items()):
         _orbit(row[k], factor * paths[name], PALETTE[k])
@@ -166,8 +164,8 @@ def orbits(systems: Systems, bearing: str | None = None, *, capacity: Capacity =
     row[0].set_xlim(-1.08 * factor * largest, 1.08 * factor * largest)
     row[0].set_ylim(-1.08 * factor * largest, 1.08 * factor * largest)
     caption(row[0], y=text_of("y", unit))
-    legend_above(figure, _orbit_legend(rims, factor, unit), 4)
-    figure.suptitle(f"Path of {name_of}: node j relative to node i", fontsize=SMALL + 2.5)
+    heading = f"Path of {name_of}: top plate relative to bottom plate"
+    add_legend(figure, _orbit_legend(rims, factor, unit), title=heading)
     return figure
 
 
@@ -224,7 +222,7 @@ def histories(
         column[0].set_xlim(0.0, max(float(data["time"][-1]) for data in found.values()))
     caption(column[-1], x="time [s]")
     figure.align_ylabels()
-    legend_above(figure, system_handles(found))
+    add_legend(figure, system_handles(found), title=f"Histories, {name_of}")
     return figure
 
 
@@ -249,23 +247,25 @@ def storey_profiles(systems: Systems) -> Figure:
         z = data["level_height"].to_numpy()
         drift = 100.0 * np.abs(storey_drift(data)).max(["time", "axis"]).to_numpy()
         left.stairs(drift, z, orientation="horizontal", baseline=None, color=PALETTE[k],
-                    linestyle=LINES[k], linewidth=1.6)  # fmt: skip
+                    linestyle=LINES[k], linewidth=WIDTHS[k] + 0.6)  # fmt: skip
         floors = floor_acceleration(data).sel(axis=list(PLANE)).to_numpy()
         peaks = np.linalg.norm(floors, axis=-1).max(axis=0)
         right.plot(peaks, z, color=PALETTE[k], linestyle=LINES[k], marker="os^Dvp"[k],
-                   markersize=4.0, linewidth=1.4)  # fmt: skip
+                   markersize=6.0 - 1.5 * k if k < 3 else 2.0, linewidth=WIDTHS[k])  # fmt: skip
     first = next(iter(found.values()))
     names = [str(name) for name in first["level"].to_numpy()]
     left.set_yticks(first["level_height"].to_numpy(), names)
-    left.set_xlim(left=0.0)
-    right.set_xlim(left=0.0)
     caption(left, x="peak storey drift [%]", title="Storey drift")
     caption(right, x="peak total acceleration in plan [m/s²]", title="Floor acceleration")
-    legend_above(figure, system_handles(found))
+    left.set_xlim(0.0, 1.06 * left.dataLim.x1)
+    right.set_xlim(0.0, 1.06 * right.dataLim.x1)
+    add_legend(figure, system_handles(found), title="Peaks over the height")
     return figure
 
 
-def energy(systems: Systems, *, stacked: bool = True) -> Figure:
+def energy(
+    systems: Systems, *, stacked: bool = True, window: tuple[float, float] | None = None
+) -> Figure:
     """Draw where the energy of the ground motion goes, over time.
 
     Parameters
@@ -274,6 +274,8 @@ def energy(systems: Systems, *, stacked: bool = True) -> Figure:
         Results to compare, a panel each.
     stacked : bool
         Areas on top of one another, which add up to the input; else lines.
+    window : (float, float), optional
+        From when to when [s].
 
     Returns
     -------
@@ -298,13 +300,14 @@ def energy(systems: Systems, *, stacked: bool = True) -> Figure:
                 panel.plot(time, values, color=colour, linewidth=1.2)
         total = factor * data["energy"].sel(term="input").to_numpy()
         panel.plot(time, total, color="black", linewidth=0.9, linestyle="--")
-        panel.set_xlim(0.0, max(float(d["time"][-1]) for d in found.values()))
+        panel.set_xlim(*(window or (0.0, max(float(d["time"][-1]) for d in found.values()))))
         caption(panel, x="time [s]", title=label_of(name, data))
     caption(row[0], y=text_of("energy since gravity", unit))
-    entries: list[Line2D] = [Line2D([], [], color="black", linestyle="--", label="input")]
-    patches = [Patch(color=c, label=text) for text, (_, c) in ENERGY_GROUPS.items()]
-    figure.legend(handles=[*patches, *entries], loc="outside upper center", ncols=4,
-                  frameon=False, fontsize=SMALL)  # fmt: skip
+    lowest = min(ax.dataLim.y0 for ax in row)
+    row[0].set_ylim(min(0.0, 1.05 * lowest), 1.05 * max(ax.dataLim.y1 for ax in row))
+    handles: list[Artist] = [Patch(color=c, label=t) for t, (_, c) in ENERGY_GROUPS.items()]
+    handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle="--", label="input"))
+    add_legend(figure, handles, columns=4, title="Where the energy goes", size=SMALL)
     return figure
 
 
@@ -319,14 +322,19 @@ def _loop(data: xr.Dataset, bearing: str | None) -> tuple[FloatArray, FloatArray
     return chosen["bearing_displacement"].to_numpy(), chosen["bearing_force"].to_numpy() / weight
 
 
-def _mark_peak(panel: Axes, values: FloatArray, limit: float) -> None:
-    # An arrowhead and the value at the edge of the panel, for what lies beyond it.
-    for sign, edge, place in ((1.0, 0.97, "top"), (-1.0, 0.03, "bottom")):
-        peak = float((sign * values).max())
-        if peak > limit:
+def _mark_peak(panel: Axes, u: FloatArray, force: FloatArray, limit: float) -> None:
+    # An arrowhead and the value at the edge of the panel, beside the curve, for what lies beyond.
+    for sign, place in ((1.0, "top"), (-1.0, "bottom")):
+        step = int(np.argmax(sign * force))
+        if sign * force[step] > limit:
             arrow = "▲" if sign > 0 else "▼"
-            panel.text(0.985, edge, f"{arrow} {sign * peak:.2f}", transform=panel.transAxes,
-                       ha="right", va=place, fontsize=SMALL, color=GREY)  # fmt: skip
+            side = "right" if u[step] > 0.0 else "left"
+            panel.annotate(
+                f"{arrow} {force[step]:.2f}".replace("-", "−"),
+                (u[step], sign * limit),
+                xytext=(-6.0 if side == "right" else 6.0, -3.0 * sign),
+                textcoords="offset points", ha=side, va=place, fontsize=SMALL, color=GREY,
+            )  # fmt: skip
 
 
 def _orbit(panel: Axes, path: FloatArray, colour: str) -> None:
@@ -337,8 +345,8 @@ def _orbit(panel: Axes, path: FloatArray, colour: str) -> None:
     panel.set_aspect("equal")
 
 
-def _orbit_legend(rims: Sequence[float], factor: float, unit: str) -> list[Line2D]:
-    entries = [
+def _orbit_legend(rims: Sequence[float], factor: float, unit: str) -> list[Artist]:
+    entries: list[Artist] = [
         Line2D([], [], color="black", marker="o", markerfacecolor="white", linestyle="",
                markersize=4.0, label="largest displacement"),
         Line2D([], [], color="black", marker="s", linestyle="", markersize=3.5, label="at the end"),
@@ -357,9 +365,12 @@ def _history(panel: Axes, traces: Sequence[xr.DataArray], limit: float | None) -
     peak = peak_of(trace.to_numpy() for trace in traces)
     shown = peak if limit is None else min(limit, peak)
     factor, unit = engineering(units, shown)
-    for k, trace in enumerate(traces):
+    common = all(np.array_equal(_until(t, traces[0]), _until(traces[0], t)) for t in traces)
+    for k, trace in enumerate(traces[:1] if common else traces):
+        colour, line = (GREY, "-") if common and len(traces) > 1 else (PALETTE[k], LINES[k])
+        width = WIDTHS[2] if common and len(traces) > 1 else WIDTHS[k]
         values = factor * trace.to_numpy()
-        panel.plot(trace["time"], values, color=PALETTE[k], linestyle=LINES[k], linewidth=1.0)
+        panel.plot(trace["time"], values, color=colour, linestyle=line, linewidth=width)
     low = min(float(trace.min()) for trace in traces)
     bottom = -1.05 * factor * min(-low, shown) if low < -1e-6 * peak else 0.0
     panel.set_ylim(bottom, (1.08 * factor * shown) or 1.0)
@@ -372,6 +383,11 @@ def _history(panel: Axes, traces: Sequence[xr.DataArray], limit: float | None) -
         panel.text(0.985, 0.95 - 0.13 * line, f"▲ {value:.3g}", transform=panel.transAxes,
                    ha="right", va="top", fontsize=SMALL, color=PALETTE[k])  # fmt: skip
     caption(panel, y=text_of(str(traces[0].attrs["long_name"]), unit))
+
+
+def _until(trace: xr.DataArray, other: xr.DataArray) -> FloatArray:
+    # The values as far as the other trace goes.
+    return trace.to_numpy()[: len(other)]
 
 
 def _size_in_plan(values: xr.DataArray, long_name: str, units: str) -> xr.DataArray:
@@ -406,12 +422,12 @@ def _rim_force(data: xr.Dataset, bearing: str) -> xr.DataArray:
 
 def _roof_acceleration(data: xr.Dataset, bearing: str) -> xr.DataArray:
     values = floor_acceleration(data)
-    return _size_in_plan(values.isel(level=-1), "roof acceler-\nation in plan", values.units)
+    return _size_in_plan(values.isel(level=-1), "roof acc.\nin plan", values.units)
 
 
 def _ground_acceleration(data: xr.Dataset, bearing: str) -> xr.DataArray:
     values = data["ground_acceleration"]
-    return _size_in_plan(values, "ground acceler-\nation in plan", values.units)
+    return _size_in_plan(values, "ground acc.\nin plan", values.units)
 
 
 QUANTITIES: dict[str, Callable[[xr.Dataset, str], xr.DataArray]] = {

@@ -60,10 +60,17 @@ def build_dataset(
         ),
         "ground_acceleration": labelled(("time", "axis"), ground, "m/s2", "ground acceleration"),
         "base_shear": labelled(
-            ("time", "axis"), forces, "N", "resisting force of the ground: bearings on it, and other supports"
+            ("time", "axis"),
+            forces,
+            "N",
+            "resisting force of the ground: bearings on it, and other supports",
         ),
-        "energy": labelled(("time", "term"), out.energy[:count].copy(), "J", "energy since gravity"),
-        "weight": labelled((), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"),
+        "energy": labelled(
+            ("time", "term"), out.energy[:count].copy(), "J", "energy since gravity"
+        ),
+        "weight": labelled(
+            (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
+        ),
         "static_axial_force": labelled(
             ("bearing",), state.axial_forces, "N", "axial force under permanent loads"
         ),
@@ -71,10 +78,12 @@ def build_dataset(
             ("level",), np.array([lv.z for lv in frame.levels]), "m", "elevation of the level"
         ),
         "level_node": labelled(
-            ("node",), _levels_of_nodes(frame, system.node_names), "1",
+            ("node",),
+            _levels_of_nodes(frame, system.node_names),
+            "1",
             "place of the node's level, -1 for none",
         ),
-    }  # fmt: skip
+    }
     coordinates = {
         "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
         "node": list(system.node_names),

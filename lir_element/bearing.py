@@ -115,7 +115,7 @@ class LIRBearing:
     slip_capacity: float | None = None
     design_load: float | None = None
     yield_displacement: float = 0.25e-3
-    interface_yield_displacement: float = 0.1e-3
+    interface_yield_displacement: float = 0.01e-3
     friction_law: Literal["elastic-plastic", "bouc-wen"] = "elastic-plastic"
     bouc_wen_exponent: float = 2.0
     torsional_friction: bool = True

@@ -124,7 +124,7 @@ class Element:
         return self._tangent.copy()
 
     def initial_stiffness(self) -> Floats:
-        """Return the stiffness (12, 12) of the undeformed bearing, sticking under its design load."""
+        """Return the stiffness (12, 12) at rest: undeformed, sticking, under the design load."""
         if self._initial is None:
             other = Element.__new__(Element)
             other.__dict__ |= self.__dict__

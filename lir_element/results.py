@@ -52,7 +52,9 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         ),
         "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
         "bearing_force": labelled(
-            vector, f[..., 6:9].copy(), "N",
+            vector,
+            f[..., 6:9].copy(),
+            "N",
             "resisting force on node j, positive with positive displacement",
         ),
         "bearing_moment": labelled(
@@ -61,9 +63,13 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             "N m",
             "resisting moment on node i and on node j",
         ),
-        "axial_force": labelled(each, states["axial_force"].copy(), "N", "axial force, compression positive"),
+        "axial_force": labelled(
+            each, states["axial_force"].copy(), "N", "axial force, compression positive"
+        ),
         "slider_displacement": labelled(
-            (*surface, "axis"), states["slider_displacement"].copy(), "m",
+            (*surface, "axis"),
+            states["slider_displacement"].copy(),
+            "m",
             "sliding on each concave surface",
         ),
         "interface_slip": labelled(
@@ -71,9 +77,14 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         ),
         "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
         "rim_force": labelled(surface, states["rim_force"].copy(), "N", "radial force of each rim"),
-        "rim_closure": labelled(surface, states["rim_closure"].copy(), "m", "deformation of each rim"),
+        "rim_closure": labelled(
+            surface, states["rim_closure"].copy(), "m", "deformation of each rim"
+        ),
         "friction_coefficient": labelled(
-            surface, states["friction_coefficient"].copy(), "1", "friction coefficient of each surface"
+            surface,
+            states["friction_coefficient"].copy(),
+            "1",
+            "friction coefficient of each surface",
         ),
         "sliding_speed": labelled(
             surface, states["sliding_speed"].copy(), "m/s", "sliding speed on each surface"
@@ -91,7 +102,7 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         "work_contact": labelled(
             each, states["work_contact"].copy(), "J", "work done on the axial contact"
         ),
-    }  # fmt: skip
+    }
 
 
 def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:

@@ -22,7 +22,7 @@ BASE: dict[str, Any] = {
     "axial_stiffness": 1e8,
     "rim_stiffness": 2e7,
     "rim_overrun": 0.05,
-    "slip_capacity": 0.08,
+    "slip_capacity": 0.4,
     "yield_displacement": 0.5e-3,
     "interface_yield_displacement": 0.3e-3,
     "torsional_friction": False,
@@ -121,7 +121,8 @@ def smooth_path(
         + rng.normal(size=(1, 12)) * (1.0 - np.cos(2.0 * np.pi * k * s)) / k
         for k in (1, 2, 3)
     )
-    waves /= np.abs(waves).max(axis=0)
+    peaks = np.take_along_axis(waves, np.abs(waves).argmax(axis=0)[None], axis=0)
+    waves /= -peaks  # largest value -1: the load surely falls to its least
     amplitude = np.array([0.05, 0.05, 0.02] + 2 * [tilt] + [twist] + 3 * [0.0] + 2 * [tilt] + [twist])
     u = amplitude * waves
     capacity = min(bearing.lateral_capacity, 0.15)

@@ -1,0 +1,55 @@
+"""Runs shared by the tests of the driver; each one's ledger of energy is checked as it is made."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from frames import Frame, GroundMotion, energy_error, time_history
+from lir_element import LIRBearing, VelocityFriction
+
+LEDGER = 1e-3  # of the input
+
+
+@pytest.fixture(scope="session")
+def run() -> Callable[..., xr.Dataset]:
+    """Run a time history and check that its ledger of energy closes within 0.1 %."""
+
+    def analyse(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
+        data = time_history(model, motion, **options)
+        assert np.isfinite(data["node_displacement"]).all()
+        assert energy_error(data) < LEDGER
+        return data
+
+    return analyse
+
+
+@pytest.fixture(scope="session")
+def newhall_bearing() -> LIRBearing:
+    """The bearing of the paper's numerical example (section 3.1)."""
+    return LIRBearing(
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.25,
+        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
+        interface_friction=0.13,
+    )
+
+
+@pytest.fixture(scope="session")
+def pulse() -> Callable[..., np.ndarray]:
+    """Make a sine that grows and fades smoothly, then rest; (n,) [m/s2]."""
+
+    def make(
+        peak: float, period: float, dt: float = 0.005, cycles: float = 2.0, rest: float = 1.0
+    ) -> np.ndarray:
+        length = cycles * period
+        t = np.arange(0.0, length + dt, dt)
+        window = np.sin(np.pi * np.minimum(t / length, 1.0))
+        wave = peak * np.sin(2.0 * np.pi * t / period) * window
+        return np.concatenate([wave, np.zeros(round(rest / dt))])
+
+    return make
