@@ -78,10 +78,10 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
     while peak < len(size) - 1 and size[peak + 1] >= size[peak]:
         peak += 1
     inward = np.flatnonzero(u[peak:] @ u[peak] <= 0.0)
-    after = peak + int(inward[0]) if len(inward) else len(size) - 1
     found["before the impact" if len(touches) else "before"] = float(time[begin])
     found["largest displacement"] = float(time[peak])
-    found["after the impact" if len(touches) else "after"] = float(time[after])
+    if len(inward):
+        found["after the impact" if len(touches) else "after"] = float(time[peak + inward[0]])
     return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
@@ -114,7 +114,8 @@ def bearing_sections(
     instants : mapping of title to float, optional
         Times [s]; by default those of `impact_instants`.
     direction : ndarray, shape (2,), optional
-        Horizontal direction of the section; that of the displacement at the impact if left out.
+        Horizontal direction of the section; left out: of the displacement at the rim contact,
+        or at the largest of the instants.
 
     Returns
     -------
@@ -136,8 +137,7 @@ def bearing_sections(
     if not chosen:
         msg = "instants is empty: give one or more times [s] by title, or leave it out"
         raise ValueError(msg)
-    key = chosen.get("rim contact", max(chosen.values()))
-    plane = impact_direction(data, name, key) if direction is None else direction
+    plane = _plane(data, name, chosen) if direction is None else direction
     columns = 1 if len(chosen) == 1 else 2
     rows = math.ceil(len(chosen) / columns)
     postures = [posture(data, bearing, name, time, plane) for time in chosen.values()]
@@ -155,13 +155,15 @@ def bearing_sections(
     for ax in panels[len(chosen) :]:
         ax.set_axis_off()
     _scale_bar(panels[0], frame)
+    names = ("plates", "slider") if bearing.is_dcfp else ("plates", "bottom slider", "top slider")
     handles = [
         Polygon(np.zeros((1, 2)), facecolor=FILLS[body], edgecolor="black", linewidth=0.6,
-                label=body.replace("bottom plate", "plates"))
-        for body in BODIES[:3]
+                label=label)
+        for body, label in zip(BODIES, names, strict=False)
     ]  # fmt: skip
     angle = math.degrees(math.atan2(plane[1], plane[0]))
-    heading = f"{name}, to scale: section through the direction of the impact, {angle:.0f}° from x"
+    heading = f"{name}, to scale: vertical section at {angle:.0f}° from x".replace("-", "−")
+    heading = heading.replace(name.replace("-", "−"), name)
     add_legend(figure, handles, title=heading)
     return figure
 
@@ -182,7 +184,11 @@ def draw_section(
     reach : float, optional
         Half the width of the surfaces of a bearing without rims [m].
     """
-    for body, outline in outlines(bearing, now, reach).items():
+    bodies = outlines(bearing, now, reach)
+    if bearing.is_dcfp:  # one piece: both caps without the plane faces between
+        caps = [bodies.pop("bottom slider")[:-2], bodies.pop("top slider")[-3::-1]]
+        bodies["bottom slider"] = np.vstack(caps)
+    for body, outline in bodies.items():
         ax.add_patch(
             Polygon(
                 outline, facecolor=FILLS[body], edgecolor="black", linewidth=0.6, joinstyle="miter"
@@ -208,16 +214,27 @@ def _annotate(
     u = state["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
     aside = float(u @ np.array([-plane[1], plane[0]]))
     rim = float(state["rim_force"].max())
-    text = f"displacement {1e3 * float(u @ plane):.0f} mm"
+    along = round(1e3 * float(u @ plane))
+    text = f"displacement {along:d} mm".replace("-", "−")
     if abs(aside) > 1e-3:
         text += f", and {1e3 * abs(aside):.0f} mm across"
-    text += f"\nslip {1e3 * now.slip:.1f} mm"
     slip = float(state["interface_slip_size"])
+    text += f"\nslip {1e3 * abs(now.slip):.1f} mm"
     if slip - abs(now.slip) > 1e-3:
         text += f" ({1e3 * slip:.1f} mm in plan)"
     if rim > 0.0:
         text += f", rim force {1e-3 * rim:.0f} kN"
     ax.text(0.0, -0.01, text, transform=ax.transAxes, ha="left", va="top", fontsize=SMALL)
+
+
+def _plane(data: xr.Dataset, name: str, instants: Mapping[str, float]) -> FloatArray:
+    # Direction of the displacement at the rim contact, else at the largest of the instants.
+    times = list(instants.values())
+    if "rim contact" in instants:
+        return impact_direction(data, name, instants["rim contact"])
+    u = data["bearing_displacement"].sel(bearing=name, axis=["x", "y"])
+    sizes = np.linalg.norm(u.sel(time=times, method="nearest").to_numpy(), axis=1)
+    return impact_direction(data, name, times[int(np.argmax(sizes))])
 
 
 def _shown(data: xr.Dataset, time: float) -> float:

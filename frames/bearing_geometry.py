@@ -283,7 +283,7 @@ def area_of(outline: FloatArray) -> float:
 
 def _in_plane(vector: FloatArray, direction: FloatArray) -> FloatArray:
     flat = np.array([vector[:2] @ direction, vector[2]])
-    return flat / np.linalg.norm(flat)
+    return np.asarray(flat / np.linalg.norm(flat))
 
 
 def _sagitta(radius: float, half_width: float) -> float:
@@ -302,7 +302,7 @@ def _turn(now: Posture, surface: int) -> float:
 def _placed(points: FloatArray, up: FloatArray) -> FloatArray:
     # Points of a body whose own axis is `up`, turned with it.
     right = np.array([up[1], -up[0]])
-    return points[:, :1] * right + points[:, 1:] * up
+    return np.asarray(points[:, :1] * right + points[:, 1:] * up)
 
 
 def _half_slider(radius: float, half_width: float, height: float) -> FloatArray:

@@ -14,7 +14,7 @@ from frames._jit import kernel
 from frames.kernel_data import MAX_LEVEL
 from frames.stepping import commit_bearings, gather, newton
 from lir_element.errors import RunStatus
-from lir_element.pendulum_trial import copy_words
+from lir_element.pendulum_trial import contact_defect, copy_words
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Output, Run, Setup
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
 _MAX_LEVEL = MAX_LEVEL
+_LIMIT_LEVEL = 4  # halvings of a step before a limit of the bearing counts as exceeded
 
 
 @kernel
@@ -270,12 +271,38 @@ def estimated_error(model: Model, run: Run, dt: float) -> float:
 
 
 @kernel
+def is_rough(model: Model, run: Run, settings: Setup, dt: float) -> bool:
+    """Return whether the step deserves to be halved, though it converged.
+
+    Either its estimated error is too large, or contacts that open or close in it make or lose
+    more energy than a share of what the run has moved so far.
+    """
+    defect = 0.0
+    for k in range(run.old.shape[0]):
+        defect += contact_defect(run.old[k], run.new[k])
+    scale = max(run.energy[2], abs(run.energy[0]), settings.energy_floor)
+    if defect > settings.energy_tolerance * scale:
+        return True
+    return estimated_error(model, run, dt) > settings.error_tolerance
+
+
+@kernel
+def limits(run: Run) -> int:
+    """Return the status of the bearings' limits in the trial state."""
+    for k in range(run.new.shape[0]):
+        if run.new[k].status != _OK:
+            run.counters[3] = k
+            return run.new[k].status
+    return _OK
+
+
+@kernel
 def accept_step(
     model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
-) -> int:
-    """Commit the step; returns the status of the bearings' limits."""
+) -> None:
+    """Commit the step."""
     add_energy(model, run, motion, motion_dt, time, dt)
-    commit_bearings(run)
+    commit_bearings(model, run)
     add_bearing_energy(run)
     for a in range(run.b.shape[0]):
         run.mean_v_b[a] = run.step[a] / dt
@@ -284,11 +311,6 @@ def accept_step(
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
     run.clock[0] = time + dt
     run.counters[0] += 1
-    for k in range(run.old.shape[0]):
-        if run.old[k].status != _OK:
-            run.counters[3] = k
-            return run.old[k].status
-    return _OK
 
 
 @kernel
@@ -334,11 +356,7 @@ def advance(
             time = settings.dt * (base + ticks / ticks_a_step)
             run.clock[0] = time
             code = try_step(model, run, settings, motion, motion_dt, time, dt, level)
-            rough = (
-                code == _OK
-                and level < _MAX_LEVEL // 2
-                and (estimated_error(model, run, dt) > settings.error_tolerance)
-            )
+            rough = code == _OK and level < _MAX_LEVEL // 2 and is_rough(model, run, settings, dt)
             if code != _OK or rough:
                 if level == _MAX_LEVEL:
                     run.counters[5] = code
@@ -347,10 +365,15 @@ def advance(
                 good = 0
                 run.counters[2] += 1
                 continue
-            code = accept_step(model, run, motion, motion_dt, time, dt)
-            if code != _OK:
-                record(run, out, (base + 1) // every + ((base + 1) % every > 0))
-                return code
+            code = limits(run)
+            if code != _OK:  # not committed; a coarse step is refined before it counts
+                if level >= _LIMIT_LEVEL:
+                    run.clock[0] = time + dt
+                    return code
+                level += 1
+                good = 0
+                continue
+            accept_step(model, run, motion, motion_dt, time, dt)
             ticks += parts
             good += 1
             if level > 0 and good >= 2 and ticks % (2 * parts) == 0:

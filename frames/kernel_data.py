@@ -111,6 +111,8 @@ class Setup(NamedTuple):
     gamma: float
     force_tolerance: float
     max_iterations: int
+    energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
+    energy_floor: float  # J, below which that energy does not count
     error_tolerance: float  # m, estimated error of a step in displacement; infinite: fixed step
 
 

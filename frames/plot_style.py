@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 
 if TYPE_CHECKING:
@@ -27,10 +28,11 @@ PAGE_WIDTH = 6.9
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Colours that stay apart for the colour-blind (Okabe and Ito); systems take them in order."""
 
-LINES = ("-", "--", "-.", ":", "-", "--")
+LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-.", ":", "-", "--")
 WIDTHS = (1.7, 1.1, 0.9, 1.0, 0.8, 0.8)  # pt; falling, so that equal curves show both
 
 GREY = "#666666"
+PLANE = ("x", "y")
 TITLE, LABEL, SMALL = 9.0, 8.5, 7.5  # pt
 
 _PREFIXES = {
@@ -72,20 +74,17 @@ def as_systems(systems: Systems) -> dict[str, xr.Dataset]:
     return found
 
 
-def label_of(name: str, data: xr.Dataset) -> str:
-    """Return the name of a system for legends; a run that stopped early says so."""
+def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
+    """Return the name of a system; after `space`, a run that stopped early says so."""
     if data.attrs.get("status", "ok") == "ok":
         return name
-    return f"{name} (stopped at {data.attrs.get('failed_at', float(data['time'][-1])):.2f} s)"
+    return f"{name}{space}(stopped at {data.attrs.get('failed_at', float(data['time'][-1])):.2f} s)"
 
 
 def new_figure(height: float, width: float = PAGE_WIDTH) -> Figure:
     """Return an empty figure of `width` x `height` [in] that arranges its parts by itself."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    engine = figure.get_layout_engine()
-    if engine is not None:
-        engine.set(w_pad=0.05, h_pad=0.05, wspace=0.04, hspace=0.05)
-    return figure
+    layout = ConstrainedLayoutEngine(w_pad=0.05, h_pad=0.05, wspace=0.04, hspace=0.05)
+    return Figure(figsize=(width, height), layout=layout)
 
 
 def grid_of(
@@ -195,3 +194,23 @@ def text_of(long_name: str, unit: str) -> str:
 def peak_of(values: Iterable[FloatArray]) -> float:
     """Return the largest absolute value of several arrays, 0 without any."""
     return max((float(np.abs(v).max()) for v in values if np.size(v)), default=0.0)
+
+
+def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> str:
+    """Return the name of the bearing with the largest absolute value of a variable.
+
+    Parameters
+    ----------
+    data : Dataset
+        Result of `frames.time_history`.
+    variable : str
+        A variable over time and bearing.
+
+    Returns
+    -------
+    str
+        Its name, in the dimension "bearing".
+    """
+    values = np.abs(data[variable].transpose("bearing", ...).to_numpy())
+    peaks = values.reshape(len(values), -1).max(axis=1)
+    return str(data["bearing"].to_numpy()[int(np.argmax(peaks))])

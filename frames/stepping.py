@@ -26,12 +26,13 @@ _UPLIFTED = int(RunStatus.UPLIFTED)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
 _NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 
 
 @kernel
 def has_no_state(code: int) -> bool:
     """Return whether a bearing has no state at all (a limit exceeded is a state)."""
-    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED)
+    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE)
 
 
 @kernel
@@ -224,7 +225,7 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
         run.b[a] = run.step[a]
     for a in range(run.e.shape[0]):
         run.e[a] = model.load_e[a] / model.omega2[a]
-    commit_bearings(run)
+    commit_bearings(model, run)
     for k in range(run.old.shape[0]):  # works count from here
         for side in range(2):
             run.old[k].work_friction[side] = 0.0
@@ -236,10 +237,10 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
 
 
 @kernel
-def commit_bearings(run: Run) -> None:
+def commit_bearings(model: Model, run: Run) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
-        accumulate(run.old[k], run.new[k])
+        accumulate(model.props[k], run.old[k], run.new[k])
         copy_words(run.new_words[k], run.old_words[k])
     for a in range(run.force.shape[0]):
         run.force_old[a] = run.force[a]

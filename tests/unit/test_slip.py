@@ -1,0 +1,241 @@
+"""Return map, friction law and contact law, one by one."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
+
+U_Y = 0.25e-3
+STEP = st.floats(-5e-3, 5e-3)
+ANGLE = st.floats(-math.pi, math.pi)
+LAWS = [(0, 2.0), (1, 1.0), (1, 2.0), (1, 5.5), (1, 40.0)]
+
+
+def turned(x: float, y: float, angle: float) -> tuple[float, float]:
+    c, s = math.cos(angle), math.sin(angle)
+    return c * x - s * y, s * x + c * y
+
+
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, u_y=st.floats(1e-5, 1e-2))
+def test_never_beyond_the_cone(
+    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, u_y: float
+) -> None:
+    z_1, z_2 = turned(size, 0.0, angle)
+    out = return_map(bouc_wen, eta, z_1, z_2, d_1, d_2, u_y)
+    assert math.hypot(out[0], out[1]) <= 1.0 + 1e-15  # two ulp
+    assert out[6] >= 0.0  # slipped part
+
+
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, turn=ANGLE)
+def test_isotropy(
+    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, turn: float
+) -> None:
+    """Turning state and step by an angle turns z and its derivative, and keeps the slip."""
+    z = turned(size, 0.0, angle)
+    one = return_map(bouc_wen, eta, *z, d_1, d_2, U_Y)
+    two = return_map(bouc_wen, eta, *turned(*z, turn), *turned(d_1, d_2, turn), U_Y)
+    c, s = math.cos(turn), math.sin(turn)
+    r = np.array([[c, -s], [s, c]])
+    # round-off of size 1e-16 times |b| <= 30
+    assert_allclose(two[:2], r @ one[:2], rtol=0.0, atol=2e-14)
+    assert_allclose(two[6], one[6], rtol=0.0, atol=1e-16)
+    if abs(math.hypot(z[0] + d_1 / U_Y, z[1] + d_2 / U_Y) - 1.0) < 1e-9:
+        return  # at the corner the derivative jumps
+    if abs((z[0] + d_1 / U_Y) * d_1 + (z[1] + d_2 / U_Y) * d_2) < 1e-12:
+        return
+    k_1, k_2 = (np.reshape(out[2:6], (2, 2)) * U_Y for out in (one, two))
+    # |b| divides in the hoop direction; close to b = 0 its direction rounds
+    limit = 1e-12 / max(math.hypot(z[0] + d_1 / U_Y, z[1] + d_2 / U_Y), 1e-3)
+    assert_allclose(k_2, r @ k_1 @ r.T, rtol=0.0, atol=limit)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_elastic_plastic_by_hand(sign: float) -> None:
+    """Elastic up to u_y, then z on the circle in the direction of the trial value."""
+    out = return_map(0, 2.0, 0.0, 0.0, sign * 0.4 * U_Y, 0.0, U_Y)
+    assert_allclose(out, [sign * 0.4, 0, 1 / U_Y, 0, 0, 1 / U_Y, 0, 0, 0], rtol=1e-15, atol=0.0)
+    out = return_map(0, 2.0, sign * 0.6, 0.0, sign * 2.4 * U_Y, sign * 4.0 * U_Y, U_Y)
+    z_1, z_2, k_11, k_12, k_21, k_22, slip, _, _ = out
+    # b = (3, 4): |b| = 5, slip 4 u_y; derivative (1 - e e') / 5 u_y
+    assert_allclose([z_1, z_2, slip], [sign * 0.6, sign * 0.8, 4.0 * U_Y], rtol=1e-14, atol=0.0)
+    expected = np.array([0.64, -0.48, -0.48, 0.36]) / (5.0 * U_Y)
+    assert_allclose([k_11, k_12, k_21, k_22], expected, rtol=1e-13, atol=0.0)
+
+
+@given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP)
+def test_large_exponent_is_elastic_plastic(
+    size: float, angle: float, d_1: float, d_2: float
+) -> None:
+    """The two radii differ by at most ln(2 + kappa) / eta or so: 1e-4 at eta = 1e5."""
+    z = turned(size, 0.0, angle)
+    plastic = return_map(0, 2.0, *z, d_1, d_2, U_Y)
+    smooth = return_map(1, 1e5, *z, d_1, d_2, U_Y)
+    assert_allclose(smooth[:2], plastic[:2], rtol=0.0, atol=1e-4)
+    assert_allclose(smooth[6], plastic[6], rtol=0.0, atol=1e-4 * U_Y)
+
+
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@given(size=st.floats(0.0, 0.999), angle=ANGLE, d_1=STEP, d_2=STEP)
+def test_derivative(
+    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float
+) -> None:
+    """Against central differences of fourth order, away from the corners (start of slip)."""
+    z = np.array(turned(size, 0.0, angle))
+    b = z + np.array([d_1, d_2]) / U_Y
+    far = math.hypot(*b)
+    kappa = (b @ [d_1, d_2]) / U_Y / max(far, 1e-9)
+    if abs(far - 1.0) < 2e-2 or abs(kappa) < 2e-2 or far < 5e-2:
+        return
+    h = 1e-3 * U_Y * min(far, 1.0)
+
+    def at(x: float, y: float) -> np.ndarray:
+        return np.array(return_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y))
+
+    columns = []
+    for x, y in ((h, 0.0), (0.0, h)):
+        near, wide = (at(m * x, m * y) - at(-m * x, -m * y) for m in (1, 2))
+        columns.append((8.0 * near - wide) / (12.0 * h))
+    out = at(0.0, 0.0)
+    by_1, by_2 = columns
+    # fourth order in 1e-3: eta^4 1e-12 at the worst, and round-off of 1e-15 / 1e-3
+    limit = max(1e-9, 1e-11 * eta**4)
+    expected = [by_1[0], by_2[0], by_1[1], by_2[1]]
+    assert_allclose(np.array(out[2:6]) * U_Y, np.array(expected) * U_Y, rtol=0.0, atol=limit)
+    assert_allclose(out[7:9], [by_1[6], by_2[6]], rtol=0.0, atol=limit)
+
+
+def path_of(seed: int):  # noqa: ANN201
+    """Return a smooth random plane path w(t), 0 <= t <= 1, of some ten u_y, and its rate."""
+    rng = np.random.default_rng(seed)
+    a = rng.normal(size=(4, 2)) * 4.0 * U_Y
+    k = np.arange(1, 5)[:, None] * math.pi
+
+    def path(t: float) -> np.ndarray:
+        return np.sum(a * np.sin(k * t), axis=0)
+
+    def rate(t: float) -> np.ndarray:
+        return np.sum(a * k * np.cos(k * t), axis=0)
+
+    return path, rate
+
+
+def integrated(bouc_wen: int, eta: float, path, steps: int) -> np.ndarray:  # noqa: ANN001
+    z, old = np.zeros(2), path(0.0)
+    for t in np.linspace(0.0, 1.0, steps + 1)[1:]:
+        new = path(t)
+        z = np.array(return_map(bouc_wen, eta, *z, *(new - old), U_Y)[:2])
+        old = new
+    return z
+
+
+@pytest.mark.parametrize("eta", [1.0, 2.0, 4.5])
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_bouc_wen_is_its_rate_law(eta: float, seed: int, sign: float) -> None:
+    """Against an ODE solver, on random plane paths: first order in the step.
+
+    Park, Wen and Ang (1986), isotropic, A = 1, beta = gamma = 1/2, general exponent:
+    u_y dz/dt = v - z |z|^(eta - 2) (|z . v| + z . v) / 2.
+    """
+    path, rate = path_of(seed)
+
+    def law(t: float, z: np.ndarray) -> np.ndarray:
+        v = sign * rate(t)
+        power = z @ v
+        size = max(math.hypot(*z), 1e-30)
+        return (v - z * size ** (eta - 2.0) * 0.5 * (abs(power) + power)) / U_Y
+
+    exact = solve_ivp(law, (0.0, 1.0), [0.0, 0.0], rtol=1e-9, atol=1e-10, max_step=2e-3).y[:, -1]
+    errors = [
+        np.linalg.norm(integrated(1, eta, lambda t: sign * path(t), n) - exact)
+        for n in (2000, 8000)
+    ]
+    # Steps of some 1e-2 u_y; backward Euler: four times the steps, a quarter of the error.
+    assert errors[0] < 2e-2
+    assert errors[1] < 0.3 * errors[0] + 1e-6
+    extrapolated = (
+        4.0 * integrated(1, eta, lambda t: sign * path(t), 8000)
+        - integrated(1, eta, lambda t: sign * path(t), 2000)
+    ) / 3.0
+    assert_allclose(extrapolated, exact, rtol=0.0, atol=1e-4)  # second order is left
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_bouc_wen_along_a_line(sign: float) -> None:
+    """Closed form for eta = 1, monotonic: z = 1 - exp(-w / u_y); unloading is elastic."""
+    steps, z = 20_000, 0.0
+    for _ in range(steps):
+        z = return_map(1, 1.0, z, 0.0, sign * 2.0 * U_Y / steps, 0.0, U_Y)[0]
+    # first order in a step of 1e-4
+    assert_allclose(z, sign * (1.0 - math.exp(-2.0)), rtol=1e-4, atol=0.0)
+    back = return_map(1, 1.0, z, 0.0, -sign * 0.3 * U_Y, 0.0, U_Y)
+    assert_allclose(back[0], z - sign * 0.3, rtol=1e-14, atol=0.0)
+    assert back[6] == 0.0
+
+
+# ------------------------------------------------------------------------------- friction
+
+
+@pytest.mark.parametrize("speed", [0.0, 1e-4, 0.02, 0.1, 0.5, 3.0])
+def test_friction_is_equation_one(speed: float) -> None:
+    """mu = f_max - (f_max - f_min) exp(-alpha v), the numerical example's parameters."""
+    mu, slope = friction_coefficient(0.065, 0.0325, 15.0, speed)
+    assert_allclose(mu, 0.065 - 0.0325 * math.exp(-15.0 * speed), rtol=1e-15, atol=0.0)
+    h = 1e-5
+    at = [friction_coefficient(0.065, 0.0325, 15.0, speed + k * h)[0] for k in (-1, 1)]
+    # second order in 15 h = 1.5e-4
+    assert_allclose(slope, (at[1] - at[0]) / (2.0 * h), rtol=1e-7, atol=1e-11)
+
+
+def test_friction_of_coulomb() -> None:
+    assert_allclose(friction_coefficient(0.066, 0.0, 15.0, 0.3), (0.066, 0.0), rtol=0.0, atol=0.0)
+    assert_allclose(friction_coefficient(0.066, 0.02, 0.0, 0.3)[1], 0.0, rtol=0.0, atol=0.0)
+
+
+# ------------------------------------------------------------------------------- contact
+
+
+def test_contact_by_hand() -> None:
+    """k pen + c (pen - pen_old) / dt; static without the damper; open: nothing."""
+    assert_allclose(
+        kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.01), (2.2e5, 1.4e8, 2e-3), rtol=1e-14, atol=0.0
+    )
+    assert_allclose(
+        kelvin_voigt(2e-3, 2.5e-3, 1e8, 4e5, 0.01), (1.8e5, 1.4e8, 2e-3), rtol=1e-14, atol=0.0
+    )
+    assert_allclose(
+        kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.0), (2e5, 1e8, 2e-3), rtol=1e-14, atol=0.0
+    )
+    for gap in (0.0, -1e-9, -1.0, -math.inf):
+        assert kelvin_voigt(gap, 1e-3, 1e8, 4e5, 0.01) == (0.0, 0.0, 0.0)
+
+
+@given(
+    gap=st.floats(-1e-2, 1e-2), old=st.floats(0.0, 1e-2), k=st.floats(1e3, 1e10),
+    c=st.floats(0.0, 1e8), dt=st.floats(0.0, 1.0),
+)  # fmt: skip
+def test_contact_never_pulls(gap: float, old: float, k: float, c: float, dt: float) -> None:
+    force, slope, closure = kelvin_voigt(gap, old, k, c, dt)
+    assert force >= 0.0
+    assert slope >= 0.0
+    assert closure == max(gap, 0.0)
+    assert (force > 0.0) == (slope > 0.0) or force == 0.0
+
+
+@given(old=st.floats(0.0, 1e-2), k=st.floats(1e6, 1e9), c=st.floats(0.0, 1e7))
+def test_contact_is_continuous(old: float, k: float, c: float) -> None:
+    """No jump over gaps from open to closed, at impact (old = 0) or not: slope bounds the change."""
+    gaps = np.linspace(-2e-3, 1.2e-2, 1500)
+    dt = 0.01
+    force = np.array([kelvin_voigt(g, old, k, c, dt)[0] for g in gaps])
+    bound = (k + c / dt) * (gaps[1] - gaps[0])
+    assert np.abs(np.diff(force)).max() <= bound * (1.0 + 1e-9)
+    assert kelvin_voigt(1e-12, 0.0, k, c, dt)[0] <= (k + c / dt) * 1e-12 * (1.0 + 1e-9)
