@@ -52,8 +52,8 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
     dict of str to float
         Times [s]: "before the impact" (half the displacement of the contact), "rim contact" (the
         first that leads to the largest slip), "largest displacement" (the sliders slip) and
-        "after the impact" (the bearing passes its centre). Without any contact: half the largest
-        displacement, the largest displacement, and the passage after it.
+        "after the impact" (the bearing passes its centre, if the run lasts until then). Without
+        any contact: "before", "largest displacement" and "after".
     """
     time = data["time"].to_numpy()
     u = data["bearing_displacement"].sel(bearing=name, axis=["x", "y"]).to_numpy()
@@ -66,7 +66,7 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
         end = int(np.argmax(slip)) if slip.max() > 1e-3 else int(np.argmax(size))
         start = int(touches[np.searchsorted(touches, end, side="right") - 1])
         start = int(touches[0]) if start > end else start
-        while size[start - 1] <= size[start] and force[start - 1] > 0.0:
+        while start > 0 and size[start - 1] <= size[start] and force[start - 1] > 0.0:
             start -= 1  # back to the begin of this contact
         found["rim contact"] = float(time[start])
     else:
@@ -150,7 +150,7 @@ def bearing_sections(
         draw_section(ax, bearing, now, reach=reach)
         ax.set_xlim(frame[0], frame[1])
         ax.set_ylim(frame[2], frame[3])
-        _annotate(ax, data, name, time, plane, now)
+        _annotate(ax, data.sel(time=time, method="nearest").sel(bearing=name), plane, now)
         ax.set_title(f"{title}, t = {_shown(data, time):.2f} s", fontsize=TITLE, loc="left")
     for ax in panels[len(chosen) :]:
         ax.set_axis_off()
@@ -161,9 +161,8 @@ def bearing_sections(
                 label=label)
         for body, label in zip(BODIES, names, strict=False)
     ]  # fmt: skip
-    angle = math.degrees(math.atan2(plane[1], plane[0]))
-    heading = f"{name}, to scale: vertical section at {angle:.0f}° from x".replace("-", "−")
-    heading = heading.replace(name.replace("-", "−"), name)
+    angle = math.degrees(math.atan2(plane[1], plane[0])) % 360.0
+    heading = f"{name}, to scale: vertical section at {angle:.0f}° from x"
     add_legend(figure, handles, title=heading)
     return figure
 
@@ -206,11 +205,8 @@ def draw_section(
     ax.set_axis_off()
 
 
-def _annotate(
-    ax: Axes, data: xr.Dataset, name: str, time: float, plane: FloatArray, now: Posture
-) -> None:
-    # Displacement in the section, slip, rim force; and what the section leaves out.
-    state = data.sel(time=time, method="nearest").sel(bearing=name)
+def _annotate(ax: Axes, state: xr.Dataset, plane: FloatArray, now: Posture) -> None:
+    # Displacement in the section and across it, slip, rim force.
     u = state["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
     aside = float(u @ np.array([-plane[1], plane[0]]))
     rim = float(state["rim_force"].max())

@@ -212,7 +212,7 @@ def add_energy(
     elastic = elastic_energy(model, run.b_new, run.e_new) - run.clock[3]
     energy[0] += supplied
     energy[1] += lifted
-    energy[10] += (
+    energy[11] += (
         supplied - lifted - damped - bearings - (kinetic - energy[2]) - (elastic - energy[3])
     )
     energy[2], energy[3] = kinetic, elastic
@@ -222,14 +222,15 @@ def add_energy(
 @kernel
 def add_bearing_energy(run: Run) -> None:
     """Set the bearings' terms of the energy from their accumulated works."""
-    for term in range(5, 10):
+    for term in range(5, 11):
         run.energy[term] = 0.0
     for k in range(run.old.shape[0]):
         run.energy[5] += run.old[k].work_friction[0]
         run.energy[6] += run.old[k].work_friction[1]
         run.energy[7] += run.old[k].work_interface
-        run.energy[8] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
-        run.energy[9] += run.old[k].work_contact
+        run.energy[8] += run.old[k].work_elastic
+        run.energy[9] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
+        run.energy[10] += run.old[k].work_contact
 
 
 @kernel
@@ -343,7 +344,8 @@ def advance(
 
     A step that fails, or whose estimated error is too large, is halved; after two good steps the
     step is doubled again where it fits. Returns a status code; ``run.clock[0]`` is the time
-    reached; ``run.counters`` holds steps, iterations, halvings, the failed bearing, and causes.
+    reached; ``run.counters`` holds steps, iterations, halvings, the failed bearing, causes and
+    the base steps completed.
     """
     level = int(run.clock[1])
     good = int(run.clock[2])
@@ -380,6 +382,7 @@ def advance(
                 level -= 1
                 good = 0
         run.clock[0] = settings.dt * (base + 1)
+        run.counters[6] = base + 1
         if (base + 1) % every == 0:
             record(run, out, (base + 1) // every)
         run.clock[1], run.clock[2] = level, good

@@ -30,6 +30,7 @@ ENERGY_TERMS = (
     "low_friction_bottom",
     "low_friction_top",
     "high_friction",
+    "friction_elastic",
     "rims",
     "contact",
     "numerical",
@@ -98,7 +99,7 @@ class Run(NamedTuple):
     axes: Array
     energy: Array  # (n_terms,)
     clock: Array  # time, level, successes, base time, ...
-    counters: Array  # int64: steps, iterations, halvings, failed bearing
+    counters: Array  # steps, iterations, halvings, bearing, code, cause, base steps done
 
 
 class Setup(NamedTuple):
@@ -170,7 +171,7 @@ def run_arrays(model: Model) -> Run:
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),
         element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12), zero=np.zeros(3),
         axes=np.eye(3), energy=np.zeros(len(ENERGY_TERMS)), clock=np.zeros(4),
-        counters=np.zeros(6, np.int64),
+        counters=np.zeros(7, np.int64),
     )  # fmt: skip
 
 

@@ -112,7 +112,8 @@ def orbits(systems: Systems, bearing: str | None = None, *, capacity: Capacity =
     rims = [c for c in reach.values() if np.isfinite(c)]
     largest = max([float(np.linalg.norm(p, axis=1).max()) for p in paths.values()] + rims)
     factor, unit = engineering("m", largest)
-    figure = new_figure(0.85 + (PAGE_WIDTH if len(found) > 1 else 5.0) / len(found))
+    stopped = any(label_of(name, data) != name for name, data in found.items())  # two-line titles
+    figure = new_figure(0.85 + 0.3 * stopped + (PAGE_WIDTH if len(found) > 1 else 5.0) / len(found))
     row = grid_of(figure, 1, len(found), share_x=True, share_y=True)[0]
     for k, (name, data) in enumerate(found.items()):
         _orbit(row[k], factor * paths[name], PALETTE[k])

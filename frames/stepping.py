@@ -232,6 +232,7 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
             run.old[k].work_rim[side] = 0.0
             run.old[k].travel[side] = 0.0
         run.old[k].work_interface = 0.0
+        run.old[k].work_elastic = 0.0
         run.old[k].work_contact = 0.0
     return _OK
 

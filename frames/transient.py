@@ -208,7 +208,7 @@ def _march(
             state.model, run, settings, components, float(motion.dt), out, first, last, every
         )
         if code != int(RunStatus.OK):
-            return code, min(steps - 1, int(run.clock[0] / settings.dt + 1e-9))
+            return code, int(run.counters[6])
         if progress is not None:
             progress(last / steps)
     return int(RunStatus.OK), steps

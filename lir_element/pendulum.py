@@ -145,6 +145,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
         p.yield_displacement[k],
     )  # fmt: skip
+    w.slid[k] = slip
     # the speed of slip, not of the elastic part: friction must not grow while it unloads
     w.speed[k] = slip / w.dt if w.dt > 0.0 else w.static_speed[k]
     mu, slope = friction_coefficient(
@@ -163,12 +164,12 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 @kernel
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
-    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _ = return_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = return_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
     )  # fmt: skip
     mu = p.interface_friction
-    w.z_s[0], w.z_s[1] = z_1, z_2
+    w.z_s[0], w.z_s[1], w.slid_s = z_1, z_2, slip
     w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
 

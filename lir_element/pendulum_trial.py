@@ -205,14 +205,14 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    z, _, slope, _, _, _, _, _, _ = return_map(
+    z, _, slope, _, _, _, slip, _, _ = return_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
         p.torsion_yield,
     )  # fmt: skip
     w.torque_axial = p.torsion_lever * mu * z
     w.torque = w.torque_axial * w.n_true
     w.torque_stiffness = p.torsion_lever * mu * w.n_true * slope
-    new.twist_hysteresis = z
+    new.twist_hysteresis, new.slid_twist = z, slip
     new.torque = w.torque
 
 
@@ -232,6 +232,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     new.string = w.l
     new.closure = w.closure
+    new.slid_interface = 0.0 if p.fused else w.slid_s
     new.axial_force = w.n_true
     for k in range(2):
         new.slip[k] = w.sigma[k]
@@ -240,6 +241,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.interface_force[k] = w.scale * w.n_hat * w.phi_s[k]
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
+        new.slid[k] = w.slid[k]
         new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.scale * w.rim[k]
@@ -251,8 +253,11 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
 
 @kernel
 def limit_status(p: Props, new: State) -> int:
-    """Return whether the bearing's limits hold in the state `new`."""
-    if math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > p.slip_capacity:
+    """Return whether the bearing's limits hold in the state `new`.
+
+    The slip counts once the sliders are pressed together: lifted off, they carry nothing.
+    """
+    if new.axial_force > 0.0 and math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > p.slip_capacity:
         return _SLIP_EXCEEDED
     if max(new.rim_closure[0], new.rim_closure[1]) > p.rim_overrun:
         return _RIM_OVERRUN
@@ -368,32 +373,48 @@ def contact_defect(old: State, new: State) -> float:
 
 
 @kernel
+def dissipated(
+    f_old_1: float, f_old_2: float, f_1: float, f_2: float, z_1: float, z_2: float, slip: float
+) -> float:
+    """Return the work of friction over the slipped part of a step, which lies along z.
+
+    By the trapezoidal rule, without the old force where it pointed the other way: never negative.
+    """
+    size = math.sqrt(z_1 * z_1 + z_2 * z_2)
+    if slip <= 0.0 or size == 0.0:
+        return 0.0
+    e_1, e_2 = z_1 / size, z_2 / size
+    return 0.5 * slip * (max(f_old_1 * e_1 + f_old_2 * e_2, 0.0) + f_1 * e_1 + f_2 * e_2)
+
+
+@kernel
 def accumulate(p: Props, old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
     so for the stiff contacts, whose forces jump).
     """
-    twisting = 0.25 * (old.torque + new.torque) * (new.twist - old.twist)  # half for each surface
+    total = 0.5 * (old.torque + new.torque) * (new.twist - old.twist)
+    turned = dissipated(old.torque, 0.0, new.torque, 0.0, new.twist_hysteresis, 0.0, new.slid_twist)
+    lost = turned
     for k in range(2):
-        work, path = twisting, 0.0
-        for a in range(2):
-            force = 0.5 * (old.friction_force[k, a] + new.friction_force[k, a])
-            work += force * new.sliding_increment[k, a]
-            path += new.sliding_increment[k, a] ** 2
-        new.work_friction[k] = old.work_friction[k] + work
-        new.travel[k] = old.travel[k] + math.sqrt(path)
+        f, g = old.friction_force[k], new.friction_force[k]
+        d, z = new.sliding_increment[k], new.hysteresis[k]
+        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+        work = dissipated(f[0], f[1], g[0], g[1], z[0], z[1], new.slid[k])
+        lost += work
+        new.work_friction[k] = old.work_friction[k] + work + 0.5 * turned
+        new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
-    work, path, size = 0.0, 0.0, 0.0
-    for a in range(2):
-        force = 0.5 * (old.interface_force[a] + new.interface_force[a])
-        work += force * new.slip_increment[a]
-        path += new.slip_increment[a] ** 2
-        size += new.slip[a] ** 2
+    f, g, d, z = old.interface_force, new.interface_force, new.slip_increment, new.slip
+    total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+    y = new.interface_hysteresis
+    work = dissipated(f[0], f[1], g[0], g[1], y[0], y[1], new.slid_interface)
     new.work_interface = old.work_interface + work
-    new.interface_travel = old.interface_travel + math.sqrt(path)
-    new.largest_slip = max(old.largest_slip, math.sqrt(size))
+    new.work_elastic = old.work_elastic + total - lost - work
+    new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
+    new.largest_slip = max(old.largest_slip, math.sqrt(z[0] * z[0] + z[1] * z[1]))
     work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
     new.work_contact = old.work_contact + work
 

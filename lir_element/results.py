@@ -93,10 +93,13 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             each, states["torque"].copy(), "N m", "friction moment about the vertical axis"
         ),
         "work_low_friction": labelled(
-            surface, states["work_friction"].copy(), "J", "work of low friction, each surface"
+            surface, states["work_friction"].copy(), "J", "dissipated by low friction, each surface"
         ),
         "work_high_friction": labelled(
-            each, states["work_interface"].copy(), "J", "work of the high-friction interface"
+            each, states["work_interface"].copy(), "J", "dissipated by the high-friction interface"
+        ),
+        "work_friction_elastic": labelled(
+            each, states["work_elastic"].copy(), "J", "work of all friction before slip"
         ),
         "work_rims": labelled(each, states["work_rim"].sum(axis=-1), "J", "work done on the rims"),
         "work_contact": labelled(

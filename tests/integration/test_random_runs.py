@@ -67,9 +67,7 @@ def random_model(rng: np.random.Generator, bearing: LIRBearing):
         return lumped_mass(bearing, mass)
     storeys = int(rng.integers(1, 4))
     stiffness = mass / storeys * (2 * np.pi / rng.uniform(0.1, 0.5)) ** 2
-    return shear_building(
-        bearing, mass / storeys, stiffness, storeys=storeys, base_mass=0.3 * mass
-    )
+    return shear_building(bearing, mass / storeys, stiffness, storeys=storeys, base_mass=0.3 * mass)
 
 
 @pytest.mark.parametrize("seed", range(CASES))
@@ -97,5 +95,7 @@ def test_completes_or_reports(seed):
         assert "What to try" in data.attrs["message"]
     if float(np.abs(data["energy"].sel(term="input")).max()) > 1.0:
         assert energy_error(data) < 1e-3
-    absorbed = data["energy"].sel(term=["low_friction_bottom", "low_friction_top"])
-    assert float(absorbed.min()) >= -1e-6 * float(np.abs(data["energy"]).max())
+    dissipated = data["energy"].sel(
+        term=["low_friction_bottom", "low_friction_top", "high_friction"]
+    )
+    assert float(dissipated.diff("time").min()) >= 0.0

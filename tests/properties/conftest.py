@@ -91,9 +91,7 @@ def vertical(bearing: LIRBearing, u: np.ndarray, load: float) -> float:
     arm_j = (bearing.radii[1] + t_j) * Rotation.from_rotvec(u[9:12]).as_matrix()[:, 2]
     c = u[6:8] - u[0:2] - arm_i[:2] - arm_j[:2]
     length = bearing.effective_radius + load / bearing.resolved()["axial_stiffness"]
-    return (
-        u[2] - math.sqrt(length**2 - c @ c) + arm_i[2] + arm_j[2] - bearing.height
-    )
+    return u[2] - math.sqrt(length**2 - c @ c) + arm_i[2] + arm_j[2] - bearing.height
 
 
 def smooth_path(
@@ -123,7 +121,9 @@ def smooth_path(
     )
     peaks = np.take_along_axis(waves, np.abs(waves).argmax(axis=0)[None], axis=0)
     waves /= -peaks  # largest value -1: the load surely falls to its least
-    amplitude = np.array([0.05, 0.05, 0.02] + 2 * [tilt] + [twist] + 3 * [0.0] + 2 * [tilt] + [twist])
+    amplitude = np.array(
+        [0.05, 0.05, 0.02] + 2 * [tilt] + [twist] + 3 * [0.0] + 2 * [tilt] + [twist]
+    )
     u = amplitude * waves
     capacity = min(bearing.lateral_capacity, 0.15)
     size = np.hypot(waves[:, 6], waves[:, 7]).max()

@@ -58,9 +58,7 @@ def differences(element: Element, u: np.ndarray, time: float, step: float) -> np
     return k
 
 
-def tangent_error(
-    element: Element, u: np.ndarray, time: float, step: float = 4e-7
-) -> float | None:
+def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 4e-7) -> float | None:
     """Return the error of the tangent over its largest entry; None where a corner lies near.
 
     A corner (start of slip, of rim contact) within the differences shows as a disagreement of two
@@ -940,9 +938,7 @@ def test_rim_is_met_radially_at_its_displacement(sign: float, lab: SimpleNamespa
             expected = [0.0, 0.0]
             expected[k] = force
             assert_allclose(element.response("rim_force"), expected, rtol=1e-8, atol=0.0)
-            assert_allclose(
-                element.response("eccentricity")[k], radial, rtol=1e-12, atol=0.0
-            )
+            assert_allclose(element.response("eccentricity")[k], radial, rtol=1e-12, atol=0.0)
 
 
 # ------------------------------------------------------------------------------- plain Python

@@ -60,9 +60,7 @@ def test_no_rotation() -> None:
 def test_coefficients(square: float) -> None:
     """sin x / x, (1 - cos x) / x^2, (x - sin x) / x^3 by their Taylor series in exact order."""
     terms = range(40)
-    expected = [
-        sum((-square) ** n / math.factorial(2 * n + k) for n in terms) for k in (1, 2, 3)
-    ]
+    expected = [sum((-square) ** n / math.factorial(2 * n + k) for n in terms) for k in (1, 2, 3)]
     # cancellation in the closed forms just above the seam: 1e-16 / 2.5e-3
     assert_allclose(coefficients(square), expected, rtol=2e-13, atol=1e-15)
 

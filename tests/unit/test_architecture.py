@@ -1,0 +1,181 @@
+"""How the packages are built: imports point one way, functions stay short, nothing is swallowed."""
+
+import ast
+import warnings
+from pathlib import Path
+
+import pytest
+
+import lir_element
+
+ROOT = Path(lir_element.__file__).parents[1]
+PACKAGES = ("lir_element", "frames", "validation")
+MODULES = sorted(p for name in ("lir_element", "frames") for p in (ROOT / name).rglob("*.py"))
+LONGEST_FUNCTION = 80
+MODULE_BUDGET = 350
+
+# A package may import from itself and from those to its right.
+ALLOWED = {
+    "lir_element": {"lir_element"},
+    "frames": {"frames", "lir_element"},
+    "validation": set(PACKAGES),
+}
+KERNEL_MODULES = {
+    "lir_element": [
+        "cyclic_kernel", "pendulum", "pendulum_tangent", "pendulum_trial", "rotation", "slip",
+    ],
+}  # fmt: skip
+
+modules = pytest.mark.parametrize(
+    "path", MODULES, ids=[p.relative_to(ROOT).as_posix() for p in MODULES]
+)
+
+
+def parse(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def imported(tree: ast.AST, package: str) -> set[str]:
+    """Return the full names of all that is imported."""
+    names: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = f"{package}.{node.module or ''}" if node.level else node.module or ""
+            names |= {f"{base}.{alias.name}" for alias in node.names}
+    return names
+
+
+def functions(tree: ast.AST) -> list[ast.FunctionDef]:
+    return [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)]
+
+
+def is_kernel(function: ast.FunctionDef) -> bool:
+    return any(isinstance(d, ast.Name) and d.id == "kernel" for d in function.decorator_list)
+
+
+def test_there_is_something_to_check() -> None:
+    assert len(MODULES) > 25
+    assert sum(is_kernel(f) for path in MODULES for f in functions(parse(path))) > 30
+
+
+@modules
+def test_imports_point_one_way(path: Path) -> None:
+    package = path.relative_to(ROOT).parts[0]
+    own = {name.split(".")[0] for name in imported(parse(path), package)} & set(PACKAGES)
+    assert own <= ALLOWED[package]
+
+
+@pytest.mark.parametrize("name", KERNEL_MODULES["lir_element"])
+def test_kernels_know_no_classes(name: str) -> None:
+    """Kernel files hold kernels alone; of the package they import other kernels, and RunStatus."""
+    tree = parse(ROOT / "lir_element" / f"{name}.py")
+    kernels = {
+        f"lir_element.{other}.{f.name}"
+        for other in KERNEL_MODULES["lir_element"]
+        for f in functions(parse(ROOT / "lir_element" / f"{other}.py"))
+        if is_kernel(f)
+    }
+    types_only = [
+        node for node in tree.body if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node)
+    ]
+    for node in types_only:
+        tree.body.remove(node)
+    own = {n for n in imported(tree, "lir_element") if n.startswith("lir_element")}
+    allowed = kernels | {"lir_element._jit.kernel", "lir_element.errors.RunStatus"}
+    assert own <= allowed
+    assert not [n for n in ast.walk(tree) if isinstance(n, ast.ClassDef)]
+    assert all(is_kernel(f) for f in functions(tree))
+    others = imported(tree, "lir_element") - own
+    assert others <= {"math", "typing.TYPE_CHECKING", "__future__.annotations"}
+    # no exceptions, no allocation in the step
+    forbidden = (ast.Raise, ast.Try, ast.ListComp, ast.Dict, ast.Lambda, ast.JoinedStr)
+    assert not [n for n in ast.walk(tree) if isinstance(n, forbidden)]
+
+
+def test_every_kernel_module_is_listed() -> None:
+    found = [
+        path.stem
+        for path in sorted((ROOT / "lir_element").glob("*.py"))
+        if any(is_kernel(f) for f in functions(parse(path)))
+    ]
+    assert found == KERNEL_MODULES["lir_element"]
+
+
+@modules
+def test_functions_are_short(path: Path) -> None:
+    """No function longer than 80 lines, its docstring aside."""
+    lengths = {}
+    for f in functions(parse(path)):
+        first = f.body[1] if ast.get_docstring(f) and len(f.body) > 1 else f.body[0]
+        lengths[f.name] = (f.end_lineno or 0) - first.lineno + 1
+    assert not {name: n for name, n in lengths.items() if n > LONGEST_FUNCTION}
+
+
+@modules
+def test_nothing_is_swallowed(path: Path) -> None:
+    """No bare except, none that catches everything, none whose body does nothing."""
+    for node in ast.walk(parse(path)):
+        if not isinstance(node, ast.ExceptHandler):
+            continue
+        where = f"line {node.lineno}"
+        assert node.type is not None, where
+        caught = {n.id for n in ast.walk(node.type) if isinstance(n, ast.Name)}
+        assert not caught & {"Exception", "BaseException"}, where
+        silent = all(
+            isinstance(n, (ast.Pass, ast.Continue))
+            or (isinstance(n, ast.Expr) and isinstance(n.value, ast.Constant))
+            for n in node.body
+        )
+        assert not silent, where
+
+
+@modules
+def test_no_mutable_defaults(path: Path) -> None:
+    for function in ast.walk(parse(path)):
+        if not isinstance(function, (ast.FunctionDef, ast.Lambda)):
+            continue
+        defaults = [*function.args.defaults, *function.args.kw_defaults]
+        mutable = (ast.List, ast.Dict, ast.Set, ast.ListComp, ast.DictComp, ast.SetComp, ast.Call)
+        assert not [d for d in defaults if isinstance(d, mutable)], function.lineno
+
+
+@modules
+def test_public_names_are_documented(path: Path) -> None:
+    tree = parse(path)
+    assert ast.get_docstring(tree), "the module"
+    scopes: list[ast.Module | ast.ClassDef] = [tree]
+    scopes += [n for n in tree.body if isinstance(n, ast.ClassDef) and not n.name.startswith("_")]
+    for scope in scopes:
+        for node in scope.body:
+            if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
+                assert ast.get_docstring(node), f"{node.name}, line {node.lineno}"
+
+
+@modules
+def test_everything_is_annotated(path: Path) -> None:
+    for function in functions(parse(path)):
+        arguments = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+        bare = [a.arg for a in arguments if a.annotation is None and a.arg not in {"self", "cls"}]
+        assert not bare, f"{function.name}: {bare}"
+        assert function.returns is not None, function.name
+
+
+def test_all_public_names_come_from_the_package() -> None:
+    names = {n for n in vars(lir_element) if not n.startswith("_")}
+    contract = {"LIRBearing", "CoulombFriction", "VelocityFriction", "Element", "cyclic_test"}
+    assert contract <= names
+    for name in contract:
+        assert getattr(lir_element, name).__doc__
+
+
+@modules
+def test_module_budget(path: Path) -> None:
+    """A warning list, not a limit: a module far beyond the budget wants splitting."""
+    count = len(path.read_text(encoding="utf-8").splitlines())
+    if count > MODULE_BUDGET:
+        with warnings.catch_warnings():
+            warnings.simplefilter("always")
+            warnings.warn(f"{path.name}: {count} lines, budget {MODULE_BUDGET}", stacklevel=1)
+    assert count <= 2 * MODULE_BUDGET
