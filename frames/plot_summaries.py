@@ -38,7 +38,7 @@ ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str]] = {
     "high-friction interface": (("high_friction",), "#D55E00"),
     "rims": (("rims",), "#CC79A7"),
     "damping of the structure": (("damping",), "#009E73"),
-    "axial contact, numerical": (("contact", "numerical"), "#F0E442"),
+    "contact, elastic sliding": (("contact", "friction_elastic", "numerical"), "#F0E442"),
     "kinetic, elastic, gravity": (("kinetic", "elastic", "gravity"), "#BBBBBB"),
 }
 """Terms of the energy drawn together, from below, and their colours."""

@@ -81,12 +81,14 @@ def test_completes_or_reports(seed):
         data = time_history(random_model(rng, bearing), motion, dt=dt)
     for name, values in data.items():
         assert np.isfinite(values.to_numpy()).all(), name
-    assert float(data["axial_force"].min()) >= 0.0
+    axial = data["axial_force"]
+    assert float(axial.min()) >= 0.0
     status = data.attrs["status"]
     if status == "ok":
         assert float(data["time"][-1]) >= motion.duration - 1e-9
         limits = bearing.resolved()
-        assert float(data["interface_slip_size"].max()) <= limits["slip_capacity"]
+        pressed = data["interface_slip_size"].where(axial > 0.0, 0.0)
+        assert float(pressed.max()) <= limits["slip_capacity"]
         assert float(data["rim_closure"].max()) <= limits["rim_overrun"]
     else:
         assert status in FAILURES

@@ -121,9 +121,8 @@ def smooth_path(
     )
     peaks = np.take_along_axis(waves, np.abs(waves).argmax(axis=0)[None], axis=0)
     waves /= -peaks  # largest value -1: the load surely falls to its least
-    amplitude = np.array(
-        [0.05, 0.05, 0.02] + 2 * [tilt] + [twist] + 3 * [0.0] + 2 * [tilt] + [twist]
-    )
+    turns = [tilt, tilt, twist]
+    amplitude = np.array([0.05, 0.05, 0.02, *turns, 0.0, 0.0, 0.0, *turns])
     u = amplitude * waves
     capacity = min(bearing.lateral_capacity, 0.15)
     size = np.hypot(waves[:, 6], waves[:, 7]).max()

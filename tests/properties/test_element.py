@@ -27,7 +27,7 @@ HISTORY = {"rtol": 0.0, "atol": 1e-9}
 
 
 WORKS = (
-    "work_friction", "work_interface", "work_rim", "work_contact",
+    "work_friction", "work_interface", "work_elastic", "work_rim", "work_contact",
     "travel", "interface_travel", "largest_slip",
 )  # fmt: skip
 
@@ -469,26 +469,20 @@ def test_friction_and_contact_stay_within_bounds(
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=3)
 def test_friction_dissipates(variant: str, lab: SimpleNamespace, seed: int) -> None:
-    """Work of friction along any motion is not below zero, but for what its springs give back.
+    """What friction dissipates never decreases, step by step, along any motion.
 
-    The springs' stiffness is mu N / u_y: a rise of N or mu while they are stretched can return at
-    most the energy of a fully stretched spring under the largest force, mu_max N_max u_y / 2, for
-    each reversal. The motions here have at most a dozen reversals; one is allowed.
+    And it is of the size of mu N times the path: nothing is lost between slip and elastic sliding.
     """
     bearing = lab.make(variant)
     u, time = lab.smooth_path(bearing, seed, 400)
     names = ("work_friction", "work_interface", "axial_force", "travel")
     r = lab.walk(bearing, u, time, names)
     n = r.axial_force.max()
+    assert (np.diff(r.work_friction, axis=0) >= 0.0).all()
+    assert (np.diff(r.work_interface) >= 0.0).all()
     for k, law in enumerate(bearing.frictions):
-        twist = 1.0 if bearing.torsional_friction else 0.0
-        stored = 0.5 * law.f_max * n * bearing.yield_displacement * (1.0 + twist)
-        assert r.work_friction[:, k].min() >= -stored
         assert r.work_friction[-1, k] > 0.3 * law.f_min * 0.5 * n * r.travel[-1, k]
-    if math.isfinite(bearing.interface_friction):
-        stored = 0.5 * bearing.interface_friction * n * bearing.interface_yield_displacement
-        assert r.work_interface.min() >= -stored
-    else:
+    if math.isinf(bearing.interface_friction):
         assert_array_equal(r.work_interface, 0.0)
 
 

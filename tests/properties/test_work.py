@@ -2,7 +2,7 @@
 
 Nodes: trapezoidal work of forces along displacements, of moments along the rotation from one step
 to the next. Element: friction of the surfaces, of the interface, rims, axial contact. Both are
-second order in the increment, so their difference is.
+second order in the increment, so their difference is. Friction: slip, and elastic sliding before it.
 """
 
 from types import SimpleNamespace
@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 COUNT = 1000
-WORKS = ("work_friction", "work_interface", "work_rim", "work_contact")
+WORKS = ("work_friction", "work_interface", "work_elastic", "work_rim", "work_contact")
 
 
 def work_of_nodes(u: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -65,7 +65,8 @@ def test_works_agree_to_second_order(name: str, lab: SimpleNamespace) -> None:
 def test_each_work_of_a_plain_push(sign: float, lab: SimpleNamespace) -> None:
     """Each term by itself: closed forms along x, plates parallel, N kept at 100 kN.
 
-    Friction mu_k N R_k (tilt - elastic part), interface mu_h N s, contact N^2 / (2 k) from the
+    Friction mu_k N (R_k tilt - u_y), interface mu_h N (s - u_yh), springs of friction half mu N u_y
+    each, contact N^2 / (2 k) from the
     start; rim P^2 / (2 k_r).
     """
     bearing = lab.make("coulomb")
@@ -81,11 +82,15 @@ def test_each_work_of_a_plain_push(sign: float, lab: SimpleNamespace) -> None:
     n = r.axial_force
     # N falls by the string's share of the slip, s^2 / 2 L: below 1e-2; steps of 28 um, u_y / 18.
     for k, mu in enumerate((0.05, 0.08)):
-        path = bearing.radii[k] * tilt - 0.5 * bearing.yield_displacement
+        path = bearing.radii[k] * tilt - bearing.yield_displacement
         assert_allclose(r.work_friction[-1, k], mu * 1e5 * path, rtol=5e-3, atol=0.0)
     s = np.abs(r.slip[:, 0])
-    expected = 0.15 * np.trapezoid(n, s) - 0.5 * 0.15 * 1e5 * bearing.interface_yield_displacement
+    expected = 0.15 * np.trapezoid(n, s) - 0.15 * 1e5 * bearing.interface_yield_displacement
     assert_allclose(r.work_interface[-1], expected, rtol=5e-3, atol=0.0)
+    springs = 0.5 * 1e5 * (0.13 * bearing.yield_displacement)
+    springs += 0.5 * 1e5 * 0.15 * bearing.interface_yield_displacement
+    # a step in which slip starts is shared between both by its end points: 0.06 u_y
+    assert_allclose(r.work_elastic[-1], springs, rtol=0.15, atol=0.0)
     assert_allclose(r.work_contact, 0.5 * n**2 / 1e8, rtol=0.0, atol=1e-5 * 50.0)
     assert_allclose(r.work_rim, 0.5 * r.rim_force**2 / 2e7, rtol=0.0, atol=1e-2)
     assert r.work_rim[-1].max() > 5.0

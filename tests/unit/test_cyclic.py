@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,7 @@ def bearing(**changes: object) -> LIRBearing:
 def through(*corners: float, points: int = 400) -> np.ndarray:
     """Return a path from 0 through the corners, `points` to a branch."""
     ends = np.array([0.0, *corners])
-    parts = [np.linspace(a, b, points + 1)[1:] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    parts = [np.linspace(a, b, points + 1)[1:] for a, b in pairwise(ends)]
     return np.concatenate(parts)
 
 
@@ -135,7 +136,10 @@ def test_area_of_the_loop_with_rim_contacts(sign: float) -> None:
     assert_allclose(np.trapezoid(h, u), expected, rtol=5e-3, atol=0.0)
     counted = sum(
         data[name].to_numpy().reshape(len(path), -1).sum(axis=1)
-        for name in ("work_low_friction", "work_high_friction", "work_rims", "work_contact")
+        for name in (
+            "work_low_friction", "work_high_friction", "work_friction_elastic", "work_rims",
+            "work_contact",
+        )
     )
     assert_allclose(counted[end] - counted[start], expected, rtol=5e-3, atol=0.0)
     # each mechanism: mu N times the sliding of both surfaces; mu_h N times 4 s0; N = W within 2 %
