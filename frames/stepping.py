@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from frames._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum_tangent import fill_tangent
-from lir_element.pendulum_trial import accumulate, copy_words, trial
+from lir_element.pendulum_trial import copy_words, trial
+from lir_element.pendulum_work import accumulate
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run

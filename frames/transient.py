@@ -64,8 +64,8 @@ def time_history(
         Length of the analysis [s]; that of the motion if None. Beyond it the ground rests.
     dt : float, optional
         Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
-        error asks for it. A given step is halved only where Newton's method fails, or where a contact that
-        opens or closes would make or lose energy.
+        error asks for it. A given step is halved only where Newton's method fails, or where a
+        contact that opens or closes would make or lose energy.
     level : {"pendulum"}
         Level of fidelity of the bearings.
     method : {"direct"}

@@ -1,7 +1,7 @@
 """The LIR-DCFP bearing and its element; see docs/conventions.md for axes and signs."""
 
-from lir_element.bearing import DesignWarning as DesignWarning
 from lir_element.bearing import LIRBearing as LIRBearing
+from lir_element.bearing_checks import DesignWarning as DesignWarning
 from lir_element.cyclic_test import cyclic_test as cyclic_test
 from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError

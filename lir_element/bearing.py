@@ -3,31 +3,21 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from typing import Literal, cast
 
 import numpy as np
 
-from lir_element.friction import CoulombFriction, Friction, VelocityFriction
+from lir_element.bearing_checks import check_bearing
+from lir_element.friction import Friction
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
-from lir_element.validation import (
-    as_number,
-    as_pair,
-    require_non_negative,
-    require_positive,
-)
+from lir_element.validation import as_number, as_pair, frozen_pair
 
 STANDARD_GRAVITY = 9.80665
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
 _DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
-_LARGEST_SINE = 0.95  # of the tilt at the rim; the kernels stop at 72 degrees
 _AXIAL_DAMPING_RATIO = 0.05
 _RIM_DAMPING_RATIO = 0.10
-
-
-class DesignWarning(UserWarning):
-    """A bearing that can be computed, but will not work as it is meant to."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +40,7 @@ class LIRBearing:
     capacity : float, optional
         Lateral displacement at the first rim contact, plates parallel [m]; ``math.inf`` for a
         bearing without rims. Both rims are then met together.
-    rims : (float, float), optional
+    rims : float or (float, float), optional
         Sliding displacement at which each rim is met, bottom and top [m]; instead of `capacity`
         where they differ.
     axial_stiffness, axial_damping : float, optional
@@ -106,7 +96,7 @@ class LIRBearing:
     friction: Friction | tuple[Friction, Friction]
     interface_friction: float
     capacity: float | None = None
-    rims: tuple[float, float] | None = None
+    rims: float | tuple[float, float] | None = None
     axial_stiffness: float | None = None
     axial_damping: float | None = None
     rim_stiffness: float | None = None
@@ -123,115 +113,9 @@ class LIRBearing:
     allow_weak_interface: bool = False
 
     def __post_init__(self) -> None:
-        self._check_geometry()
-        self._check_friction()
-        self._check_rims()
-        for name, unit in _OPTIONAL:
-            if getattr(self, name) is not None:
-                require = require_non_negative if "damping" in name else require_positive
-                require(name, getattr(self, name), unit)
-        for name in ("yield_displacement", "interface_yield_displacement"):
-            require_positive(name, getattr(self, name), "m")
-        if self.friction_law not in {"elastic-plastic", "bouc-wen"}:
-            msg = f"friction_law = {self.friction_law!r}: choose 'elastic-plastic' or 'bouc-wen'"
-            raise ValueError(msg)
-        if require_positive("bouc_wen_exponent", self.bouc_wen_exponent, "-") < 1.0:
-            msg = f"bouc_wen_exponent = {self.bouc_wen_exponent:g} must be at least 1"
-            raise ValueError(msg)
-
-    def _check_geometry(self) -> None:
-        for name, value in zip(("bottom", "top"), as_pair("radius", self.radius), strict=True):
-            require_positive(f"radius ({name})", value, "m")
-        require_positive("slider_height", self.slider_height, "m")
-        require_positive("slider_radius", self.slider_radius, "m")
-        for value in as_pair("plate_thickness", self.plate_thickness):
-            require_non_negative("plate_thickness", value, "m")
-        height, edge = self.slider_height, self.slider_radius
-        if edge >= min(self.radii):
-            msg = (
-                f"slider_radius = {edge:g} m does not fit a concave surface of radius "
-                f"{min(self.radii):g} m: use a smaller slider or larger radii"
-            )
-            raise ValueError(msg)
-        caps = sum(r - math.sqrt(r * r - edge * edge) for r in self.radii)
-        if height <= caps:
-            msg = (
-                f"slider_height = {height:g} m does not exceed the height of its two spherical "
-                f"caps, {caps:.4g} m at slider_radius = {edge:g} m: use a higher or a slimmer "
-                "slider"
-            )
-            raise ValueError(msg)
-        if height >= sum(self.radii):
-            msg = (
-                f"slider_height = {height:g} m must be below the sum of the radii, "
-                f"{sum(self.radii):g} m: the effective radius R1 + R2 - h must be positive"
-            )
-            raise ValueError(msg)
-
-    def _check_friction(self) -> None:
-        pair: tuple[object, object] = as_pair("friction", self.friction)
-        for law in pair:
-            if not isinstance(law, (CoulombFriction, VelocityFriction)):
-                msg = (
-                    f"friction = {law!r}: give CoulombFriction(mu) or "
-                    "VelocityFriction(f_max, f_min, rate), or a pair (bottom, top) of them"
-                )
-                raise TypeError(msg)
-        mu_h = require_positive("interface_friction", self.interface_friction, "-", infinite=True)
-        largest = max(law.f_max for law in self.frictions)
-        if self.allow_weak_interface:
-            return
-        if mu_h <= largest:
-            msg = (
-                f"interface_friction = {mu_h:g} must exceed the friction of the concave surfaces "
-                f"at all speeds, {largest:g} (design rule mu_h > mu_d): raise it, or pass "
-                "allow_weak_interface=True to study such a bearing"
-            )
-            raise ValueError(msg)
-        if mu_h <= self.effective_friction:
-            msg = (
-                f"interface_friction = {mu_h:g} exceeds mu_d but not (mu_1 R_1 + mu_2 R_2) / L = "
-                f"{self.effective_friction:.4g}: the interface slips before the slider meets a rim"
-            )
-            warnings.warn(msg, DesignWarning, stacklevel=4)
-
-    def _check_rims(self) -> None:
-        if self.capacity is None and self.rims is None:
-            msg = (
-                "capacity is missing: give the lateral displacement at the first rim contact [m] "
-                "(math.inf for a bearing without rims), or rims=(bottom, top)"
-            )
-            raise ValueError(msg)
-        if self.capacity is not None:
-            require_positive("capacity", self.capacity, "m", infinite=True)
-        if self.rims is not None:
-            for value in self.rims:
-                require_positive("rims", value, "m", infinite=True)
-            if self.capacity is not None and not math.isclose(
-                self.capacity, self.lateral_capacity, rel_tol=1e-6
-            ):
-                msg = (
-                    f"capacity = {self.capacity:g} m contradicts rims = {self.rims}, which give "
-                    f"{self.lateral_capacity:g} m: give only one of them"
-                )
-                raise ValueError(msg)
-        limit = _LARGEST_SINE * self.effective_radius
-        if math.isfinite(self.lateral_capacity) and self.lateral_capacity > limit:
-            msg = (
-                f"capacity = {self.lateral_capacity:g} m lies beyond the spheres: it must not "
-                f"exceed {_LARGEST_SINE} L = {limit:.4g} m; use larger radii"
-            )
-            raise ValueError(msg)
-        for name, reach, r in zip(
-            ("bottom", "top"), self.rim_displacement, self.radii, strict=True
-        ):
-            if math.isfinite(reach) and reach + self.slider_radius >= r:
-                msg = (
-                    f"the slider does not fit the {name} plate: at its rim it reaches "
-                    f"{reach:.4g} + slider_radius {self.slider_radius:g} m, which must be below "
-                    f"the radius {r:g} m; reduce capacity or slider_radius"
-                )
-                raise ValueError(msg)
+        for name in ("radius", "friction", "plate_thickness", "rims"):
+            object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
+        check_bearing(self)
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -253,7 +137,8 @@ class LIRBearing:
     def rim_displacement(self) -> tuple[float, float]:
         """Sliding on the bottom and the top surface at which its rim is met [m]."""
         if self.rims is not None:
-            return float(self.rims[0]), float(self.rims[1])
+            bottom, top = as_pair("rims", self.rims)
+            return as_number("rims", bottom, "m"), as_number("rims", top, "m")
         first, second = self.radii
         ratio = float(self.capacity or math.inf) / self.effective_radius
         return first * ratio, second * ratio
@@ -302,12 +187,14 @@ class LIRBearing:
         Returns
         -------
         float
-            Lateral force [N]; infinite for a bearing without rims or with its slider in one piece.
+            Lateral force [N]; infinite without rims, with the slider in one piece, or where tilt
+            and friction angle reach 90 degrees together.
         """
         if self.is_dcfp or math.isinf(self.lateral_capacity):
             return math.inf
         tilt = math.asin(self.lateral_capacity / self.effective_radius)
-        return axial_load * math.tan(tilt + math.atan(self.interface_friction))
+        angle = tilt + math.atan(self.interface_friction)
+        return axial_load * math.tan(angle) if angle < 0.5 * math.pi else math.inf
 
     def as_dcfp(self, *, rims: bool = True) -> LIRBearing:
         """Return the same bearing with its slider in one piece, with or without its rims."""
@@ -373,14 +260,3 @@ class LIRBearing:
 
 def _or(value: float | None, default: float) -> float:
     return default if value is None else float(value)
-
-
-_OPTIONAL = (
-    ("axial_stiffness", "N/m"),
-    ("axial_damping", "N s/m"),
-    ("rim_stiffness", "N/m"),
-    ("rim_damping", "N s/m"),
-    ("rim_overrun", "m"),
-    ("slip_capacity", "m"),
-    ("design_load", "N"),
-)

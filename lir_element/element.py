@@ -79,8 +79,9 @@ class Element:
         self._work = np.zeros(1, dtype=WORK)
         self._tangent = np.zeros((12, 12))
         self._has_tangent = False
+        self._pending = False
         self._initial: Floats | None = None
-        self.set_trial(np.zeros(12), np.zeros(12), 0.0)
+        self.revert_to_last_commit()
 
     def set_trial(self, displacement: ArrayLike, velocity: ArrayLike, time: float) -> None:
         """Determine the trial state.
@@ -107,8 +108,9 @@ class Element:
         )
         self._has_tangent = False
         status = RunStatus(code)
+        self._pending = True
         if status is not RunStatus.OK and not _is_limit(status):
-            self._trial[:] = self._committed
+            self.revert_to_last_commit()
             raise AnalysisError(status, float(time), "bearing element")
 
     def resisting_force(self) -> Floats:
@@ -146,7 +148,14 @@ class Element:
         AnalysisError
             If the state lies beyond a limit of the bearing (it is committed all the same, so that
             it can be looked at).
+
+        Notes
+        -----
+        Without a new trial since the last commit or revert there is nothing to accept.
         """
+        if not self._pending:
+            return
+        self._pending = False
         pendulum_trial.accumulate_one(self._props, self._committed, self._trial)
         self._committed[:] = self._trial
         status = RunStatus(int(self._committed["status"][0]))
@@ -161,11 +170,12 @@ class Element:
         u = np.array(committed["displacement"][0])
         self.set_trial(u, np.zeros(12), float(committed["time"][0]))
         self._trial[:] = committed
+        self._pending = False
 
     def revert_to_start(self) -> None:
         """Forget everything: the undeformed, unloaded bearing at time zero."""
         self._committed[:] = self._start
-        self.set_trial(np.zeros(12), np.zeros(12), 0.0)
+        self.revert_to_last_commit()
 
     def response(self, name: str) -> Any:
         """Return a response of the trial state by name (see `responses`)."""

@@ -11,15 +11,10 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.pendulum import (
-    aim_axis,
-    elastic_jacobian,
-    evaluate,
-    place_plates,
-    set_axis,
-    static_speeds,
-)
-from lir_element.pendulum_tangent import fill_tangent, slider_jacobian
+from lir_element.pendulum import aim_axis, place_plates, static_speeds
+from lir_element.pendulum_solve import solve_axis
+from lir_element.pendulum_tangent import fill_tangent
+from lir_element.pendulum_work import accumulate
 from lir_element.slip import return_map
 
 if TYPE_CHECKING:
@@ -32,139 +27,7 @@ _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
-_MAX_ITERATIONS = 60
-_MAX_STEEPEST = 12
-_TOLERANCE = 1e-12  # of axial force times string length
-_LARGEST_TURN = 0.1  # rad, of the axis in one iteration
 _SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
-
-
-@kernel
-def residual_size(w: Work) -> float:
-    """Return the residual of the slider's equilibrium over axial force and length."""
-    return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
-
-
-@kernel
-def mark_start(w: Work) -> None:
-    """Keep the current axis as the start of a search; on a rim, keep its parallel circle too."""
-    for a in range(3):
-        w.start[0, a], w.start[1, a], w.start[2, a] = w.n[a], w.t[0, a], w.t[1, a]
-    on_rim = w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0
-    radius = math.sqrt(w.n[0] ** 2 + w.n[1] ** 2)
-    w.start_circle[2] = radius if on_rim and radius > 1e-6 else 0.0
-    if w.start_circle[2] > 0.0:
-        w.start_circle[0], w.start_circle[1] = w.n[0] / radius, w.n[1] / radius
-
-
-@kernel
-def move(p: Props, old: State, w: Work, e_1: float, e_2: float) -> None:
-    """Turn the axis from the start of the search by eta and evaluate there.
-
-    On a rim the turn follows the rim's circle: a straight one would run into the rim's stiffness
-    by its curvature alone.
-    """
-    s = w.start
-    if w.start_circle[2] == 0.0:
-        set_axis(
-            w,
-            s[0, 0] + s[1, 0] * e_1 + s[2, 0] * e_2,
-            s[0, 1] + s[1, 1] * e_1 + s[2, 1] * e_2,
-            s[0, 2] + s[1, 2] * e_1 + s[2, 2] * e_2,
-        )
-    else:
-        u_1, u_2, radius = w.start_circle[0], w.start_circle[1], w.start_circle[2]
-        along = (-u_2 * e_1 + u_1 * e_2) / radius
-        tilt = math.atan2(radius, s[0, 2]) + u_1 * e_1 + u_2 * e_2
-        cos, sin, out = math.cos(along), math.sin(along), math.sin(tilt)
-        set_axis(w, out * (cos * u_1 - sin * u_2), out * (sin * u_1 + cos * u_2), math.cos(tilt))
-    evaluate(p, old, w)
-
-
-@kernel
-def newton_turn(p: Props, old: State, w: Work, zero: Floats) -> float:
-    """Turn the axis along Newton's direction; return the new relative residual, -1 if no gain."""
-    size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-    slider_jacobian(p, w, zero)
-    j = w.jacobian
-    det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
-    floor = w.n_hat * w.l * w.l  # of the restoring term, which must not rule
-    if not (j[0, 0] + j[1, 1] > floor and det > 1e-3 * floor * floor):
-        return -1.0
-    e_1 = -(j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1]) / det
-    e_2 = -(j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0]) / det
-    turn = math.sqrt(e_1 * e_1 + e_2 * e_2)
-    if turn > _LARGEST_TURN:
-        e_1, e_2 = e_1 * _LARGEST_TURN / turn, e_2 * _LARGEST_TURN / turn
-    mark_start(w)
-    for _ in range(8):
-        move(p, old, w, e_1, e_2)
-        relative = residual_size(w)
-        new = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-        if new <= 0.999 * size or relative < _TOLERANCE:
-            return relative
-        e_1, e_2 = 0.3 * e_1, 0.3 * e_2
-    move(p, old, w, 0.0, 0.0)
-    return -1.0
-
-
-@kernel
-def steepest_turn(p: Props, old: State, w: Work) -> float:
-    """Turn the axis against the residual until its part along that direction vanishes.
-
-    The safeguard where everything slides and Newton sees no stiffness: expand, then bisect
-    (Illinois). Returns the new relative residual, -1 if there is no zero within the largest turn.
-    """
-    size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-    d_1, d_2 = -w.residual[0] / size, -w.residual[1] / size
-    elastic_jacobian(p, w)
-    high = size / (w.jacobian[0, 0] + w.jacobian[1, 1])
-    low, f_low = 0.0, -size
-    mark_start(w)
-    move(p, old, w, high * d_1, high * d_2)
-    f_high = w.residual[0] * d_1 + w.residual[1] * d_2
-    while f_high < 0.0:
-        low, f_low = high, f_high
-        if high >= 3.0 * _LARGEST_TURN:
-            move(p, old, w, 0.0, 0.0)
-            return -1.0
-        high = min(4.0 * high, 3.0 * _LARGEST_TURN)
-        move(p, old, w, high * d_1, high * d_2)
-        f_high = w.residual[0] * d_1 + w.residual[1] * d_2
-    for _ in range(80):
-        middle = (low * f_high - high * f_low) / (f_high - f_low)
-        move(p, old, w, middle * d_1, middle * d_2)
-        f = w.residual[0] * d_1 + w.residual[1] * d_2
-        if abs(f) <= 1e-3 * w.n_hat * w.l or high - low < 1e-16:
-            break
-        if f < 0.0:
-            low, f_low, f_high = middle, f, 0.5 * f_high
-        else:
-            high, f_high, f_low = middle, f, 0.5 * f_low
-    return residual_size(w)
-
-
-@kernel
-def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
-    """Find the axis in equilibrium; return the iterations taken, or -1."""
-    evaluate(p, old, w)
-    if p.fused:
-        return 0
-    size = residual_size(w)
-    steepest = 0
-    for count in range(_MAX_ITERATIONS):
-        if size < _TOLERANCE:
-            return count
-        new = newton_turn(p, old, w, zero)
-        if new < 0.0:
-            if size < 1e3 * _TOLERANCE:  # at the round-off of stiff contacts
-                return count
-            steepest += 1
-            new = steepest_turn(p, old, w)
-            if new < 0.0 or steepest > _MAX_STEEPEST:
-                return -1
-        size = new
-    return -1
 
 
 @kernel
@@ -217,6 +80,20 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
 
 
 @kernel
+def keep_works(old: State, new: State) -> None:
+    """Carry works and paths over to the trial: they grow when it is committed."""
+    for k in range(2):
+        new.work_friction[k] = old.work_friction[k]
+        new.work_rim[k] = old.work_rim[k]
+        new.travel[k] = old.travel[k]
+    new.work_interface = old.work_interface
+    new.work_elastic = old.work_elastic
+    new.work_contact = old.work_contact
+    new.interface_travel = old.interface_travel
+    new.largest_slip = old.largest_slip
+
+
+@kernel
 def set_state(p: Props, old: State, w: Work, new: State) -> None:
     """Fill what the record keeps of the sliders."""
     n, t, q = w.n, w.t, w.q_i
@@ -230,6 +107,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.slip_total[a] = 0.0
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
+    keep_works(old, new)
     new.string = w.l
     new.closure = w.closure
     new.slid_interface = 0.0 if p.fused else w.slid_s
@@ -288,15 +166,15 @@ def trial(
     Returns a RunStatus code. A limit of the bearing that is exceeded leaves a valid state:
     whoever commits it must look at `new.status`.
     """
+    if not math.isfinite(time):
+        return _NOT_FINITE
     for k in range(12):
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
-            new.status = _NOT_FINITE
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
     place_plates(p, w, u)
     size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
     if not -w.c[2] > _SMALLEST_COSINE * size:
-        new.status = _SPHERE_EXCEEDED
         return _SPHERE_EXCEEDED
     for a in range(3):
         w.old_top[a] = (
@@ -323,100 +201,6 @@ def trial(
             status = _NOT_FINITE
     new.status = status
     return status
-
-
-@kernel
-def shortening_work(at: State, old: State, new: State) -> float:
-    """Return axial force times change of the string's length, both as they are in the state `at`.
-
-    ``dl = -n . dc - s . dn``: with the direction of its own end each force does exactly the work
-    of the nodes' forces, however far the step goes.
-    """
-    n = at.axis
-    lean = (at.slip[0] * n[0] + at.slip[1] * n[1]) / (1.0 + n[2])
-    s_1, s_2, s_3 = at.slip[0] - lean * n[0], at.slip[1] - lean * n[1], -lean * (1.0 + n[2])
-    length = 0.0
-    for a in range(3):
-        s = s_1 if a == 0 else (s_2 if a == 1 else s_3)
-        length -= n[a] * (new.centres[a] - old.centres[a]) + s * (new.axis[a] - old.axis[a])
-    return at.axial_force * length
-
-
-@kernel
-def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
-    """Return rim force `k` times the radial sliding, both as they are in the state `at`."""
-    if at.rim_force[k] == 0.0:
-        return 0.0
-    if k == 0:
-        x, y = at.axis[0], at.axis[1]
-        d_x, d_y = new.axis[0] - old.axis[0], new.axis[1] - old.axis[1]
-    else:
-        x, y = at.axis_top[0], at.axis_top[1]
-        d_x, d_y = new.axis_top[0] - old.axis_top[0], new.axis_top[1] - old.axis_top[1]
-    return at.rim_force[k] * p.radius[k] * (x * d_x + y * d_y) / math.sqrt(x * x + y * y)
-
-
-@kernel
-def contact_defect(old: State, new: State) -> float:
-    """Return the energy that the step makes or loses where a contact opens or closes in it.
-
-    The trapezoidal rule lets a contact's force act over the open part of the step as well: force
-    times the part of the travel that no closure took part in.
-    """
-    travel = abs((new.string - old.string) - (new.closure - old.closure))
-    defect = 0.5 * (old.axial_force + new.axial_force) * travel
-    for k in range(2):
-        radial = new.eccentricity[k] - old.eccentricity[k]
-        travel = abs(radial - (new.rim_closure[k] - old.rim_closure[k]))
-        defect += 0.5 * (old.rim_force[k] + new.rim_force[k]) * travel
-    return defect
-
-
-@kernel
-def dissipated(
-    f_old_1: float, f_old_2: float, f_1: float, f_2: float, z_1: float, z_2: float, slip: float
-) -> float:
-    """Return the work of friction over the slipped part of a step, which lies along z.
-
-    By the trapezoidal rule, without the old force where it pointed the other way: never negative.
-    """
-    size = math.sqrt(z_1 * z_1 + z_2 * z_2)
-    if slip <= 0.0 or size == 0.0:
-        return 0.0
-    e_1, e_2 = z_1 / size, z_2 / size
-    return 0.5 * slip * (max(f_old_1 * e_1 + f_old_2 * e_2, 0.0) + f_1 * e_1 + f_2 * e_2)
-
-
-@kernel
-def accumulate(p: Props, old: State, new: State) -> None:
-    """Add the works and paths of the step from `old` to `new` to those of `new`.
-
-    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
-    so for the stiff contacts, whose forces jump).
-    """
-    total = 0.5 * (old.torque + new.torque) * (new.twist - old.twist)
-    turned = dissipated(old.torque, 0.0, new.torque, 0.0, new.twist_hysteresis, 0.0, new.slid_twist)
-    lost = turned
-    for k in range(2):
-        f, g = old.friction_force[k], new.friction_force[k]
-        d, z = new.sliding_increment[k], new.hysteresis[k]
-        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
-        work = dissipated(f[0], f[1], g[0], g[1], z[0], z[1], new.slid[k])
-        lost += work
-        new.work_friction[k] = old.work_friction[k] + work + 0.5 * turned
-        new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
-        work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
-        new.work_rim[k] = old.work_rim[k] + work
-    f, g, d, z = old.interface_force, new.interface_force, new.slip_increment, new.slip
-    total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
-    y = new.interface_hysteresis
-    work = dissipated(f[0], f[1], g[0], g[1], y[0], y[1], new.slid_interface)
-    new.work_interface = old.work_interface + work
-    new.work_elastic = old.work_elastic + total - lost - work
-    new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
-    new.largest_slip = max(old.largest_slip, math.sqrt(z[0] * z[0] + z[1] * z[1]))
-    work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
-    new.work_contact = old.work_contact + work
 
 
 @kernel

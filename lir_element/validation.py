@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import inf, isnan
 from typing import TypeVar
 
+import numpy as np
+
 T = TypeVar("T")
 
 
@@ -42,6 +44,13 @@ def require_non_negative(name: str, value: object, unit: str) -> float:
         msg = f"{name} = {number:g} [{unit}] must be finite and at least 0; give it in {unit} (SI)"
         raise ValueError(msg)
     return number
+
+
+def frozen_pair(name: str, value: object) -> object:
+    """Return a list or array of two as a tuple; anything that is no sequence as it is."""
+    if isinstance(value, np.ndarray):
+        return as_pair(name, tuple(value.tolist()))
+    return as_pair(name, tuple(value)) if isinstance(value, (tuple, list)) else value
 
 
 def as_pair(name: str, value: T | tuple[T, T]) -> tuple[T, T]:

@@ -1,4 +1,4 @@
-"""Bearings and paths shared by the property tests: a list of variants, and random smooth motions."""
+"""Bearings and paths of the property tests: a list of variants, and random smooth motions."""
 
 import math
 from collections.abc import Callable

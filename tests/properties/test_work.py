@@ -2,7 +2,8 @@
 
 Nodes: trapezoidal work of forces along displacements, of moments along the rotation from one step
 to the next. Element: friction of the surfaces, of the interface, rims, axial contact. Both are
-second order in the increment, so their difference is. Friction: slip, and elastic sliding before it.
+second order in the increment, so their difference is. Friction counts slip apart from the elastic
+sliding before it.
 """
 
 from types import SimpleNamespace

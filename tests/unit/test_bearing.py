@@ -117,7 +117,6 @@ def test_pairs_have_two_entries(name: str, count: int) -> None:
 
 
 @pytest.mark.parametrize("rims", [0.09, (0.09,), (0.09, 0.09, 0.09)])
-@pytest.mark.xfail(strict=True, reason="a single number, or too many, fail without naming 'rims'")
 def test_rims_are_a_pair(rims: object) -> None:
     """One value for both (as elsewhere) or a refusal that names it."""
     try:
@@ -286,7 +285,6 @@ def test_contradicting_rims_and_capacity() -> None:
 
 
 @pytest.mark.parametrize("pair", [[0.75, 0.75], np.array([0.75, 0.75])], ids=["list", "array"])
-@pytest.mark.xfail(strict=True, reason="kept as given: unhashable, or refused without a name")
 def test_other_sequences_serve_as_pairs(pair: object) -> None:
     """A frozen bearing must not hold something that can change, or refuse it by name."""
     assert hash(bearing(radius=pair)) == hash(bearing(radius=(0.75, 0.75)))
@@ -343,7 +341,6 @@ def test_no_limit_of_force_without_rims_or_interface() -> None:
     assert bearing().as_dcfp(rims=False).force_limit(1.0) == math.inf
 
 
-@pytest.mark.xfail(strict=True, reason="beyond 90 degrees of tilt and friction angle tan wraps")
 def test_force_limit_of_a_steep_and_rough_bearing() -> None:
     """theta_max + atan(mu_h) above 90 degrees: no horizontal force starts the interface."""
     steep = bearing(capacity=0.85 * 1.415, interface_friction=0.9)

@@ -6,6 +6,7 @@ springs for the rims; the offset s of each step by bisection.
 """
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -32,27 +33,28 @@ def bearing() -> LIRBearing:
 
 def naive(path: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return lateral force, interface slip and rim forces along `path`."""
-    z, z_h, u, s = np.zeros(2), 0.0, 0.0, 0.0
     share = np.array(RADII) / LENGTH  # sliding of a surface over pendulum displacement U - s
     out = []
 
-    def surfaces(x: float, dx: float) -> tuple[np.ndarray, np.ndarray, float]:
+    def surfaces(z: np.ndarray, x: float, dx: float) -> tuple[np.ndarray, np.ndarray, float]:
+        """Return z, rim forces and what both sum to, at the displacement x after a step dx."""
         new = np.clip(z + share * dx / U_Y, -1.0, 1.0)
         beyond = np.maximum(np.abs(share * x) - np.array(RIMS), 0.0)
         rim = math.copysign(1.0, x) * K_RIM * beyond
         return new, rim, float(np.sum(share * (np.array(MU) * W * new + rim)))
 
+    def imbalance(ds: float, du: float, u: float, s: float, z: np.ndarray, z_h: float) -> float:
+        force = surfaces(z, u + du - s - ds, du - ds)[2]
+        interface = MU_H * W * np.clip(z_h + ds / U_YH, -1.0, 1.0)
+        return float(interface - force - W * (s + ds) / LENGTH)
+
+    z, z_h, u, s = np.zeros(2), 0.0, 0.0, 0.0
     for target in path:
-
-        def imbalance(ds: float, target: float = target) -> float:
-            force = surfaces(target - s - ds, target - u - ds)[2]
-            interface = MU_H * W * np.clip(z_h + ds / U_YH, -1.0, 1.0)
-            return float(interface - force - W * (s + ds) / LENGTH)
-
-        step = brentq(imbalance, -0.01, 0.01, xtol=1e-13)
-        z, rim, force = surfaces(target - s - step, target - u - step)
-        z_h = float(np.clip(z_h + step / U_YH, -1.0, 1.0))
-        u, s = target, s + step
+        du = target - u
+        ds = brentq(imbalance, -0.01, 0.01, args=(du, u, s, z, z_h), xtol=1e-13)
+        z, rim, force = surfaces(z, target - s - ds, du - ds)
+        z_h = float(np.clip(z_h + ds / U_YH, -1.0, 1.0))
+        u, s = target, s + ds
         out.append((W * u / LENGTH + force, s, rim))
     force, slip, rims = zip(*out, strict=True)
     return np.array(force), np.array(slip), np.array(rims)
@@ -82,9 +84,7 @@ def test_cyclic_path_with_rim_contact(sign: float) -> None:
     capacity = LENGTH * min(d / r for d, r in zip(RIMS, RADII, strict=True))
     corners = [0.0, 1.1, -1.13, 0.4, -0.6, 1.05, 0.0]
     ends = sign * capacity * np.array(corners)
-    path = np.concatenate(
-        [np.linspace(a, b, 500)[1:] for a, b in zip(ends[:-1], ends[1:], strict=True)]
-    )
+    path = np.concatenate([np.linspace(a, b, 500)[1:] for a, b in pairwise(ends)])
     expected, computed = naive(path), element(path)
     assert np.abs(expected[1]).max() > 0.01  # it slips
     assert expected[2].any(axis=0).sum() == 1  # on one rim

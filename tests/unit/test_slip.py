@@ -1,6 +1,7 @@
 """Return map, friction law and contact law, one by one."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -112,7 +113,10 @@ def test_derivative(
     assert_allclose(out[7:9], [by_1[6], by_2[6]], rtol=0.0, atol=limit)
 
 
-def path_of(seed: int):  # noqa: ANN201
+Path = Callable[[float], np.ndarray]
+
+
+def path_of(seed: int) -> tuple[Path, Path]:
     """Return a smooth random plane path w(t), 0 <= t <= 1, of some ten u_y, and its rate."""
     rng = np.random.default_rng(seed)
     a = rng.normal(size=(4, 2)) * 4.0 * U_Y
@@ -127,7 +131,7 @@ def path_of(seed: int):  # noqa: ANN201
     return path, rate
 
 
-def integrated(bouc_wen: int, eta: float, path, steps: int) -> np.ndarray:  # noqa: ANN001
+def integrated(bouc_wen: int, eta: float, path: Path, steps: int) -> np.ndarray:
     z, old = np.zeros(2), path(0.0)
     for t in np.linspace(0.0, 1.0, steps + 1)[1:]:
         new = path(t)
@@ -232,7 +236,7 @@ def test_contact_never_pulls(gap: float, old: float, k: float, c: float, dt: flo
 
 @given(old=st.floats(0.0, 1e-2), k=st.floats(1e6, 1e9), c=st.floats(0.0, 1e7))
 def test_contact_is_continuous(old: float, k: float, c: float) -> None:
-    """No jump over gaps from open to closed, at impact (old = 0) or not: slope bounds the change."""
+    """No jump from open to closed, at impact (old = 0) or not: the slope bounds the change."""
     gaps = np.linspace(-2e-3, 1.2e-2, 1500)
     dt = 0.01
     force = np.array([kelvin_voigt(g, old, k, c, dt)[0] for g in gaps])

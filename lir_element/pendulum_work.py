@@ -1,0 +1,118 @@
+"""Kernels of the level 'pendulum': works of a step, taken up when it is committed."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+
+if TYPE_CHECKING:
+    from lir_element.layout import Props, State
+
+
+@kernel
+def shortening_work(at: State, old: State, new: State) -> float:
+    """Return axial force times change of the string's length, both as they are in the state `at`.
+
+    ``dl = -n . dc - s . dn``: with the direction of its own end each force does exactly the work
+    of the nodes' forces, however far the step goes.
+    """
+    n = at.axis
+    lean = (at.slip[0] * n[0] + at.slip[1] * n[1]) / (1.0 + n[2])
+    s_1, s_2, s_3 = at.slip[0] - lean * n[0], at.slip[1] - lean * n[1], -lean * (1.0 + n[2])
+    length = 0.0
+    for a in range(3):
+        s = s_1 if a == 0 else (s_2 if a == 1 else s_3)
+        length -= n[a] * (new.centres[a] - old.centres[a]) + s * (new.axis[a] - old.axis[a])
+    return at.axial_force * length
+
+
+@kernel
+def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
+    """Return rim force `k` times the radial sliding, both as they are in the state `at`."""
+    if at.rim_force[k] == 0.0:
+        return 0.0
+    if k == 0:
+        x, y = at.axis[0], at.axis[1]
+        d_x, d_y = new.axis[0] - old.axis[0], new.axis[1] - old.axis[1]
+    else:
+        x, y = at.axis_top[0], at.axis_top[1]
+        d_x, d_y = new.axis_top[0] - old.axis_top[0], new.axis_top[1] - old.axis_top[1]
+    return at.rim_force[k] * p.radius[k] * (x * d_x + y * d_y) / math.sqrt(x * x + y * y)
+
+
+@kernel
+def contact_defect(old: State, new: State) -> float:
+    """Return the energy that the step makes or loses where a contact opens or closes in it.
+
+    The trapezoidal rule lets a contact's force act over the open part of the step as well: force
+    times the part of the travel that no closure took part in.
+    """
+    travel = abs((new.string - old.string) - (new.closure - old.closure))
+    defect = 0.5 * (old.axial_force + new.axial_force) * travel
+    for k in range(2):
+        radial = new.eccentricity[k] - old.eccentricity[k]
+        travel = abs(radial - (new.rim_closure[k] - old.rim_closure[k]))
+        defect += 0.5 * (old.rim_force[k] + new.rim_force[k]) * travel
+    return defect
+
+
+@kernel
+def dissipated(cap_old: float, cap: float, z_1: float, z_2: float, slip: float) -> float:
+    """Return the work of friction over the slipped part of a step, which lies along z.
+
+    `cap_old` and `cap` are the forces at full slip at both ends: trapezoidal, never negative.
+    """
+    return 0.5 * (cap_old + cap) * math.sqrt(z_1 * z_1 + z_2 * z_2) * slip
+
+
+@kernel
+def torsion_cap(p: Props, at: State) -> float:
+    """Return the torque about the vertical at full slip in the state `at`."""
+    mu = min(at.friction_coefficient[0], at.friction_coefficient[1], p.interface_friction)
+    return p.torsion_lever * mu * at.axial_force
+
+
+@kernel
+def accumulate(p: Props, old: State, new: State) -> None:
+    """Add the works and paths of the step from `old` to `new` to those of `new`.
+
+    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
+    so for the stiff contacts, whose forces jump).
+    """
+    total = 0.5 * (old.torque + new.torque) * (new.twist - old.twist)
+    turned = dissipated(
+        torsion_cap(p, old), torsion_cap(p, new), new.twist_hysteresis, 0.0, new.slid_twist
+    )
+    lost = turned
+    for k in range(2):
+        f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
+        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+        work = dissipated(
+            old.friction_coefficient[k] * old.axial_force,
+            new.friction_coefficient[k] * new.axial_force,
+            new.hysteresis[k, 0],
+            new.hysteresis[k, 1],
+            new.slid[k],
+        )
+        lost += work
+        new.work_friction[k] = old.work_friction[k] + work + 0.5 * turned
+        new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
+        work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
+        new.work_rim[k] = old.work_rim[k] + work
+    f, g, d, s = old.interface_force, new.interface_force, new.slip_increment, new.slip
+    work = 0.0
+    if not p.fused:
+        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+        z = new.interface_hysteresis
+        mu = p.interface_friction
+        work = dissipated(
+            mu * old.axial_force, mu * new.axial_force, z[0], z[1], new.slid_interface
+        )
+    new.work_interface = old.work_interface + work
+    new.work_elastic = old.work_elastic + total - lost - work
+    new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
+    new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
+    work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
+    new.work_contact = old.work_contact + work
