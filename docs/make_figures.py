@@ -1,14 +1,15 @@
-"""The figures of the documentation: writes docs/conventions.svg and docs/figures/hysteresis.png.
+"""The figures of the documentation: docs/conventions.svg and docs/figures/*.png.
 
     python docs/make_figures.py
 
 The bearing of the drawing has small radii and a high slider, so that its sphere centres and its
-bodies fit one picture; everything in it is to that scale. Option --png renders it to a PNG too.
+bodies fit one picture; everything in it is to that scale. The figure of the demo needs its record
+(``pip install ".[demo]"``).
 """
 
 from __future__ import annotations
 
-import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from frames import demo, moment_frame, time_history
 from frames.bearing_geometry import Posture, contact_points, outlines
+from frames.plots import bearing_sections, worst_bearing
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 
 if TYPE_CHECKING:
@@ -48,7 +51,7 @@ def hysteresis() -> Figure:
     """Draw the static cyclic test: a plain DCFP without rims, and the LIR-DCFP on its rims."""
     device = static_test_bearing()
     corners = [0.0, 0.185, -0.185, 0.185, -0.185, 0.0]
-    parts = [np.linspace(a, b, 301)[1:] for a, b in zip(corners[:-1], corners[1:], strict=True)]
+    parts = [np.linspace(a, b, 301)[1:] for a, b in pairwise(corners)]
     path = np.concatenate(parts)
     cases = (
         ("plain DCFP, no rim contact", device.as_dcfp(rims=False), GREY),
@@ -231,15 +234,23 @@ def _forces(
         draw.text(0.175, 0.440 - 0.026 * k, words, colour, size=9.5)
 
 
+def demo_sections() -> Figure:
+    """Draw the sections of the demo's most displaced LIR-DCFP bearing."""
+    bearings = demo.design()
+    frame = moment_frame(bearing=bearings, name=demo.LIR)
+    results = {demo.LIR: time_history(frame, demo.pacoima(demo.DEFAULT_SCALE))}
+    worst = worst_bearing(results[demo.LIR])
+    ix, iy = (int(part) for part in worst.split("-")[1:])
+    return bearing_sections(results[demo.LIR], bearings[ix, iy], worst)
+
+
 def main() -> None:
-    """Write both figures."""
+    """Write the figures."""
     mpl.rcParams.update({"svg.hashsalt": "lir-dcfp", "font.size": SIZE, "mathtext.fontset": "stix"})
-    drawing = conventions()
-    drawing.savefig(DOCS / "conventions.svg", metadata={"Date": None, "Creator": None})
-    if "--png" in sys.argv:
-        drawing.savefig(DOCS / "figures" / "conventions.png", dpi=110)
     (DOCS / "figures").mkdir(exist_ok=True)
+    conventions().savefig(DOCS / "conventions.svg", metadata={"Date": None, "Creator": None})
     hysteresis().savefig(DOCS / "figures" / "hysteresis.png", dpi=130)
+    demo_sections().savefig(DOCS / "figures" / "demo-sections.png", dpi=120)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import numpy as np
 from lir_element.bearing_checks import check_bearing
 from lir_element.friction import Friction
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
-from lir_element.validation import as_number, as_pair, frozen_pair
+from lir_element.validation import as_number, as_pair, frozen_pair, require_positive
 
 STANDARD_GRAVITY = 9.80665
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
@@ -82,6 +82,7 @@ class LIRBearing:
 
     Examples
     --------
+    >>> from lir_element import CoulombFriction
     >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
     ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
     >>> round(bearing.effective_radius, 3)
@@ -190,6 +191,7 @@ class LIRBearing:
             Lateral force [N]; infinite without rims, with the slider in one piece, or where tilt
             and friction angle reach 90 degrees together.
         """
+        require_positive("axial_load", axial_load, "N")
         if self.is_dcfp or math.isinf(self.lateral_capacity):
             return math.inf
         tilt = math.asin(self.lateral_capacity / self.effective_radius)

@@ -37,6 +37,8 @@ def check_bearing(bearing: LIRBearing) -> None:
     ------
     ValueError
         If a value is out of bounds: the message names value, bound and remedy.
+    TypeError
+        If a value is not of the kind it has to be.
     """
     _check_geometry(bearing)
     _check_friction(bearing)
@@ -48,7 +50,11 @@ def check_bearing(bearing: LIRBearing) -> None:
             require(name, value, unit)
     for name in ("yield_displacement", "interface_yield_displacement"):
         require_positive(name, getattr(bearing, name), "m")
-    if bearing.friction_law not in {"elastic-plastic", "bouc-wen"}:
+    for name in ("torsional_friction", "allow_weak_interface"):
+        if not isinstance(getattr(bearing, name), bool):
+            msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
+            raise TypeError(msg)
+    if bearing.friction_law not in ("elastic-plastic", "bouc-wen"):
         msg = f"friction_law = {bearing.friction_law!r}: choose 'elastic-plastic' or 'bouc-wen'"
         raise ValueError(msg)
     if require_positive("bouc_wen_exponent", bearing.bouc_wen_exponent, "-") < 1.0:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _MAX_ITERATIONS = 60
 _MAX_STEEPEST = 12
 _TOLERANCE = 1e-12  # of axial force times string length
+_ROUND_OFF = 4e-16  # of lengths
 _LARGEST_TURN = 0.1  # rad, of the axis in one iteration
 
 
@@ -26,6 +27,17 @@ _LARGEST_TURN = 0.1  # rad, of the axis in one iteration
 def residual_size(w: Work) -> float:
     """Return the residual of the slider's equilibrium over axial force and length."""
     return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
+
+
+@kernel
+def tolerance(p: Props, w: Work) -> float:
+    """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
+    stiff = w.l * p.interface_friction / p.interface_yield
+    for k in range(2):
+        by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
+        stiff += p.radius[k] * (p.friction_max[k] / p.yield_displacement[k] + by_speed)
+        stiff += p.radius[k] ** 2 * w.stiff_rim[k] / (w.n_hat * w.l)
+    return _TOLERANCE + _ROUND_OFF * stiff
 
 
 @kernel
@@ -84,7 +96,7 @@ def newton_turn(p: Props, old: State, w: Work, zero: Floats) -> float:
         move(p, old, w, e_1, e_2)
         relative = residual_size(w)
         new = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-        if new <= 0.999 * size or relative < _TOLERANCE:
+        if new <= 0.999 * size or relative < tolerance(p, w):
             return relative
         e_1, e_2 = 0.3 * e_1, 0.3 * e_2
     move(p, old, w, 0.0, 0.0)
@@ -136,11 +148,12 @@ def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
     size = residual_size(w)
     steepest = 0
     for count in range(_MAX_ITERATIONS):
-        if size < _TOLERANCE:
+        enough = tolerance(p, w)
+        if size < enough:
             return count
         new = newton_turn(p, old, w, zero)
         if new < 0.0:
-            if size < 1e3 * _TOLERANCE:  # at the round-off of stiff contacts
+            if size < 10.0 * enough:
                 return count
             steepest += 1
             new = steepest_turn(p, old, w)

@@ -131,11 +131,12 @@ def direction(
 
 @kernel
 def slider_jacobian(p: Props, w: Work, zero: Floats) -> None:
-    """Set the derivative of the slider's residual, and of N, by a turn of its axis."""
-    r = direction(p, w, 1.0, 0.0, zero, zero)
-    w.jacobian[0, 0], w.jacobian[1, 0], w.axial_rate[0] = r[0], r[1], r[2]
-    r = direction(p, w, 0.0, 1.0, zero, zero)
-    w.jacobian[0, 1], w.jacobian[1, 1], w.axial_rate[1] = r[0], r[1], r[2]
+    """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
+    for a in range(2):
+        r = direction(p, w, 1.0 - a, 0.0 + a, zero, zero)
+        for k in range(12):
+            w.turns[a, k] = r[k]
+        w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
 
 
 @kernel
@@ -146,15 +147,18 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
         e_1 = -along / w.l
         along = w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
         e_2 = -along / w.l
+        rates = direction(p, w, e_1, e_2, d, v)
+        for k in range(12):
+            w.rates[k] = rates[k]
+        w.rates[3], w.rates[4] = -rates[0] / w.l, -rates[1] / w.l
     else:
-        r = direction(p, w, 0.0, 0.0, d, v)
-        e_1 = -(inv[0] * r[0] + inv[1] * r[1])
-        e_2 = -(inv[2] * r[0] + inv[3] * r[1])
-    r_1, r_2, d_n, g_d1, g_d2, f_1, f_2, d_rim, q_1, q_2, q_3, spin = direction(
-        p, w, e_1, e_2, d, v
-    )
-    if p.fused:
-        g_d1, g_d2 = -r_1 / w.l, -r_2 / w.l
+        rates = direction(p, w, 0.0, 0.0, d, v)
+        e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])
+        e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
+        for k in range(12):
+            w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
+    d_n, g_d1, g_d2 = w.rates[2], w.rates[3], w.rates[4]
+    f_1, f_2, d_rim, spin = w.rates[5], w.rates[6], w.rates[7], w.rates[11]
     n_0, n_1, n_2 = w.n[0], w.n[1], w.n[2]
     t = w.t
     d_0 = t[0, 0] * e_1 + t[1, 0] * e_2
@@ -173,8 +177,13 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
             -d_hat * w.n[a] - w.n_hat * d_axis
             + t[0, a] * twist_1 + t[1, a] * twist_2 + along * w.n[a]
         ) + fade * (-w.n_hat * w.n[a] + t[0, a] * s_1 + t[1, a] * s_2)  # fmt: skip
-        d_r = q_1 if a == 0 else (q_2 if a == 1 else q_3)
-        m[a] = t[0, a] * x_1 + t[1, a] * x_2 + x_3 * w.n[a] - d_rim * w.r_top[a] - w.rim[1] * d_r
+        m[a] = (
+            t[0, a] * x_1
+            + t[1, a] * x_2
+            + x_3 * w.n[a]
+            - d_rim * w.r_top[a]
+            - w.rim[1] * w.rates[8 + a]
+        )
     p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - w.rim[1] * w.r_top[0]
     p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - w.rim[1] * w.r_top[1]
     p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - w.rim[1] * w.r_top[2]

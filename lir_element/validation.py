@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 def as_number(name: str, value: object, unit: str) -> float:
     """Return `value` as a float, or raise a TypeError that names it."""
-    if isinstance(value, bool) or not hasattr(value, "__float__"):
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__float__"):
         msg = f"{name} = {value!r} is not a number: give it in {unit}"
         raise TypeError(msg)
     return float(value)

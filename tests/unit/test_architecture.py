@@ -22,7 +22,8 @@ ALLOWED = {
 }
 KERNEL_MODULES = {
     "lir_element": [
-        "cyclic_kernel", "pendulum", "pendulum_tangent", "pendulum_trial", "rotation", "slip",
+        "cyclic_kernel", "pendulum", "pendulum_solve", "pendulum_tangent", "pendulum_trial",
+        "pendulum_work", "rotation", "slip",
     ],
 }  # fmt: skip
 

@@ -137,7 +137,10 @@ def test_area_of_the_loop_with_rim_contacts(sign: float) -> None:
     counted = sum(
         data[name].to_numpy().reshape(len(path), -1).sum(axis=1)
         for name in (
-            "work_low_friction", "work_high_friction", "work_friction_elastic", "work_rims",
+            "work_low_friction",
+            "work_high_friction",
+            "work_friction_elastic",
+            "work_rims",
             "work_contact",
         )
     )

@@ -1,0 +1,66 @@
+"""README.md and docs/guide.md run: each python block in order, its output as the text block shows.
+
+Numbers are compared to the digits shown: one unit of the last digit is allowed, for another
+processor may round the other way.
+"""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = ("README.md", "docs/guide.md")
+BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)
+
+
+def blocks(page: str) -> list[tuple[str, str]]:
+    """Return code and expected output of each block."""
+    return [(m[1], m[2] or "") for m in BLOCK.finditer((ROOT / page).read_text(encoding="utf-8"))]
+
+
+def unit_of(number: str) -> float:
+    """Return one unit of the last digit shown."""
+    mantissa, _, exponent = number.lower().partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - decimals)
+
+
+def assert_same_output(printed: str, shown: str) -> None:
+    words = [" ".join(NUMBER.sub("#", text).split()) for text in (printed, shown)]
+    assert words[0] == words[1], f"printed:\n{printed}\nshown:\n{shown}"
+    for got, expected in zip(NUMBER.findall(printed), NUMBER.findall(shown), strict=True):
+        assert abs(float(got) - float(expected)) <= 1.01 * unit_of(expected), (got, expected)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_blocks_print_what_the_page_shows(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = blocks(page)
+    assert found
+    namespace: dict[str, object] = {"__name__": "page"}
+    for code, shown in found:
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            exec(compile(code, page, "exec"), namespace)  # the page's own code  # noqa: S102
+        assert_same_output(output.getvalue(), shown)
+
+
+def test_numbers_are_compared_to_the_digits_shown() -> None:
+    assert_same_output("a 1.234 mm, -3e-05", "a 1.235 mm, -3e-05")
+    for printed in ("a 1.24 mm", "a 1.23 m", "a 1.23 mm 4"):
+        with pytest.raises(AssertionError):
+            assert_same_output(printed, "a 1.22 mm")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_code_block_has_a_language(page: str) -> None:
+    """A fence without one would hide code from the test above."""
+    fences = re.findall(r"^```(.*)$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE)
+    assert set(fences[::2]) <= {"python", "text"}
+    assert not any(fences[1::2])
