@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.pendulum_tangent import fill_tangent
+from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_trial import copy_words, trial
 from lir_element.pendulum_work import accumulate
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum import aim_axis, place_plates, static_speeds
+from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_solve import solve_axis
-from lir_element.pendulum_tangent import fill_tangent
 from lir_element.pendulum_work import accumulate
 from lir_element.slip import return_map
 

