@@ -93,7 +93,8 @@ class Element:
         time : float
             Time of the trial [s]. Where it lies after the committed time, all rates inside (sliding
             speeds, closing speeds of contacts) are differences over the step and the tangent holds
-            their part; otherwise the trial is static, and the sliding speeds come from `velocity`.
+            their part; otherwise the trial is static, and the sliding speeds are those of
+            `velocity` at the committed place.
 
         Raises
         ------

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.pendulum import aim_axis, place_plates, static_speeds
+from lir_element.pendulum import aim_axis, place_plates, set_axis, static_speeds
 from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_solve import solve_axis
 from lir_element.pendulum_work import accumulate
@@ -172,6 +172,10 @@ def trial(
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
+    if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
+        place_plates(p, w, old.displacement)
+        set_axis(w, old.axis[0], old.axis[1], old.axis[2])
+        static_speeds(p, w, v)
     place_plates(p, w, u)
     size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
     if not -w.c[2] > _SMALLEST_COSINE * size:
@@ -181,8 +185,6 @@ def trial(
             w.a[a, 0] * old.axis_top[0] + w.a[a, 1] * old.axis_top[1] + w.a[a, 2] * old.axis_top[2]
         )
     aim_axis(p, old, w)
-    if w.dt == 0.0:
-        static_speeds(p, w, v)
     count = solve_axis(p, old, w, zero)
     for k in range(12):
         new.displacement[k] = u[k]

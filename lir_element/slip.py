@@ -94,13 +94,13 @@ def kelvin_voigt(
     The damper acts on the closure, which is zero while the contact is open: the force stays
     continuous at the impact, however large the step.
     """
-    if not gap > 0.0:
+    if not gap >= 0.0:
         return 0.0, 0.0, 0.0
     slope = stiffness
     force = stiffness * gap
     if dt > 0.0:
         force += damping * (gap - closure_old) / dt
         slope += damping / dt
-    if force <= 0.0:
+    if force < 0.0:
         return 0.0, 0.0, gap
     return force, slope, gap

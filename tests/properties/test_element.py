@@ -860,6 +860,8 @@ def test_static_trials_take_speeds_from_the_velocities(lab: SimpleNamespace) -> 
     for direction in ((1.0, 0.0), (-0.6, 0.8), (0.0, -1.0)):
         element, v = Element(bearing), np.zeros(12)
         v[6:8] = 0.3 * np.array(direction)
+        element.set_trial(u, STILL, 0.0)
+        element.commit()
         element.set_trial(u, v, 0.0)
         speeds = [r / length * 0.3 for r in bearing.radii]
         assert_allclose(element.response("sliding_speed"), speeds, rtol=1e-12, atol=0.0)
@@ -874,8 +876,29 @@ def test_static_trials_take_speeds_from_the_velocities(lab: SimpleNamespace) -> 
     arm = np.array([0.0, 0.0, bearing.height - 1e-3])
     v = np.concatenate([np.zeros(3), spin, np.cross(spin, arm), spin])
     element = Element(bearing)
+    element.set_trial(u, STILL, 0.0)
+    element.commit()
     element.set_trial(u, v, 0.0)
     assert_allclose(element.response("sliding_speed"), 0.0, rtol=0.0, atol=1e-15)
+
+
+def test_static_tangent_with_velocities(lab: SimpleNamespace) -> None:
+    """The speeds of a static trial belong to the committed place: the tangent needs none of it."""
+    bearing = lab.make("velocity")
+    u, time = lab.smooth_path(bearing, 33, 120, tilt=0.02)
+    element = lab.walk(bearing, u[:100], time[:100]).element
+    v, now, place = 0.3 * np.random.default_rng(5).normal(size=12), time[99], u[99] + 1e-5
+    element.set_trial(place, v, now)
+    tangent, step = element.tangent_stiffness(), 1e-7
+    difference = np.zeros((12, 12))
+    for dof in range(12):
+        for factor, weight in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
+            moved = place.copy()
+            moved[dof] += factor * step
+            element.set_trial(moved, v, now)
+            difference[:, dof] += weight * element.resisting_force() / (12.0 * step)
+    scale = np.abs(tangent).max()
+    assert_allclose(tangent / scale, difference / scale, rtol=0.0, atol=1e-6)
 
 
 def test_static_speeds_are_those_of_a_small_step(lab: SimpleNamespace) -> None:

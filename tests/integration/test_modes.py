@@ -1,0 +1,136 @@
+"""Modes against closed forms and an eigenproblem built another way."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy import linalg
+
+from frames import ModelError, gravity, lumped_mass, modes, moment_frame, shear_building
+from frames.basis import bearing_rows
+from lir_element import CoulombFriction, Element, LIRBearing
+
+G = 9.80665
+
+
+def bearing(**options) -> LIRBearing:
+    given = {
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.3,
+        "friction": CoulombFriction(0.06),
+        "interface_friction": 0.2,
+    }
+    return LIRBearing(**{**given, **options})
+
+
+def small_frame():
+    return moment_frame(bays=(1, 1), storeys=2, bearing=bearing(), bay_width=(6.0, 4.0))
+
+
+def test_rigid_block_slides_with_the_period_of_the_pendulum():
+    plan = ((2, 1), (5.0, 4.0))
+    frame = shear_building(bearing(), 1e5, 1e13, plan=plan)
+    periods = modes(frame, 3, "sliding").periods
+    pendulum = 2.0 * math.pi * math.sqrt(1.9 / G)
+    gyration = (10.0**2 + 4.0**2) / 12.0
+    squares = np.mean([x**2 + 2.0**2 for x in (-5.0, 0.0, 5.0)])
+    turning = pendulum * math.sqrt(gyration / squares)
+    assert turning < pendulum
+    # the storey's own flexibility: sqrt(m g / L / 1e13)
+    assert_allclose(periods, [pendulum, pendulum, turning], rtol=1e-6)
+
+
+def test_unlike_bearings_add_their_stiffness():
+    radii = {(0, 0): 1.0, (1, 0): 2.0, (0, 1): 1.0, (1, 1): 2.0}
+    devices = {place: bearing(radius=r) for place, r in radii.items()}
+    frame = shear_building(devices, 1e5, 1e13, plan=((1, 1), 6.0))
+    found = modes(frame, 3, "sliding")
+    weight = 2e5 * G
+    k_1, k_2 = 2 * weight / 4 / 1.9, 2 * weight / 4 / 3.9
+    # along x: both rows equal; along y: the stiffer column of bearings is eccentric in x
+    m, inertia = 2e5, 2e5 * (36.0 + 36.0) / 12.0
+    k_yr = (k_2 - k_1) * 3.0
+    k_rr = (k_1 + k_2) * (9.0 + 9.0)
+    coupled = linalg.eigvalsh([[k_1 + k_2, k_yr], [k_yr, k_rr]], np.diag([m, inertia]))
+    expected = np.sort(2 * math.pi / np.sqrt([(k_1 + k_2) / m, *coupled]))[::-1]
+    # bearings alike but for the radius carry a quarter of the weight each, but for their stiffness
+    assert_allclose(found.periods, expected, rtol=1e-5)
+
+
+def test_fixed_bearings_equal_a_fixed_base_eigenproblem():
+    frame = small_frame()
+    state = gravity(frame)
+    system = state.system
+    above = bearing_rows(system).toarray().reshape(-1, 2, 6, len(system.load))[:, 1, :3]
+    held = linalg.null_space(above.reshape(-1, len(system.load)))
+    k = held.T @ (system.stiffness + state.geometric).toarray() @ held
+    m = held.T @ system.mass.toarray() @ held
+    flexibility = linalg.eigvalsh(m, k)[::-1][:6]  # M v = 1 / omega2 K v: massless DOFs give 0
+    found = modes(frame, 6, "fixed").periods
+    # "fixed" means springs a thousand times as stiff as the bearings
+    assert_allclose(found, 2.0 * math.pi * np.sqrt(flexibility), rtol=2e-3)
+    assert found[0] < modes(frame, 1, "sliding").periods[0]
+
+
+@pytest.mark.parametrize("kind", ["sliding", "sticking", "fixed"])
+def test_shapes_are_orthonormal_and_all_modes_carry_all_mass(kind):
+    frame = small_frame()
+    mass = gravity(frame).system.node_mass.reshape(-1)
+    found = modes(frame, 10**6, kind)
+    shapes = found.shapes.reshape(len(mass), -1)
+    product = shapes.T @ (mass[:, None] * shapes)
+    assert_allclose(product, np.eye(product.shape[0]), rtol=0.0, atol=1e-9)  # eigh's round-off
+    assert_allclose(found.mass_ratios.sum(axis=0), 1.0, rtol=1e-9)  # no mass on supports
+    assert (found.mass_ratios >= 0.0).all()
+    assert (np.diff(found.periods) <= 0.0).all()
+
+
+def test_sliding_modes_of_a_stiff_frame_carry_the_horizontal_mass():
+    found = modes(small_frame(), 3, "sliding")
+    # three isolation modes: above them the frame follows, but for (T_fixed / T_slide)^2
+    assert_allclose(found.mass_ratios[:3, :2].sum(axis=0), 1.0, rtol=1e-2)
+    assert_allclose(found.mass_ratios[:3, 2], 0.0, rtol=0.0, atol=1e-6)  # none of it vertical
+
+
+def test_vertical_mode_of_a_mass_on_one_bearing():
+    device = bearing(axial_stiffness=3e8)
+    found = modes(lumped_mass(device, 1e5), 9)
+    assert len(found.periods) == 3
+    assert_allclose(found.periods[2], 2 * math.pi * math.sqrt(1e5 / 3e8), rtol=1e-12)
+    assert_allclose(np.abs(found.shapes[1, 2, 2]), 1e5**-0.5, rtol=1e-12)  # modal mass of 1 kg
+
+
+UNLIKE = (CoulombFriction(0.1), CoulombFriction(0.02))
+
+
+@pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="the surfaces count as springs in series, u_y / mu each; one rigid slider slides on "
+    "both at once: N ((mu_1 R_1^2 + mu_2 R_2^2) / u_y + L) / L^2",
+)
+@pytest.mark.parametrize(
+    "options", [{}, {"radius": (1.0, 0.8)}, {"friction": UNLIKE}], ids=["like", "radii", "friction"]
+)
+def test_sticking_modes_have_the_tangent_stiffness_at_rest(options):
+    device, mass = bearing(**options), 1e5
+    element = Element(device)
+    u = np.zeros(12)
+    u[8] = -mass * G / device.resolved()["axial_stiffness"]
+    element.set_trial(u, np.zeros(12), 0.0)
+    stiffness = element.tangent_stiffness()[6, 6]
+    expected = 2 * math.pi * math.sqrt(mass / stiffness)
+    found = modes(lumped_mass(device, mass), 2, "sticking").periods
+    assert_allclose(found, expected, rtol=5e-3)  # what "tangent stiffness at rest" promises
+
+
+def test_bad_input_is_refused():
+    frame = lumped_mass(bearing(), 1e5)
+    for count in (0, -3):
+        with pytest.raises(ModelError, match=f"count = {count} must be at least 1"):
+            modes(frame, count)
+    with pytest.raises(ModelError, match='"loose": choose "sliding", "sticking" or "fixed"'):
+        modes(frame, 1, "loose")

@@ -1,0 +1,154 @@
+"""Symmetries of space, and free fall: what must hold whatever the numbers."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from frames import GroundMotion, ModalDamping, floor_acceleration, lumped_mass, moment_frame
+from lir_element import LIRBearing, VelocityFriction
+
+DT = 0.004
+N = 1  # bays a side
+G = 9.80665
+
+
+def device() -> LIRBearing:
+    return LIRBearing(
+        radius=(1.0, 0.8), slider_height=0.1, slider_radius=0.12, capacity=0.08,
+        friction=VelocityFriction(0.06, 0.03, 20.0), interface_friction=0.14,
+    )  # fmt: skip
+
+
+def ground(pulse) -> np.ndarray:
+    x, y = pulse(1.9, 1.2, DT), np.roll(pulse(1.3, 1.2, DT), 80)
+    return np.column_stack([x, y, 0.3 * np.roll(x, 40)])
+
+
+def turned(angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def record(run, model, waves: np.ndarray):
+    return run(model, GroundMotion(*waves.T, dt=DT), dt=DT)
+
+
+@pytest.mark.parametrize("degrees", [30.0, 90.0, 211.0])
+def test_turned_motion_turns_the_response_of_a_mass(run, pulse, degrees):
+    waves, turn = ground(pulse), turned(math.radians(degrees))
+    plain = record(run, lumped_mass(device(), 1e5), waves)
+    other = record(run, lumped_mass(device(), 1e5), waves @ turn.T)
+    assert float(plain["interface_slip_size"].max()) > 5e-3
+    for name in ("bearing_displacement", "bearing_force", "interface_slip", "slider_displacement"):
+        values = plain[name].to_numpy() @ turn.T
+        # Newton's tolerance, 1e-7 of the weight, through an impact
+        assert_allclose(other[name], values, rtol=0.0, atol=1e-5 * np.abs(values).max())
+    for name in ("axial_force", "rim_force", "energy"):
+        size = float(np.abs(plain[name]).max())
+        assert_allclose(other[name], plain[name], rtol=0.0, atol=1e-5 * size)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_mirrored_motion_mirrors_the_response_of_a_mass(run, pulse, axis):
+    waves, mirror = ground(pulse), np.eye(3)
+    mirror[axis, axis] = -1.0
+    plain = record(run, lumped_mass(device(), 1e5), waves)
+    other = record(run, lumped_mass(device(), 1e5), waves @ mirror)
+    for name in ("bearing_displacement", "bearing_force", "interface_slip"):
+        values = plain[name].to_numpy() @ mirror
+        assert_allclose(other[name], values, rtol=0.0, atol=1e-5 * np.abs(values).max())  # as above
+
+
+def building():
+    frame = moment_frame(bays=(N, N), storeys=2, bearing=device(), bay_width=5.0)
+    frame.set_damping(ModalDamping(0.03))
+    return frame
+
+
+def turned_name(name: str) -> str:
+    head, ix, iy = name.rsplit("-", 2)
+    return f"{head}-{N - int(iy)}-{ix}"
+
+
+def mirrored_name(name: str) -> str:
+    head, ix, iy = name.rsplit("-", 2)
+    return f"{head}-{N - int(ix)}-{iy}"
+
+
+def test_turned_motion_turns_the_response_of_a_square_building(run, pulse):
+    waves, turn = ground(pulse), turned(0.5 * math.pi)
+    plain = record(run, building(), waves)
+    other = record(run, building(), waves @ turn.T)
+    assert float(plain["rim_force"].max()) > 0.0
+    both = np.kron(np.eye(2), turn)
+    values = plain["node_displacement"].to_numpy() @ both.T
+    names = [turned_name(str(name)) for name in plain["node"].to_numpy()]
+    got = other["node_displacement"].sel(node=names).to_numpy()
+    assert_allclose(got, values, rtol=0.0, atol=2e-5 * np.abs(values).max())  # Newton's tolerance
+
+
+def test_mirrored_motion_mirrors_the_response_of_a_building(run, pulse):
+    waves = ground(pulse)
+    plain = record(run, building(), waves)
+    other = record(run, building(), waves * [-1.0, 1.0, 1.0])
+    # ux is a vector's, rx a pseudo-vector's component
+    signs = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    values = plain["node_displacement"].to_numpy() * signs
+    names = [mirrored_name(str(name)) for name in plain["node"].to_numpy()]
+    got = other["node_displacement"].sel(node=names).to_numpy()
+    assert_allclose(got, values, rtol=0.0, atol=2e-5 * np.abs(values).max())  # Newton's tolerance
+
+
+def test_symmetric_building_does_not_twist(run, pulse):
+    waves = ground(pulse)
+    waves[:, 1] = 0.0
+    data = record(run, building(), waves)
+    size = float(np.abs(data["node_displacement"].sel(dof="ux")).max())
+    assert float(data["rim_force"].max()) > 0.0
+    # Newton's tolerance
+    assert float(np.abs(data["node_displacement"].sel(dof="rz")).max()) < 1e-6 * size
+    assert float(np.abs(data["bearing_displacement"].sel(axis="y")).max()) < 1e-5 * size
+    force = data["axial_force"]
+    pair = force.sel(bearing="bearing-0-0") - force.sel(bearing="bearing-0-1")
+    assert float(np.abs(pair).max()) < 1e-5 * float(force.max())
+
+
+@pytest.mark.parametrize("strong_x", [0.0, 2.0])
+def test_strong_vertical_motion_lifts_and_lands(run, pulse, strong_x):
+    dt, mass = 0.001, 1e5
+    waves = np.column_stack(
+        [pulse(strong_x, 1.0, dt), np.zeros(3001), pulse(1.5 * G, 0.5, dt, cycles=4.0)]
+    )
+    data = run(lumped_mass(device(), mass), GroundMotion(*waves.T, dt=dt), dt=dt)
+    axial = data["axial_force"][:, 0].to_numpy()
+    weight = mass * G
+    assert axial.min() == 0.0
+    assert axial.max() > 2.0 * weight
+    assert_allclose(axial[-200:], weight, rtol=2e-2)  # at rest, but for the last vibration
+    lifted = axial == 0.0
+    assert 0.05 < lifted.mean() < 0.8
+    total = data["node_acceleration"].sel(node="mass").to_numpy()
+    assert_allclose(total[lifted, 2], -G, rtol=0.0, atol=1e-5 * G)  # Newton's tolerance
+    assert_allclose(total[lifted, :2], 0.0, rtol=0.0, atol=1e-5 * G)
+    assert float(np.abs(data["bearing_force"].to_numpy()[lifted]).max()) == 0.0
+    # relative to the ground: -g - a_g, in steps all of which are in the air
+    flying = lifted[:-2] & lifted[1:-1] & lifted[2:]
+    u = data["node_displacement"].sel(node="mass", dof="uz").to_numpy()
+    fall = (u[2:] - 2.0 * u[1:-1] + u[:-2]) / dt**2
+    a_g = data["ground_acceleration"].sel(axis="z").to_numpy()
+    mean = 0.25 * (a_g[2:] + 2.0 * a_g[1:-1] + a_g[:-2])  # average acceleration
+    assert flying.sum() > 100
+    assert_allclose(fall[flying], (-G - mean)[flying], rtol=0.0, atol=1e-3 * G)
+    gap = u[lifted]
+    assert gap.max() > 0.01
+
+
+def test_floors_of_a_symmetric_building_move_alike(run, pulse):
+    waves = ground(pulse)
+    waves[:, 1:] = 0.0
+    data = record(run, building(), waves)
+    floors = floor_acceleration(data)
+    size = float(np.abs(floors).max())
+    assert float(np.abs(floors.sel(axis="y")).max()) < 1e-4 * size  # Newton's tolerance over mass
