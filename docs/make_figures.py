@@ -218,7 +218,9 @@ def _forces(
     for name, sign in (("bottom", -1.0), ("top", 1.0)):
         tail = points[name] + sign * 0.068 * now.axis
         draw.arrow(tail, points[name], PURPLE, 2.0)
-        draw.text(tail[0] + 0.014, tail[1] - sign * 0.022, "$N$", PURPLE, size=13.0)
+        side = "left" if sign > 0.0 else "right"
+        at = tail + np.array([0.012, -0.022]) * sign
+        draw.text(*at, "$N$", PURPLE, side=side, size=13.0)
     # the edge of the bottom slider that lies on the rim
     tilt = np.arcsin(bearing.slider_radius / bearing.radii[0])
     turned = np.arctan2(-now.axis[0], now.axis[1]) + tilt

@@ -36,14 +36,20 @@ def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
 
 
 @kernel
+def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
+    """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
+    c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
+    c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)
+    return c_m, c_c, 1.0 - settings.alpha_f
+
+
+@kernel
 def reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: float) -> Floats:
     """Return the effective stiffness of b with the modes eliminated, for this step size."""
     out = run.reduced[level]
     if run.has_reduced[level] == 1:
         return out
-    c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
-    c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)
-    c_k = 1.0 - settings.alpha_f
+    c_m, c_c, c_k = effective(settings, dt)
     n_b, n_e = model.mass_be.shape
     for a in range(n_b):
         for c in range(n_b):
@@ -104,10 +110,9 @@ def set_load(
     times(model.damping_b, run.g_b, -1.0, run.rhs_b)
     times(model.stiffness_b, run.b, -1.0, run.rhs_b)
     # the modes, eliminated
-    c_m = (1.0 - am) / (beta * dt * dt)
-    c_c = (1.0 - af) * gamma / (beta * dt)
+    c_m, c_c, c_k = effective(settings, dt)
     for k in range(run.e.shape[0]):
-        run.h_e[k] = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + (1.0 - af) * model.omega2[k])
+        run.h_e[k] = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
     times(model.mass_be, run.h_e, -c_m, run.rhs_b)
 
 
@@ -115,13 +120,12 @@ def set_load(
 def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     beta, gamma = settings.beta, settings.gamma
-    c_m = (1.0 - settings.alpha_m) / (beta * dt * dt)
-    c_c = (1.0 - settings.alpha_f) * gamma / (beta * dt)
+    c_m, c_c, c_k = effective(settings, dt)
     for k in range(run.e.shape[0]):
         run.g_e[k] = run.rhs_e[k]
     times(model.mass_eb, run.step, -c_m, run.g_e)
     for k in range(run.e.shape[0]):
-        run.g_e[k] /= c_m + c_c * model.damping_e[k] + (1.0 - settings.alpha_f) * model.omega2[k]
+        run.g_e[k] /= c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
         run.e_new[k] = run.e[k] + run.g_e[k]
         run.a_e_new[k] = (run.g_e[k] / dt - run.v_e[k]) / (beta * dt) - (
             0.5 / beta - 1.0

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from frames._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum_nodes import fill_tangent
-from lir_element.pendulum_trial import copy_words, trial
+from lir_element.pendulum_trial import copy_words, has_no_state, trial
 from lir_element.pendulum_work import accumulate
 
 if TYPE_CHECKING:
@@ -24,16 +24,6 @@ _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 _SINGULAR = int(RunStatus.SINGULAR)
 _UPLIFTED = int(RunStatus.UPLIFTED)
-_NOT_FINITE = int(RunStatus.NOT_FINITE)
-_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
-_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
-_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
-
-
-@kernel
-def has_no_state(code: int) -> bool:
-    """Return whether a bearing has no state at all (a limit exceeded is a state)."""
-    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE)
 
 
 @kernel

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum_nodes import fill_tangent
-from lir_element.pendulum_trial import copy_words, trial
+from lir_element.pendulum_trial import copy_words, has_no_state, trial
 from lir_element.pendulum_work import accumulate
 
 if TYPE_CHECKING:
@@ -16,10 +16,6 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
-_NOT_FINITE = int(RunStatus.NOT_FINITE)
-_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
-_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
-_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 
 
 @kernel
@@ -40,7 +36,7 @@ def hold_load(
     code = _NEWTON_FAILED
     for _ in range(40):
         code = trial(p, old, new, w, u, v, time, zero)
-        if code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE):
+        if has_no_state(code):
             return code
         excess = new.force[8] + load
         if abs(excess) <= 1e-10 * load:

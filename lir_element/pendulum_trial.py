@@ -206,6 +206,12 @@ def trial(
 
 
 @kernel
+def has_no_state(code: int) -> bool:
+    """Return whether a bearing has no state at all (a limit exceeded is a state)."""
+    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE)
+
+
+@kernel
 def copy_words(source: Words, target: Words) -> None:
     """Copy one record, seen as a row of 64-bit words."""
     for k in range(source.shape[0]):

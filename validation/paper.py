@@ -19,10 +19,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from frames import GroundMotion, energy_error, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction, cyclic_test
+from lir_element import cyclic_test
+from validation.cases import example_bearing, static_bearing
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from lir_element import LIRBearing
 
 DOCS = Path(__file__).parent.parent / "docs"
 LOAD = 150e3
@@ -39,32 +42,6 @@ class Claim:
     expected: str
     got: str
     holds: bool
-
-
-def static_bearing() -> LIRBearing:
-    """Return the bearing of the static cyclic test."""
-    return LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=0.175,
-        friction=CoulombFriction(0.066),
-        interface_friction=0.126,
-    )
-
-
-def example_bearing(**changes: float) -> LIRBearing:
-    """Return the bearing of the numerical example."""
-    options = {"yield_displacement": 0.25e-3, **changes}
-    return LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.25,
-        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-        interface_friction=0.13,
-        **options,
-    )
 
 
 def static_path() -> np.ndarray:

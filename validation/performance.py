@@ -23,12 +23,13 @@ import numpy as np
 
 from frames import GroundMotion, gravity, lumped_mass, moment_frame, time_history
 from frames._jit import kernel
-from lir_element import LIRBearing, VelocityFriction
+from lir_element import LIRBearing
 from lir_element.element import as_words, initial_state
 from lir_element.layout import WORK, Floats, Records, Words
 from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_trial import copy_words, trial
 from lir_element.pendulum_work import accumulate
+from validation.cases import example_bearing
 
 REPEATS = 9
 TARGET = Path(__file__).parent.parent / "docs" / "performance.md"
@@ -61,19 +62,6 @@ def repeat_element(
         copy_words(words[1], words[0])
         total += states[0].iterations
     return total
-
-
-def paper_bearing(**changes: Any) -> LIRBearing:
-    """Return the bearing of the paper's numerical example."""
-    options: dict[str, Any] = {
-        "radius": 1.185,
-        "slider_height": 0.12,
-        "slider_radius": 0.15,
-        "capacity": 0.25,
-        "friction": VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-        "interface_friction": 0.13,
-    }
-    return LIRBearing(**{**options, **changes})
 
 
 def element_path(bearing: LIRBearing, count: int, reach: float) -> Floats:
@@ -155,10 +143,10 @@ def element_rows() -> list[str]:
     """Measure the element's state determination."""
     rows = []
     for name, bearing, reach in (
-        ("LIR-DCFP, sliding", paper_bearing(), 0.2),
-        ("LIR-DCFP, rim contact and interface slip", paper_bearing(slip_capacity=1.0), 0.3),
-        ("LIR-DCFP, Bouc-Wen friction, sliding", paper_bearing(friction_law="bouc-wen"), 0.2),
-        ("DCFP, sliding", paper_bearing().as_dcfp(), 0.2),
+        ("LIR-DCFP, sliding", example_bearing(), 0.2),
+        ("LIR-DCFP, rim contact and interface slip", example_bearing(slip_capacity=1.0), 0.3),
+        ("LIR-DCFP, Bouc-Wen friction, sliding", example_bearing(friction_law="bouc-wen"), 0.2),
+        ("DCFP, sliding", example_bearing().as_dcfp(), 0.2),
     ):
         with_tangent, iterations = element_microseconds(bearing, reach, tangent=True)
         alone, _ = element_microseconds(bearing, reach, tangent=False)
@@ -169,10 +157,10 @@ def element_rows() -> list[str]:
 def run_rows() -> list[str]:
     """Measure the time loop."""
     rows = []
-    building = moment_frame(bays=(2, 2), storeys=3, bearing=paper_bearing(slider_radius=0.12))
-    tower = moment_frame(bays=(3, 3), storeys=8, bearing=paper_bearing())
+    building = moment_frame(bays=(2, 2), storeys=3, bearing=example_bearing(slider_radius=0.12))
+    tower = moment_frame(bays=(3, 3), storeys=8, bearing=example_bearing())
     for name, model in (
-        ("one bearing, lumped mass", lumped_mass(paper_bearing(), 204e3)),
+        ("one bearing, lumped mass", lumped_mass(example_bearing(), 204e3)),
         ("demo building: 3 storeys, 9 bearings", building),
         ("8 storeys, 16 bearings", tower),
     ):

@@ -58,7 +58,7 @@ def check_rows(data, base: float, every: int = 1) -> None:
         assert np.isfinite(values.to_numpy()).all(), name
     size = np.abs(data["node_displacement"].sel(node="mass")).max("dof").to_numpy()
     assert (size > 0.0).all()  # no row left empty
-    assert_allclose(data["ground_acceleration"][-1, 0] != 0.0, True, rtol=0.0, atol=0.0)
+    assert float(data["ground_acceleration"][-1, 0]) != 0.0
     assert energy_error(data) < 1e-3
 
 

@@ -39,7 +39,7 @@ def test_rigid_block_slides_with_the_period_of_the_pendulum():
     squares = np.mean([x**2 + 2.0**2 for x in (-5.0, 0.0, 5.0)])
     turning = pendulum * math.sqrt(gyration / squares)
     assert turning < pendulum
-    # the storey's own flexibility: sqrt(m g / L / 1e13)
+    # the storey's own flexibility: N / L over 1e13 N/m, some 1e-7
     assert_allclose(periods, [pendulum, pendulum, turning], rtol=1e-6)
 
 

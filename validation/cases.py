@@ -1,0 +1,32 @@
+"""The paper's bearings, as its sections give them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+
+
+def static_bearing() -> LIRBearing:
+    """Return the bearing of the static cyclic test (section 2.2); slider radius assumed."""
+    return LIRBearing(
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.066),
+        interface_friction=0.126,
+    )
+
+
+def example_bearing(**changes: Any) -> LIRBearing:
+    """Return the bearing of the numerical example (section 3.1); slider radius assumed."""
+    options: dict[str, Any] = {
+        "radius": 1.185,
+        "slider_height": 0.12,
+        "slider_radius": 0.15,
+        "capacity": 0.25,
+        "friction": VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
+        "interface_friction": 0.13,
+    }
+    return LIRBearing(**{**options, **changes})
