@@ -242,6 +242,7 @@ class LIRBearing:
             "yield_displacement": self.yield_displacement,
             "interface_yield": self.interface_yield_displacement,
             "axial_floor": 1e-3 * options["design_load"],
+            "rim_seat": 0.05 * options["design_load"],
             "rim_displacement": self.rim_displacement,
             "torsion_lever": 2.0 / 3.0 * self.slider_radius * self.torsional_friction,
             "torsion_yield": self.yield_displacement / (2.0 / 3.0 * self.slider_radius),

@@ -98,12 +98,12 @@ def direction(
         u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
         rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
         hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
-        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
+        radial = (w.stiff_rim[0] * rate + w.rim_axial[0] * d_n) * w.n[2] - w.rim[0] * tilt
         r_1 += p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
         r_2 += p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
     if w.stiff_rim[1] > 0.0:
         rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
-        d_rim = w.stiff_rim[1] * rate
+        d_rim = w.stiff_rim[1] * rate + w.rim_axial[1] * d_n
         b_1, b_2 = basis_rate(w, w.r_top[0], w.r_top[1], w.r_top[2], e_1, e_2, spin)
         for a, b in ((0, b_1), (1, b_2)):
             part = w.rim[1] * (b + t[a, 0] * q_1 + t[a, 1] * q_2 + t[a, 2] * q_3) + d_rim * (

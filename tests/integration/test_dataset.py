@@ -147,6 +147,10 @@ def test_total_acceleration_is_relative_plus_ground(run, pulse):
     expected = relative + data["ground_acceleration"].to_numpy()[1:-1, :2]
     # average acceleration: the difference is the mean of three accelerations, dt^2/4 a''
     assert_allclose(total, expected, rtol=0.0, atol=2e-4 * np.abs(total).max())
+    velocity = data["bearing_velocity"][:, 0, :2].to_numpy()
+    mean = 0.5 * (velocity[1:] + velocity[:-1])
+    # exact for average acceleration, but for round-off over the step
+    assert_allclose(np.diff(u, axis=0) / dt, mean, rtol=0.0, atol=1e-9)
 
 
 def test_whole_structure_is_in_equilibrium(history, frame):

@@ -238,6 +238,8 @@ def test_load_on_a_part_without_mass_bends_it(run):
     u = data["node_displacement"].sel(dof="uy")
     bent = u.sel(node="tip") - u.sel(node="mass")
     assert_allclose(bent, 2e3 * 4.0**3 / (3.0 * 2e11 * 2e-5), rtol=1e-9)  # round-off
+    still = data["node_acceleration"].sel(node=["mass", "middle", "tip"])
+    assert_allclose(still, 0.0, rtol=0.0, atol=1e-3)  # at rest: Newton's tolerance over the mass
     half = u.sel(node="middle") - u.sel(node="mass")
     assert_allclose(half, bent * 5.0 / 16.0, rtol=1e-9)  # of a cantilever loaded at its end
     assert_allclose(data["base_shear"].sel(axis="y"), 2e3, rtol=1e-3)  # Newton's tolerance

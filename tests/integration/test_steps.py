@@ -22,7 +22,7 @@ def sticking_building():
         friction=CoulombFriction(0.5), interface_friction=math.inf, yield_displacement=2e-3,
     )  # fmt: skip
     return shear_building(
-        bearing, [4e4, 3e4], [5e7, 4e7], base_mass=3e4, damping=RayleighDamping(0.03, (0.4, 0.1))
+        bearing, [4e4, 3e4], [5e7, 4e7], base_mass=3e4, damping=RayleighDamping(0.2, (0.4, 0.1))
     )
 
 
@@ -38,7 +38,7 @@ def exact(waves: np.ndarray, base: float) -> np.ndarray:
     inner = np.ix_(places, places)
     m, k = system.mass.toarray()[inner], system.stiffness.toarray()[inner]
     w_1, w_2 = 2 * math.pi / 0.4, 2 * math.pi / 0.1
-    beta = 2 * 0.03 / (w_1 + w_2)
+    beta = 2 * 0.2 / (w_1 + w_2)
     alpha = beta * w_1 * w_2
     relative = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # to the base
     c = relative.T @ (alpha * m[1:, 1:] + beta * k[1:, 1:]) @ relative
@@ -100,7 +100,7 @@ def test_spectral_radius_at_infinite_frequency(run, radius):
         left = a[3:] + 3.0 * radius * a[2:-1] + 3.0 * radius**2 * a[1:-2] + radius**3 * a[:-3]
         assert np.abs(a).min() > 0.0
         # finite frequency, 1 / (omega dt)^2 = 2e-6, over differences of three steps
-        assert_allclose(left / np.abs(a[:-3]), 0.0, rtol=0.0, atol=5e-3)
+        assert_allclose(left / np.abs(a[:-3]), 0.0, rtol=0.0, atol=5e-4)
 
 
 def strong(pulse, dt: float, peak: float = 2.5) -> GroundMotion:
