@@ -112,8 +112,29 @@ def member_axial_forces(system: System, q: FloatArray) -> FloatArray:
     return forces
 
 
+def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
+    """Assemble the geometric stiffness of the members over all nodal displacements.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+    axial_forces : ndarray, (n_members,)
+        Axial forces, tension positive [N].
+
+    Returns
+    -------
+    csr_array, (6 n_nodes, 6 n_nodes)
+        Before elimination of supports and diaphragms; for reactions.
+    """
+    table = system.members
+    local = local_geometric_stiffness(table.arrays, axial_forces)
+    blocks = matrix_to_global(local, table.arrays.axes)
+    return scatter(blocks, table.nodes, len(system.node_names))
+
+
 def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
-    """Return the geometric stiffness of the members over the free DOFs.
+    """Assemble the geometric stiffness of the members over the free DOFs.
 
     Parameters
     ----------
@@ -127,10 +148,7 @@ def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatri
     csr_array, (n_free, n_free)
         To be added to `system.stiffness`. The bearings' own second-order effect is not in it.
     """
-    table = system.members
-    local = local_geometric_stiffness(table.arrays, axial_forces)
-    blocks = matrix_to_global(local, table.arrays.axes)
-    return _project(system.transform, scatter(blocks, table.nodes, len(system.node_names)))
+    return _project(system.transform, node_geometric_stiffness(system, axial_forces))
 
 
 def member_end_forces(

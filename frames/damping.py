@@ -27,9 +27,9 @@ class RayleighDamping:
 
     Notes
     -----
-    Between the two periods the damping is lower, outside them it is higher. The part
-    proportional to the mass also damps the motion on the bearings: choose the periods for the
-    structure above them.
+    Between the two periods the damping is lower, outside them it is higher. Both parts act on
+    the motion relative to what follows the bearings quasi-statically (docs/theory.md): the
+    isolation is not damped. Choose the periods for the structure above it.
 
     Examples
     --------

@@ -186,7 +186,7 @@ def is_rough(model: Model, run: Run, settings: Setup, dt: float) -> bool:
     """
     defect = 0.0
     for k in range(run.old.shape[0]):
-        defect += contact_defect(run.old[k], run.new[k])
+        defect += contact_defect(model.props[k], run.old[k], run.new[k])
     scale = max(run.energy[2], abs(run.energy[0]), settings.energy_floor)
     if defect > settings.energy_tolerance * scale:
         return True

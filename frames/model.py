@@ -277,10 +277,23 @@ class Frame(FrameContents):
             New name.
         nodes : sequence of str
             One node or more at one elevation within 1 mm.
+
+        Raises
+        ------
+        ModelError
+            If the level does not lie above the one added before.
         """
         new_name(name, self._levels, "level")
         chosen = self._node_list(nodes, f'level "{name}"', least=1)
         z = self._one_elevation(chosen, f'level "{name}"')
+        if self._levels:
+            below = next(reversed(self._levels.values()))
+            if z <= below.z + POSITION_TOLERANCE:
+                message = (
+                    f'level "{name}" at z = {z:g} m must lie above level "{below.name}" at '
+                    f"{below.z:g} m: add levels from below to above, one for each elevation"
+                )
+                raise ModelError(message)
         self._levels[name] = Level(name, z, chosen)
 
     def set_damping(self, damping: Damping | None) -> None:

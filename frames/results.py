@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from frames.assembly import node_geometric_stiffness
 from frames.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS
 from frames.parts import DOFS
@@ -97,9 +98,12 @@ def build_dataset(
 
 def ground_at(motion: GroundMotion, time: FloatArray) -> FloatArray:
     """Return the ground acceleration (n, 3) at `time`, linear between samples, zero after."""
-    samples = np.arange(len(motion.components)) * motion.dt
-    columns = [np.interp(time, samples, motion.components[:, axis], right=0.0) for axis in range(3)]
-    return np.column_stack(columns)
+    samples = np.arange(len(motion.components))
+    place = time / motion.dt
+    columns = [np.interp(place, samples, motion.components[:, axis]) for axis in range(3)]
+    shaking = place < samples[-1] + 1e-9  # the time loop's own bound
+    ground: FloatArray = np.column_stack(columns) * shaking[:, None]
+    return ground
 
 
 def energy_error(data: xr.Dataset) -> float:
@@ -203,7 +207,8 @@ def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArra
     fixed = _fixed_dofs(system)
     fixed = fixed[fixed % 6 < 3]
     flat = displacement.reshape(len(displacement), -1)
-    forces = -np.asarray(system.node_stiffness[fixed] @ flat.T).T
+    stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
+    forces = system.node_load[fixed] - np.asarray(stiffness[fixed] @ flat.T).T
     total = np.zeros((len(displacement), 3))
     for axis in range(3):
         total[:, axis] = forces[:, fixed % 6 == axis].sum(axis=1)

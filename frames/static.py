@@ -15,6 +15,7 @@ from frames.basis import Basis, bearing_rows, build_basis
 from frames.kernel_data import Model, Run, model_arrays, run_arrays
 from frames.parts import bearing_axial_stiffness
 from frames.stepping import solve_gravity
+from lir_element.element import limit_detail
 from lir_element.errors import AnalysisError, RunStatus
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ class GravityState:
         Matrices over the free degrees of freedom.
     geometric : csr_array, (n_free, n_free)
         Geometric stiffness of the members under gravity.
+    member_forces : ndarray, (n_members,)
+        The members' axial forces it was made with, tension positive [N].
     basis : Basis
         The frame in bearing coordinates.
     model, run : Model, Run
@@ -48,6 +51,7 @@ class GravityState:
 
     system: System
     geometric: SparseMatrix
+    member_forces: FloatArray
     basis: Basis
     model: Model
     run: Run
@@ -84,25 +88,46 @@ def gravity(frame: Frame) -> GravityState:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
     linear = spsolve(sparse.csc_array(system.stiffness + _springs(system)), system.load)
-    geometric = geometric_stiffness(system, member_axial_forces(system, linear))
+    member_forces = member_axial_forces(system, linear)
+    geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)
     model = model_arrays(system, basis)
     run = run_arrays(model)
     run.b[:] = linear[basis.bearing_dofs]
     tolerance = force_tolerance(system, _FORCE_TOLERANCE)
     status = RunStatus(solve_gravity(model, run, tolerance, _MAX_ITERATIONS))
-    if status is not RunStatus.OK:
-        name = system.bearings[int(run.counters[3])][0]
-        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"')
+    _raise_gravity_failure(system, run, status, linear)
     return GravityState(
         system=system,
         geometric=geometric,
+        member_forces=member_forces,
         basis=basis,
         model=model,
         run=run,
         displacement=expand(basis, run.b, run.e),
         axial_forces=np.array(run.old["axial_force"]),
     )
+
+
+def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
+    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits.
+    lifted = np.flatnonzero(run.new["axial_force"] <= 0.0)
+    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
+    props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
+    place = int(run.counters[3])
+    detail = ""
+    if len(lifted):
+        # Newton's last trial may lift others: the linear solution tells which one is pulled
+        moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
+        pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
+        status, place = RunStatus.UPLIFTED, int(np.argmax(pull))
+    elif len(beyond):
+        place = int(beyond[0])
+        status = RunStatus(int(run.new["status"][place]))
+        detail = limit_detail(props, run.new, place)
+    if status is not RunStatus.OK:
+        name = system.bearings[place][0]
+        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"', detail)
 
 
 def force_tolerance(system: System, relative: float) -> float:
@@ -221,10 +246,14 @@ def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatr
         length = np.array([bearing.effective_radius for bearing in devices])
         values[:, :2] = (state.axial_forces / length)[:, None]
     elif bearings == "sticking":
-        soft = [
-            sum(b.yield_displacement / max(f.f_min, 1e-6) for f in b.frictions) for b in devices
+        # the slider turns by 1/L a metre and slides R/L on both surfaces: exact at rest
+        per_load = [
+            sum(f.f_min * r * r for f, r in zip(b.frictions, b.radii, strict=True))
+            / (b.yield_displacement * b.effective_radius**2)
+            + 1.0 / b.effective_radius
+            for b in devices
         ]
-        values[:, :2] = (state.axial_forces / np.array(soft))[:, None]
+        values[:, :2] = (state.axial_forces * np.array(per_load))[:, None]
     else:
         values[:, :3] = 1e3 * values[:, 2:3]
     return _spring_matrix(state.system, values)

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 _SINGULAR = int(RunStatus.SINGULAR)
-_UPLIFTED = int(RunStatus.UPLIFTED)
 
 
 @kernel
@@ -208,10 +207,6 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
     code = newton(model, run, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
     if code != _OK:
         return code
-    for k in range(run.new.shape[0]):
-        if run.new[k].axial_force <= 0.0:
-            run.counters[3] = k
-            return _UPLIFTED
     for a in range(n_b):
         run.b[a] = run.step[a]
     for a in range(run.e.shape[0]):

@@ -98,6 +98,7 @@ def time_history(
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
     _check_options(level, method, integrator, record_every, on_failure)
+    record_every = int(record_every)
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
     length = motion.duration if duration is None else require_positive("duration", duration, "s")
     base = min(motion.dt, _LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
@@ -146,8 +147,8 @@ def _check_options(
         if value not in allowed:
             msg = f"{name} = {value!r}: choose one of {allowed}"
             raise ValueError(msg)
-    if int(record_every) != record_every or record_every < 1:
-        msg = f"record_every = {record_every} must be a whole number of at least 1"
+    if not record_every >= 1 or record_every % 1:
+        msg = f"record_every = {record_every!r} must be a whole number of at least 1"
         raise ValueError(msg)
     require_on_failure(on_failure)
 

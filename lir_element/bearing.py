@@ -60,8 +60,8 @@ class LIRBearing:
     yield_displacement, interface_yield_displacement : float
         Elastic sliding before slip, on a concave surface and in the interface [m].
     friction_law : {"elastic-plastic", "bouc-wen"}
-        Regularisation of friction. Bouc-Wen creeps under small vibration about a biased force
-        (docs/theory.md); it is there for comparison.
+        Regularisation of friction. Bouc-Wen creeps under small vibration about a biased force,
+        the more the larger the yield displacement (docs/theory.md); it is there for comparison.
     bouc_wen_exponent : float
         Exponent of that law [-], at least 1.
     torsional_friction : bool
@@ -242,7 +242,6 @@ class LIRBearing:
             "yield_displacement": self.yield_displacement,
             "interface_yield": self.interface_yield_displacement,
             "axial_floor": 1e-3 * options["design_load"],
-            "rim_seat": 0.05 * options["design_load"],
             "rim_displacement": self.rim_displacement,
             "torsion_lever": 2.0 / 3.0 * self.slider_radius * self.torsional_friction,
             "torsion_yield": self.yield_displacement / (2.0 / 3.0 * self.slider_radius),

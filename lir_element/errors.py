@@ -76,7 +76,8 @@ _TEXT = {
     ),
     RunStatus.STEP_TOO_SMALL: (
         "the step was halved down to its smallest size without convergence",
-        "add contact damping, soften axial_stiffness or rim_stiffness, or check the model",
+        "use another dt, add contact damping, soften axial_stiffness or rim_stiffness, or check "
+        "the model",
     ),
     RunStatus.SINGULAR: (
         "the tangent stiffness is singular",

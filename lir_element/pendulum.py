@@ -201,28 +201,36 @@ def rims(p: Props, old: State, w: Work) -> None:
 
 @kernel
 def evaluate(p: Props, old: State, w: Work) -> None:
-    """Set all forces at the current axis and the residual of the slider's equilibrium."""
+    """Set all forces at the current axis and the residual of the slider's equilibrium.
+
+    Two pieces part where they carry no axial force, and pass nothing; one piece between its rims
+    still passes what the rims press.
+    """
     axial(p, old, w)
     surface(p, old, w, 0)
     surface(p, old, w, 1)
     rims(p, old, w)
+    n = w.n_true if p.fused else w.n_hat
     for a in range(2):
         rim_top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
         w.residual[a] = (
-            -w.n_hat * (p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a])
+            -n * (p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a])
             + p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a]
             + p.radius[1] * w.rim[1] * rim_top
         )
     if p.fused:  # the interface carries what equilibrium asks for
-        w.phi_s[0] = -w.residual[0] / (w.l * w.n_hat)
-        w.phi_s[1] = -w.residual[1] / (w.l * w.n_hat)
-        w.residual[0], w.residual[1] = 0.0, 0.0
+        w.rim_scale = 1.0
+        for a in range(2):
+            w.f_s[a] = -w.residual[a] / w.l
+            w.residual[a] = 0.0
         return
     interface(p, old, w)
+    w.rim_scale = w.scale
     k = 1.0 / (1.0 + w.n[2])
     chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
     w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
     w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
+    w.f_s[0], w.f_s[1] = w.n_true * w.phi_s[0], w.n_true * w.phi_s[1]
 
 
 @kernel

@@ -90,6 +90,9 @@ def direction(
         p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
                        + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
     )  # fmt: skip
+    if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_n, w.scale * f_12 + w.phi[0, 1] * d_n
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_n, w.scale * f_22 + w.phi[1, 1] * d_n
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
     # rims
@@ -98,12 +101,12 @@ def direction(
         u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
         rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
         hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
-        radial = (w.stiff_rim[0] * rate + w.rim_axial[0] * d_n) * w.n[2] - w.rim[0] * tilt
+        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
         r_1 += p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
         r_2 += p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
     if w.stiff_rim[1] > 0.0:
         rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
-        d_rim = w.stiff_rim[1] * rate + w.rim_axial[1] * d_n
+        d_rim = w.stiff_rim[1] * rate
         b_1, b_2 = basis_rate(w, w.r_top[0], w.r_top[1], w.r_top[2], e_1, e_2, spin)
         for a, b in ((0, b_1), (1, b_2)):
             part = w.rim[1] * (b + t[a, 0] * q_1 + t[a, 1] * q_2 + t[a, 2] * q_3) + d_rim * (
@@ -114,7 +117,9 @@ def direction(
             else:
                 r_2 += p.radius[1] * part
     # interface and string
-    g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    g_1, g_2 = w.f_s[0], w.f_s[1]
+    if not p.fused:
+        g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     g_d1, g_d2 = 0.0, 0.0
     if not p.fused:
         g_d1 = w.n_hat * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2) + w.phi_s[0] * d_hat
@@ -164,39 +169,32 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
     d_0 = t[0, 0] * e_1 + t[1, 0] * e_2
     d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
     d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
-    fade = 0.0 if w.scale == 1.0 else d_n / w.n_hat
-    d_hat = d_n if w.scale == 1.0 else 0.0
-    s_1, s_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    if not p.fused and w.scale < 1.0:  # the forces fade with the axial force
+        fade = d_n / w.n_hat
+        g_d1 = w.scale * g_d1 + d_n * w.phi_s[0]
+        g_d2 = w.scale * g_d2 + d_n * w.phi_s[1]
+        f_1 = w.scale * f_1 + d_n * w.phi[1, 0]
+        f_2 = w.scale * f_2 + d_n * w.phi[1, 1]
+        d_rim = w.scale * d_rim + fade * w.rim[1]
+    s_1, s_2 = w.f_s[0], w.f_s[1]
     twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
-    k_1, k_2 = w.n_hat * w.phi[1, 0], w.n_hat * w.phi[1, 1]
+    k_1, k_2 = w.n_true * w.phi[1, 0], w.n_true * w.phi[1, 1]
     x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
+    rim = w.rim_scale * w.rim[1]
     m = w.sums  # the top plate's force on the slider and its rate
     for a in range(3):
         d_axis = d_0 if a == 0 else (d_1 if a == 1 else d_2)
-        w.k6[a, col] = w.scale * (
-            -d_hat * w.n[a] - w.n_hat * d_axis
-            + t[0, a] * twist_1 + t[1, a] * twist_2 + along * w.n[a]
-        ) + fade * (-w.n_hat * w.n[a] + t[0, a] * s_1 + t[1, a] * s_2)  # fmt: skip
-        m[a] = (
-            t[0, a] * x_1
-            + t[1, a] * x_2
-            + x_3 * w.n[a]
-            - d_rim * w.r_top[a]
-            - w.rim[1] * w.rates[8 + a]
-        )
-    p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - w.rim[1] * w.r_top[0]
-    p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - w.rim[1] * w.r_top[1]
-    p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - w.rim[1] * w.r_top[2]
-    full, part = w.scale * p.radius[1], fade * p.radius[1]
-    w.k6[3, col] = full * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1]) + part * (
-        n_1 * p_2 - n_2 * p_1
-    )
-    w.k6[4, col] = full * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2]) + part * (
-        n_2 * p_0 - n_0 * p_2
-    )
-    w.k6[5, col] = full * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0]) + part * (
-        n_0 * p_1 - n_1 * p_0
-    )
+        w.k6[a, col] = t[0, a] * twist_1 + t[1, a] * twist_2 + (along - d_n) * w.n[a]
+        w.k6[a, col] -= w.n_true * d_axis
+        m[a] = t[0, a] * x_1 + t[1, a] * x_2 + x_3 * w.n[a]
+        m[a] -= d_rim * w.r_top[a] + rim * w.rates[8 + a]
+    p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - rim * w.r_top[0]
+    p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - rim * w.r_top[1]
+    p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - rim * w.r_top[2]
+    lever = p.radius[1]
+    w.k6[3, col] = lever * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1])
+    w.k6[4, col] = lever * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2])
+    w.k6[5, col] = lever * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0])
     w.dn6[col] = d_n
 
 

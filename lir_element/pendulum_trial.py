@@ -33,14 +33,12 @@ _SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing lef
 @kernel
 def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     """Set the nodes' forces from the evaluated string, surfaces and rims."""
-    s_1, s_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
-    k_1, k_2 = w.n_hat * w.phi[1, 0], w.n_hat * w.phi[1, 1]
+    k_1, k_2 = w.n_true * w.phi[1, 0], w.n_true * w.phi[1, 1]
+    rim = w.rim_scale * w.rim[1]
     t, n, q = w.t, w.n, w.q_i
     for a in range(3):
-        w.g[a] = w.scale * (-w.n_hat * n[a] + t[0, a] * s_1 + t[1, a] * s_2)
-        w.sums[a] = w.scale * p.radius[1] * (
-            t[0, a] * k_1 + t[1, a] * k_2 - w.rim[1] * w.r_top[a]
-        )  # fmt: skip
+        w.g[a] = -w.n_true * n[a] + t[0, a] * w.f_s[0] + t[1, a] * w.f_s[1]
+        w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2 - rim * w.r_top[a])
     m = w.sums
     m_0, m_1, m_2 = n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]
     f = new.force
@@ -116,16 +114,16 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.slip[k] = w.sigma[k]
         new.slip_increment[k] = w.sigma[k] - old.slip[k]
         new.interface_hysteresis[k] = w.z_s[k]
-        new.interface_force[k] = w.scale * w.n_hat * w.phi_s[k]
+        new.interface_force[k] = w.f_s[k]
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
         new.slid[k] = w.slid[k]
         new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
-        new.rim_force[k] = w.scale * w.rim[k]
+        new.rim_force[k] = w.rim_scale * w.rim[k]
         for a in range(2):
             new.hysteresis[k, a] = w.z[k, a]
-            new.friction_force[k, a] = w.scale * w.n_hat * w.phi[k, a]
+            new.friction_force[k, a] = w.n_true * w.phi[k, a]
             new.sliding_increment[k, a] = w.dw[k, a]
 
 

@@ -43,18 +43,24 @@ def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
 
 
 @kernel
-def contact_defect(old: State, new: State) -> float:
-    """Return the energy that the step makes or loses where a contact opens or closes in it.
+def contact_defect(p: Props, old: State, new: State) -> float:
+    """Return the energy that the contacts make or lose in the step by its size alone.
 
     The trapezoidal rule lets a contact's force act over the open part of the step as well: force
-    times the part of the travel that no closure took part in.
+    times the part of the travel that no closure took part in. And what a contact gives must not
+    exceed what it had stored, which a slider that runs along a rim in large steps would violate.
     """
     travel = abs((new.string - old.string) - (new.closure - old.closure))
     defect = 0.5 * (old.axial_force + new.axial_force) * travel
     for k in range(2):
+        if old.rim_force[k] == 0.0 and new.rim_force[k] == 0.0:
+            continue
         radial = new.eccentricity[k] - old.eccentricity[k]
         travel = abs(radial - (new.rim_closure[k] - old.rim_closure[k]))
         defect += 0.5 * (old.rim_force[k] + new.rim_force[k]) * travel
+        work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
+        stored = new.rim_closure[k] ** 2 - old.rim_closure[k] ** 2
+        defect += max(0.5 * p.rim_stiffness * stored - work, 0.0)
     return defect
 
 

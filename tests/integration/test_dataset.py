@@ -19,6 +19,7 @@ from frames import (
     moment_frame,
     save,
     storey_drift,
+    time_history,
 )
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.rotation import rotate
@@ -290,9 +291,6 @@ def test_record_every_thins_exactly(run, frame, motion, history, every):
     assert thin.attrs["steps"] == history.attrs["steps"]
 
 
-@pytest.mark.xfail(
-    strict=True, raises=TypeError, reason="a whole float passes the check but is not converted"
-)
 def test_record_every_may_be_a_whole_float(run, frame, motion):
     assert run(frame, motion, dt=DT, record_every=50.0).sizes["time"] == 1 + 679 // 50
 
@@ -326,17 +324,9 @@ def test_longer_than_the_motion_the_ground_rests(run, frame, motion, history):
     assert_allclose(still, still[0], rtol=0.0, atol=0.0)  # no ground, no input
 
 
-ROUND_OFF = pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="the loop counts the last sample within round-off of its time, the recorded ground "
-    "acceleration is 0 there: the total acceleration of the last row is wrong by it",
-)
-
-
 @pytest.mark.parametrize(
     ("dt", "count"),
-    [(0.3, 2), pytest.param(0.1, 4, marks=ROUND_OFF), pytest.param(0.05, 7, marks=ROUND_OFF)],
+    [(0.3, 2), (0.1, 4), (0.05, 7)],
 )
 def test_the_last_sample_counts_to_its_end(run, dt, count):
     motion = GroundMotion(x=np.ones(2), dt=0.3)
@@ -412,36 +402,19 @@ def test_a_bearing_on_a_column_is_not_counted_twice(run, motion):
     assert_allclose(gap, 0.0, rtol=0.0, atol=1e-3 * largest)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="base_shear takes the elastic stiffness of members on the ground only: their "
-    "second-order part N / L times the sway is missing",
-)
 def test_base_shear_under_a_slender_column_is_in_equilibrium(run, motion):
     section = Section.box(0.4, 0.4, 0.016, density=0.0)
     gap, largest = residual_of_equilibrium(run, on_column(section), motion)
     assert_allclose(gap, 0.0, rtol=0.0, atol=1e-5 * largest)  # Newton's tolerance
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="base_shear leaves out the fixed-end forces of loads on members on the ground, and "
-    "loads on supports",
-)
-def test_base_shear_holds_a_permanent_lateral_load_on_a_column(run, motion):
+def test_base_shear_holds_a_permanent_lateral_load_on_a_column(motion):
     frame = on_column(Section.box(1.0, 1.0, 0.2))
     frame.add_uniform_load("column", (0.0, 2.5e3, 0.0))
-    data = run(frame, motion, dt=DT, duration=DT)
+    data = time_history(frame, motion, dt=DT, duration=DT)  # no input yet to measure a ledger by
     assert_allclose(data["base_shear"].sel(axis="y")[0], 4.0 * 2.5e3, rtol=1e-3)  # P-Delta
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=RuntimeWarning,
-    reason="two levels at one elevation, or with a node in common, are accepted; the drift is NaN",
-)
 def test_two_levels_at_one_elevation_do_not_give_nan(run, motion):
     frame = lumped_mass(device(), 1e5)
     frame.add_level("deck", ["mass"])

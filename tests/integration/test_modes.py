@@ -106,12 +106,6 @@ def test_vertical_mode_of_a_mass_on_one_bearing():
 UNLIKE = (CoulombFriction(0.1), CoulombFriction(0.02))
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="the surfaces count as springs in series, u_y / mu each; one rigid slider slides on "
-    "both at once: N ((mu_1 R_1^2 + mu_2 R_2^2) / u_y + L) / L^2",
-)
 @pytest.mark.parametrize(
     "options", [{}, {"radius": (1.0, 0.8)}, {"friction": UNLIKE}], ids=["like", "radii", "friction"]
 )

@@ -458,9 +458,13 @@ def test_friction_and_contact_stay_within_bounds(
     lifted = r.string <= bearing.effective_radius
     assert lifted.any()
     assert (~lifted).any()
-    assert_array_equal(r.resisting[lifted], 0.0)
     assert_array_equal(r.axial_force[lifted], 0.0)
-    assert_array_equal(r.rim_force[lifted], 0.0)
+    if math.isfinite(bearing.interface_friction):
+        assert_array_equal(r.rim_force[lifted], 0.0)
+    # one piece caught between its rims still passes what they press
+    free = lifted & (r.rim_force.max(axis=1) == 0.0)
+    assert free.any()
+    assert_array_equal(r.resisting[free], 0.0)
     assert_array_equal(r.torque[lifted], 0.0)
     bound = 2 / 3 * bearing.slider_radius * max(f.f_max for f in bearing.frictions)
     assert (np.abs(r.torque) <= bound * r.axial_force * (1.0 + 1e-14)).all()
