@@ -64,8 +64,7 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
     found: dict[str, float] = {}
     if len(touches):
         end = int(np.argmax(slip)) if slip.max() > 1e-3 else int(np.argmax(size))
-        start = int(touches[np.searchsorted(touches, end, side="right") - 1])
-        start = int(touches[0]) if start > end else start
+        start = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
         while start > 0 and size[start - 1] <= size[start] and force[start - 1] > 0.0:
             start -= 1  # back to the begin of this contact
         found["rim contact"] = float(time[start])

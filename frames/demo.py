@@ -266,7 +266,7 @@ def _describe(console: Console, bearings: Mapping[Place, LIRBearing]) -> None:
 
 def _strong_part(data: xr.Dataset) -> tuple[float, float]:
     # From the start to 2 s after the last displacement above a fifth of the largest [s].
-    u = data["bearing_displacement"].sel(axis=["x", "y"]).isel(bearing=0)
+    u = data["bearing_displacement"].sel(axis=["x", "y"]).isel(bearing=0).to_numpy()
     size = np.linalg.norm(u, axis=-1)
     last = int(np.flatnonzero(size > 0.2 * size.max())[-1])
     time = data["time"].to_numpy()

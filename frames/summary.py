@@ -48,9 +48,9 @@ ROWS = (
 
 def summary_of(data: xr.Dataset) -> dict[str, float]:
     """Return the numbers of the summary by SI name (`ROWS`), from one result."""
-    u = np.linalg.norm(data["bearing_displacement"].sel(axis=["x", "y"]), axis=-1)
-    shear = np.linalg.norm(data["base_shear"].sel(axis=["x", "y"]), axis=-1)
-    floors = np.linalg.norm(floor_acceleration(data).sel(axis=["x", "y"]), axis=-1)
+    u = np.linalg.norm(data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
+    shear = np.linalg.norm(data["base_shear"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
+    floors = np.linalg.norm(floor_acceleration(data).sel(axis=["x", "y"]).to_numpy(), axis=-1)
     slip = data["interface_slip_size"]
     has_ended = 1.0 if data.attrs["status"] == "ok" else math.nan  # a run that stopped has no rest
     return {
