@@ -153,7 +153,8 @@ def _springs(system: System) -> SparseMatrix:
 def _spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
     # Springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs.
     rows = bearing_rows(system)
-    blocks = [np.kron([[1.0, -1.0], [-1.0, 1.0]], np.diag(row)) for row in values]
+    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
     return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
 
 
