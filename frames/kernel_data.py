@@ -98,7 +98,7 @@ class Run(NamedTuple):
     zero: Array
     axes: Array
     energy: Array  # (n_terms,)
-    clock: Array  # time, level, successes, base time, ...
+    clock: Array  # time, level, good steps at it, strain energy under gravity
     counters: Array  # steps, iterations, halvings, bearing, code, cause, base steps done
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import linalg
 
 from frames.integration import advance, record
-from frames.kernel_data import ENERGY_TERMS, Setup, output_arrays
+from frames.kernel_data import Setup, output_arrays
 from frames.results import build_dataset
 from frames.static import force_tolerance, gravity
 from lir_element.element import LEVELS, limit_detail
@@ -231,8 +231,3 @@ def _culprit(state: GravityState) -> str:
     # The degree of freedom with the largest unbalanced force.
     place = int(np.argmax(np.abs(state.run.residual)))
     return f'degree of freedom "{state.system.dof_labels[state.basis.bearing_dofs[place]]}"'
-
-
-def energy_terms() -> tuple[str, ...]:
-    """Return the names of the energy terms, in the order of the dimension 'term'."""
-    return ENERGY_TERMS

@@ -108,11 +108,10 @@ class Element:
             self._props, self._committed, self._trial, self._work, u, v, float(time), _ZERO
         )
         self._has_tangent = False
-        status = RunStatus(code)
         self._pending = True
-        if status is not RunStatus.OK and not _is_limit(status):
+        if pendulum_trial.has_no_state(code):
             self.revert_to_last_commit()
-            raise AnalysisError(status, float(time), "bearing element")
+            raise AnalysisError(RunStatus(code), float(time), "bearing element")
 
     def resisting_force(self) -> Floats:
         """Return the resisting forces (12,) of the trial state [N, N m]."""
@@ -160,7 +159,7 @@ class Element:
         pendulum_trial.accumulate_one(self._props, self._committed, self._trial)
         self._committed[:] = self._trial
         status = RunStatus(int(self._committed["status"][0]))
-        if _is_limit(status):
+        if status is not RunStatus.OK:  # a trial without a state never gets here
             detail = limit_detail(self._props, self._committed, 0)
             time = float(self._committed["time"][0])
             raise AnalysisError(status, time, "bearing element", detail)
@@ -204,10 +203,6 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         limit = float(props["rim_overrun"][index])
         return f"rim deformation {closure:.4g} m, rim_overrun {limit:.4g} m"
     return ""
-
-
-def _is_limit(status: RunStatus) -> bool:
-    return status in {RunStatus.SLIP_EXCEEDED, RunStatus.RIM_OVERRUN}
 
 
 def _twelve(name: str, value: ArrayLike) -> Floats:

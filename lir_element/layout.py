@@ -138,7 +138,6 @@ WORK_FIELDS = (
     Field("tau", "N m", "tau", "moment about the top sphere's centre", _W_VECTOR),
     Field("k6", "N/m, N, N m", "", "derivative of g and tau by centre and spin", (6, 6)),
     Field("dn6", "N/m, N", "", "derivative of the axial force by centre and spin", (6,)),
-    Field("eta6", "1/m, -", "", "turn of the axis by centre and spin", (2, 6)),
     Field("d_rows", "", "", "rows of the global tangent: force, moment", (6, 12)),
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("torque_stiffness", "N m", "", "its derivative by the twist"),
