@@ -12,11 +12,12 @@ from frames.kernel_data import MAX_LEVEL
 from frames.ledger import add_bearing_energy, add_energy, ground_acceleration
 from frames.stepping import commit_bearings, gather, newton
 from lir_element.errors import RunStatus
+from lir_element.levels import bearing_defect
 from lir_element.pendulum_trial import copy_words
-from lir_element.pendulum_work import contact_defect
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Output, Run, Setup
+    from lir_element.contact_data import Contacts
     from lir_element.layout import Floats
 
 _OK = int(RunStatus.OK)
@@ -143,6 +144,7 @@ def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
 def try_step(
     model: Model,
     run: Run,
+    contacts: Contacts | None,
     settings: Setup,
     motion: Floats,
     motion_dt: float,
@@ -156,7 +158,7 @@ def try_step(
     for a in range(run.b.shape[0]):
         run.step[a] = dt * run.mean_v_b[a]
     code = newton(
-        model, run, linear, time + dt, 1.0 - settings.alpha_f, settings.force_tolerance,
+        model, run, contacts, linear, time + dt, 1.0 - settings.alpha_f, settings.force_tolerance,
         settings.max_iterations,
     )  # fmt: skip
     if code != _OK:
@@ -178,7 +180,9 @@ def estimated_error(model: Model, run: Run, dt: float) -> float:
 
 
 @kernel
-def is_rough(model: Model, run: Run, settings: Setup, dt: float) -> bool:
+def is_rough(
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, dt: float
+) -> bool:
     """Return whether the step deserves to be halved, though it converged.
 
     Either its estimated error is too large, or contacts that open or close in it make or lose
@@ -186,7 +190,7 @@ def is_rough(model: Model, run: Run, settings: Setup, dt: float) -> bool:
     """
     defect = 0.0
     for k in range(run.old.shape[0]):
-        defect += contact_defect(model.props[k], run.old[k], run.new[k])
+        defect += bearing_defect(model.props, run.old, run.new, contacts, k)
     scale = max(run.energy[2], abs(run.energy[0]), settings.energy_floor)
     if defect > settings.energy_tolerance * scale:
         return True
@@ -205,11 +209,12 @@ def limits(run: Run) -> int:
 
 @kernel
 def accept_step(
-    model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
-) -> None:
+    model: Model, run: Run, contacts: Contacts | None, motion: Floats, motion_dt: float,
+    time: float, dt: float,
+) -> None:  # fmt: skip
     """Commit the step."""
     add_energy(model, run, motion, motion_dt, time, dt)
-    commit_bearings(model, run)
+    commit_bearings(model, run, contacts)
     add_bearing_energy(run)
     for a in range(run.b.shape[0]):
         run.mean_v_b[a] = run.step[a] / dt
@@ -221,7 +226,7 @@ def accept_step(
 
 
 @kernel
-def record(run: Run, out: Output, place: int) -> None:
+def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None:
     """Copy the committed state into the output arrays."""
     out.time[place] = run.clock[0]
     for a in range(run.b.shape[0]):
@@ -230,6 +235,9 @@ def record(run: Run, out: Output, place: int) -> None:
         out.e[place, k], out.a_e[place, k] = run.e[k], run.a_e[k]
     for k in range(run.old.shape[0]):
         copy_words(run.old_words[k], out.words[place, k])
+    if contacts is not None:
+        for k in range(contacts.bodies_old_words.shape[0]):
+            copy_words(contacts.bodies_old_words[k], out.bodies[place, k])
     for term in range(run.energy.shape[0]):
         out.energy[place, term] = run.energy[term]
 
@@ -238,6 +246,7 @@ def record(run: Run, out: Output, place: int) -> None:
 def advance(
     model: Model,
     run: Run,
+    contacts: Contacts | None,
     settings: Setup,
     motion: Floats,
     motion_dt: float,
@@ -263,8 +272,10 @@ def advance(
             dt = settings.dt / (1 << level)
             time = settings.dt * (base + ticks / ticks_a_step)
             run.clock[0] = time
-            code = try_step(model, run, settings, motion, motion_dt, time, dt, level)
-            rough = code == _OK and level < _MAX_LEVEL // 2 and is_rough(model, run, settings, dt)
+            code = try_step(model, run, contacts, settings, motion, motion_dt, time, dt, level)
+            rough = code == _OK and level < _MAX_LEVEL // 2
+            if rough:
+                rough = is_rough(model, run, contacts, settings, dt)
             if code != _OK or rough:
                 if level == _MAX_LEVEL:
                     run.counters[5] = code
@@ -281,7 +292,7 @@ def advance(
                 level += 1
                 good = 0
                 continue
-            accept_step(model, run, motion, motion_dt, time, dt)
+            accept_step(model, run, contacts, motion, motion_dt, time, dt)
             ticks += parts
             good += 1
             if level > 0 and good >= 2 and ticks % (2 * parts) == 0:
@@ -290,6 +301,6 @@ def advance(
         run.clock[0] = settings.dt * (base + 1)
         run.counters[6] = base + 1
         if (base + 1) % every == 0:
-            record(run, out, (base + 1) // every)
+            record(run, contacts, out, (base + 1) // every)
         run.clock[1], run.clock[2] = level, good
     return _OK

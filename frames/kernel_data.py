@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.basis import bearing_rows
-from lir_element.element import as_words, initial_state
-from lir_element.layout import STATE, WORK
+from lir_element.contact_data import Contacts, as_rows, contact_arrays
+from lir_element.element import initial_state
+from lir_element.layout import BODIES, STATE, WORK
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     from frames.assembly import System
@@ -33,6 +36,7 @@ ENERGY_TERMS = (
     "friction_elastic",
     "rims",
     "contact",
+    "sliders",
     "numerical",
 )
 
@@ -162,7 +166,7 @@ def run_arrays(model: Model) -> Run:
 
     return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
-        old=old, new=new, old_words=as_words(old), new_words=as_words(new),
+        old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK),
         force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
         reduced=np.zeros((MAX_LEVEL + 1, n_b, n_b)), has_reduced=np.zeros(MAX_LEVEL + 1, np.int64),
@@ -185,14 +189,20 @@ class Output(NamedTuple):
     e: Array
     a_e: Array
     words: Array  # (n_steps, n_bearings, words)
+    bodies: Array  # (n_steps, bearings with contact points, words)
     energy: Array
 
 
-def output_arrays(model: Model, count: int) -> tuple[Output, Array]:
-    """Return arrays for `count` output steps, and the bearing states as records."""
+def output_arrays(
+    model: Model, contacts: Contacts | None, count: int
+) -> tuple[Output, Array, Array]:
+    """Return arrays for `count` output steps, the bearing states and the bodies as records."""
     n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)
     states = np.zeros((count, n_bearings), dtype=STATE)
     words = states.view(np.int64).reshape(count, n_bearings, -1)
+    n_contact = 0 if contacts is None else len(contacts.sliders)
+    bodies = np.zeros((count, n_contact), dtype=BODIES)
+    n_words = BODIES.itemsize // 8
     arrays = Output(
         time=np.zeros(count),
         b=np.zeros((count, n_b)),
@@ -201,6 +211,15 @@ def output_arrays(model: Model, count: int) -> tuple[Output, Array]:
         e=np.zeros((count, n_e)),
         a_e=np.zeros((count, n_e)),
         words=words,
+        bodies=bodies.view(np.int64).reshape(count, n_contact, n_words),
         energy=np.zeros((count, len(ENERGY_TERMS))),
     )
-    return arrays, states
+    return arrays, states, bodies
+
+
+def contacts_of(system: System, levels: Sequence[str]) -> Contacts | None:
+    """Return the contact points of those bearings whose level asks for them; None if none does."""
+    chosen = [level == "contact" for level in levels]
+    if not any(chosen):
+        return None
+    return contact_arrays([b for _, _, _, b in system.bearings], chosen, system.gravity)

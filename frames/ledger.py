@@ -92,7 +92,7 @@ def add_energy(
     elastic = elastic_energy(model, run.b_new, run.e_new) - run.clock[3]
     energy[0] += supplied
     energy[1] += lifted
-    energy[11] += (
+    energy[12] += (
         supplied - lifted - damped - bearings - (kinetic - energy[2]) - (elastic - energy[3])
     )
     energy[2], energy[3] = kinetic, elastic
@@ -102,7 +102,7 @@ def add_energy(
 @kernel
 def add_bearing_energy(run: Run) -> None:
     """Set the bearings' terms of the energy from their accumulated works."""
-    for term in range(5, 11):
+    for term in range(5, 12):
         run.energy[term] = 0.0
     for k in range(run.old.shape[0]):
         run.energy[5] += run.old[k].work_friction[0]
@@ -111,3 +111,4 @@ def add_bearing_energy(run: Run) -> None:
         run.energy[8] += run.old[k].work_elastic
         run.energy[9] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
         run.energy[10] += run.old[k].work_contact
+        run.energy[11] += run.old[k].work_sliders

@@ -12,7 +12,7 @@ from frames.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS
 from frames.parts import DOFS
 from frames.static import expand
-from lir_element.results import bearing_coordinates, bearing_variables, labelled
+from lir_element.results import bearing_coordinates, bearing_variables, body_variables, labelled
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from frames.kernel_data import Output
     from frames.model import Frame
     from frames.static import GravityState
+    from lir_element.contact_data import Contacts
     from lir_element.layout import Records
 
 ABSORBED = ENERGY_TERMS[1:]
@@ -35,6 +36,7 @@ def build_dataset(
     motion: GroundMotion,
     out: Output,
     states: Records,
+    bodies: Records,
     count: int,
 ) -> xr.Dataset:
     """Put the first `count` recorded steps into a Dataset (docs/results.md)."""
@@ -48,6 +50,8 @@ def build_dataset(
     acceleration[..., :3] += ground[:, None, :]
     velocity = _bearing_velocity(state, out.v_b[:count])
     variables = bearing_variables("time", states[:count], velocity)
+    if state.contacts is not None:
+        variables |= _bodies(state.contacts, states[:count], bodies[:count])
     node = ("time", "node", "dof")
     grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
     forces = states["force"][:count, grounded, 6:9].sum(axis=1)
@@ -186,6 +190,18 @@ def load(path: str | Path) -> xr.Dataset:
     """Read a Dataset that `save` wrote, into memory."""
     with xr.open_dataset(path, engine="h5netcdf") as data:
         return data.load()
+
+
+def _bodies(contacts: Contacts, states: Records, bodies: Records) -> dict[str, xr.Variable]:
+    # Places and rotations of all bearings' bodies, NaN for bearings without contact points.
+    full = np.zeros(states.shape, dtype=bodies.dtype)
+    chosen = contacts.place >= 0
+    full["turn"] = (1.0, 0.0, 0.0, 0.0)
+    full[:, chosen] = bodies[:, contacts.place[chosen]]
+    variables = body_variables("time", full, states["displacement"])
+    for name in ("body_position", "body_rotation"):
+        variables[name].data[:, ~chosen, :2] = np.nan
+    return variables
 
 
 def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:

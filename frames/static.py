@@ -12,16 +12,19 @@ from scipy.sparse.linalg import spsolve
 from frames._validate import ModelError
 from frames.assembly import assemble, geometric_stiffness, member_axial_forces
 from frames.basis import Basis, bearing_rows, build_basis
-from frames.kernel_data import Model, Run, model_arrays, run_arrays
+from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
 from frames.parts import bearing_axial_stiffness
 from frames.stepping import solve_gravity
-from lir_element.element import limit_detail
+from lir_element.element import LEVELS, limit_detail
 from lir_element.errors import AnalysisError, RunStatus
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly import System
     from frames.model import Frame
+    from lir_element.contact_data import Contacts
 
 _FORCE_TOLERANCE = 1e-9  # of the total weight
 _MAX_ITERATIONS = 100
@@ -43,6 +46,8 @@ class GravityState:
         The frame in bearing coordinates.
     model, run : Model, Run
         What the kernels work on; `run` holds the equilibrium as committed state.
+    contacts : Contacts or None
+        Sliders of the bearings at the level 'contact'.
     displacement : ndarray, (n_free,)
         Displacements q under gravity.
     axial_forces : ndarray, (n_bearings,)
@@ -55,11 +60,12 @@ class GravityState:
     basis: Basis
     model: Model
     run: Run
+    contacts: Contacts | None
     displacement: FloatArray
     axial_forces: FloatArray
 
 
-def gravity(frame: Frame) -> GravityState:
+def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> GravityState:
     """Bring a frame into equilibrium under its permanent loads.
 
     The members' axial forces of a first, linear solution give the geometric stiffness; the
@@ -70,6 +76,9 @@ def gravity(frame: Frame) -> GravityState:
     ----------
     frame : Frame
         The model, with at least one bearing.
+    level : str or mapping
+        Level of fidelity of the bearings, one for all or by name of bearing ("pendulum" for those
+        that it does not name).
 
     Returns
     -------
@@ -93,9 +102,10 @@ def gravity(frame: Frame) -> GravityState:
     basis = build_basis(system, geometric, frame.damping)
     model = model_arrays(system, basis)
     run = run_arrays(model)
+    contacts = contacts_of(system, levels_of(system, level))
     run.b[:] = linear[basis.bearing_dofs]
     tolerance = force_tolerance(system, _FORCE_TOLERANCE)
-    status = RunStatus(solve_gravity(model, run, tolerance, _MAX_ITERATIONS))
+    status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
     _raise_gravity_failure(system, run, status, linear)
     return GravityState(
         system=system,
@@ -104,9 +114,31 @@ def gravity(frame: Frame) -> GravityState:
         basis=basis,
         model=model,
         run=run,
+        contacts=contacts,
         displacement=expand(basis, run.b, run.e),
         axial_forces=np.array(run.old["axial_force"]),
     )
+
+
+def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
+    """Return the level of each bearing.
+
+    Raises
+    ------
+    ValueError
+        If a level or the name of a bearing is unknown.
+    """
+    names = [name for name, _, _, _ in system.bearings]
+    given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
+    unknown = sorted(set(given) - set(names))
+    if unknown:
+        msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
+        raise ValueError(msg)
+    for value in given.values():
+        if value not in LEVELS:
+            msg = f"level = {value!r}: choose one of {LEVELS}"
+            raise ValueError(msg)
+    return [given.get(name, "pendulum") for name in names]
 
 
 def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 from frames._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.pendulum_nodes import fill_tangent
-from lir_element.pendulum_trial import copy_words, has_no_state, trial
-from lir_element.pendulum_work import accumulate
+from lir_element.levels import bearing_commit, bearing_tangent, bearing_trial
+from lir_element.pendulum_trial import has_no_state
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run
+    from lir_element.contact_data import Contacts
     from lir_element.layout import Floats
 
 _OK = int(RunStatus.OK)
@@ -36,7 +36,9 @@ def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
 
 
 @kernel
-def bearing_forces(model: Model, run: Run, b: Floats, v_b: Floats, time: float) -> int:
+def bearing_forces(
+    model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats, time: float
+) -> int:
     """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
     n_b = b.shape[0]
     for a in range(n_b):
@@ -45,8 +47,8 @@ def bearing_forces(model: Model, run: Run, b: Floats, v_b: Floats, time: float) 
     for k in range(model.props.shape[0]):
         gather(model, k, b, run.u)
         gather(model, k, v_b, run.v)
-        code = trial(
-            model.props[k], run.old[k], run.new[k], run.work[k], run.u, run.v, time, run.zero
+        code = bearing_trial(
+            model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time, run.zero
         )
         if code != _OK:
             worst = code
@@ -61,11 +63,13 @@ def bearing_forces(model: Model, run: Run, b: Floats, v_b: Floats, time: float) 
 
 
 @kernel
-def bearing_tangents(model: Model, run: Run, factor: float) -> None:
+def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
     """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
-        fill_tangent(model.props[k], run.work[k], run.new[k].force, element, run.zero, run.axes)
+        bearing_tangent(
+            model.props, run.new, run.work, contacts, k, element, run.zero, run.axes
+        )
         for row in range(12):
             for i in range(model.start[k, row], model.start[k, row + 1]):
                 for col in range(12):
@@ -121,8 +125,9 @@ def norm(x: Floats) -> float:
 
 @kernel
 def set_residual(
-    model: Model, run: Run, linear: Floats, step: Floats, time: float, share: float
-) -> float:
+    model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, time: float,
+    share: float,
+) -> float:  # fmt: skip
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
     residual = rhs - linear step - share force; infinite where the bearings have no state.
@@ -132,7 +137,7 @@ def set_residual(
     for a in range(n_b):
         run.trial_b[a] = run.b[a] + step[a]
         run.v_b_new[a] = step[a] / dt if dt > 0.0 else 0.0
-    code = bearing_forces(model, run, run.trial_b, run.v_b_new, time)
+    code = bearing_forces(model, run, contacts, run.trial_b, run.v_b_new, time)
     run.counters[4] = code
     if has_no_state(code):
         return math.inf
@@ -148,6 +153,7 @@ def set_residual(
 def newton(
     model: Model,
     run: Run,
+    contacts: Contacts | None,
     linear: Floats,
     time: float,
     share: float,
@@ -159,11 +165,11 @@ def newton(
     `run.step` holds the first guess. A step that does not reduce the residual is shortened.
     """
     n_b = run.step.shape[0]
-    size = set_residual(model, run, linear, run.step, time, share)
+    size = set_residual(model, run, contacts, linear, run.step, time, share)
     if size == math.inf:  # start from rest instead
         for a in range(n_b):
             run.step[a] = 0.0
-        size = set_residual(model, run, linear, run.step, time, share)
+        size = set_residual(model, run, contacts, linear, run.step, time, share)
         if size == math.inf:
             return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
     for _ in range(max_iterations):
@@ -174,14 +180,14 @@ def newton(
             run.h_b[a] = run.residual[a]
             for c in range(n_b):
                 run.tangent[a, c] = linear[a, c]
-        bearing_tangents(model, run, share)
+        bearing_tangents(model, run, contacts, share)
         if not solve_in_place(run.tangent, run.h_b):
             return _SINGULAR
         factor = 1.0
         for attempt in range(6):
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
-            new = set_residual(model, run, linear, run.g_b, time, share)
+            new = set_residual(model, run, contacts, linear, run.g_b, time, share)
             if new < size or (attempt >= 3 and new < 2.0 * size):
                 break
             factor *= 0.4
@@ -194,7 +200,9 @@ def newton(
 
 
 @kernel
-def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int) -> int:
+def solve_gravity(
+    model: Model, run: Run, contacts: Contacts | None, tolerance: float, max_iterations: int
+) -> int:
     """Bring the frame into equilibrium under its permanent loads; returns a status code.
 
     `run.b` holds the first guess; `run.step` is used. On success the state is committed.
@@ -204,14 +212,14 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
-    code = newton(model, run, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
+    code = newton(model, run, contacts, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
     if code != _OK:
         return code
     for a in range(n_b):
         run.b[a] = run.step[a]
     for a in range(run.e.shape[0]):
         run.e[a] = model.load_e[a] / model.omega2[a]
-    commit_bearings(model, run)
+    commit_bearings(model, run, contacts)
     for k in range(run.old.shape[0]):  # works count from here
         for side in range(2):
             run.old[k].work_friction[side] = 0.0
@@ -220,14 +228,16 @@ def solve_gravity(model: Model, run: Run, tolerance: float, max_iterations: int)
         run.old[k].work_interface = 0.0
         run.old[k].work_elastic = 0.0
         run.old[k].work_contact = 0.0
+        run.old[k].work_sliders = 0.0
     return _OK
 
 
 @kernel
-def commit_bearings(model: Model, run: Run) -> None:
+def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
-        accumulate(model.props[k], run.old[k], run.new[k])
-        copy_words(run.new_words[k], run.old_words[k])
+        bearing_commit(
+            model.props, run.old, run.new, run.old_words, run.new_words, contacts, k
+        )
     for a in range(run.force.shape[0]):
         run.force_old[a] = run.force[a]

@@ -13,13 +13,13 @@ from frames.integration import advance, record
 from frames.kernel_data import Setup, output_arrays
 from frames.results import build_dataset
 from frames.static import force_tolerance, gravity
-from lir_element.element import LEVELS, limit_detail
+from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.results import report, require_on_failure
 from lir_element.validation import require_between, require_positive
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
@@ -42,7 +42,7 @@ def time_history(
     motion: GroundMotion,
     duration: float | None = None,
     dt: float | None = None,
-    level: Literal["pendulum"] = "pendulum",
+    level: str | Mapping[str, str] = "pendulum",
     method: Literal["direct"] = "direct",
     *,
     integrator: Literal["newmark", "generalised-alpha"] = "newmark",
@@ -66,8 +66,9 @@ def time_history(
         Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
         error asks for it. A given step is halved only where Newton's method fails, or where a
         contact that opens or closes would make or lose energy.
-    level : {"pendulum"}
-        Level of fidelity of the bearings.
+    level : {"pendulum", "contact"} or mapping
+        Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
+        those that it does not name).
     method : {"direct"}
         "direct": all degrees of freedom.
     integrator : {"newmark", "generalised-alpha"}
@@ -97,27 +98,27 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
-    _check_options(level, method, integrator, record_every, on_failure)
+    _check_options(method, integrator, record_every, on_failure)
     record_every = int(record_every)
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
     length = motion.duration if duration is None else require_positive("duration", duration, "s")
     base = min(motion.dt, _LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
     began = perf_counter()
-    state = gravity(model)
+    state = gravity(model, level)
     settings = _settings(state, base, dt is None, integrator, spectral_radius)
     steps = max(1, math.ceil(length / base - 1e-9))
-    out, states = output_arrays(state.model, steps // record_every + 1)
+    out, states, bodies = output_arrays(state.model, state.contacts, steps // record_every + 1)
     _start(state, motion)
     prepared = perf_counter()
     code, base_steps = _march(state, settings, motion, out, steps, record_every, progress)
     finished = perf_counter()
     status, detail = _outcome(state, RunStatus(code))
-    data = build_dataset(model, state, motion, out, states, base_steps // record_every + 1)
+    data = build_dataset(model, state, motion, out, states, bodies, base_steps // record_every + 1)
     counters = state.run.counters
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
-        "level": level,
+        "level": level if isinstance(level, str) else str(dict(level)),
         "method": method,
         "integrator": integrator,
         "spectral_radius": float(spectral_radius),
@@ -136,10 +137,9 @@ def time_history(
 
 
 def _check_options(
-    level: str, method: str, integrator: str, record_every: int, on_failure: str
+    method: str, integrator: str, record_every: int, on_failure: str
 ) -> None:
     choices = (
-        ("level", level, LEVELS),
         ("method", method, METHODS),
         ("integrator", integrator, ("newmark", "generalised-alpha")),
     )
@@ -201,13 +201,14 @@ def _march(
     # Run the compiled loop in chunks; returns the status code and the base steps completed.
     run = state.run
     components = np.ascontiguousarray(motion.components)
-    record(run, out, 0)
+    record(run, state.contacts, out, 0)
     chunk = steps if progress is None else max(1, -(-steps // _CHUNKS))
     for first in range(0, steps, chunk):
         last = min(first + chunk, steps)
         code = advance(
-            state.model, run, settings, components, float(motion.dt), out, first, last, every
-        )
+            state.model, run, state.contacts, settings, components, float(motion.dt), out, first,
+            last, every,
+        )  # fmt: skip
         if code != int(RunStatus.OK):
             return code, int(run.counters[6])
         if progress is not None:

@@ -68,6 +68,16 @@ class LIRBearing:
         Whether the contacts resist rotation about the vertical axis.
     plate_thickness : float or (float, float)
         Distance from each node to the vertex of its concave surface [m].
+    slider_density : float
+        Density of the sliders [kg/m3], for their mass and inertia at the levels with contact points.
+    slider_mass : float or (float, float), optional
+        Mass of the bottom and the top slider [kg] instead of that from density and geometry.
+    slider_inertia : ((float, float), (float, float)), optional
+        Moments of inertia of both sliders about a transverse axis through the mass centre and
+        about the slider's axis [kg m2].
+    contact_points : int
+        Contact points of each of the three interfaces, at the levels that have them: 4 to 7 lie on
+        the slider's edge, an even number from 8 on lies on two rings that act as a full disc.
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.
 
@@ -111,10 +121,14 @@ class LIRBearing:
     bouc_wen_exponent: float = 2.0
     torsional_friction: bool = True
     plate_thickness: float | tuple[float, float] = 0.0
+    slider_density: float = 7850.0
+    slider_mass: float | tuple[float, float] | None = None
+    slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = None
+    contact_points: int = 8
     allow_weak_interface: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("radius", "friction", "plate_thickness", "rims"):
+        for name in ("radius", "friction", "plate_thickness", "rims", "slider_mass"):
             object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
         check_bearing(self)
 

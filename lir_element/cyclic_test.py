@@ -8,12 +8,15 @@ import numpy as np
 import xarray as xr
 
 from lir_element.cyclic_kernel import run_path
-from lir_element.element import LEVELS, Level, as_words, initial_state, limit_detail
+from lir_element.bearing import STANDARD_GRAVITY
+from lir_element.contact_data import as_rows, contact_arrays
+from lir_element.element import LEVELS, Level, initial_state, limit_detail
 from lir_element.errors import RunStatus
-from lir_element.layout import STATE, WORK
+from lir_element.layout import BODIES, STATE, WORK
 from lir_element.results import (
     bearing_coordinates,
     bearing_variables,
+    body_variables,
     labelled,
     report,
     require_on_failure,
@@ -50,7 +53,7 @@ def cyclic_test(
         Compression held by the vertical actuator [N], linear between the points.
     velocity : float
         Speed along the path [m/s].
-    level : {"pendulum"}
+    level : {"pendulum", "contact"}
         Level of fidelity.
     on_failure : {"warn", "raise"}
         Whether a failure hands back what was computed with a warning, or raises AnalysisError
@@ -82,22 +85,27 @@ def cyclic_test(
     path, loads = _path(displacement), _loads(axial_load, displacement)
     speed = require_positive("velocity", velocity, "m/s")
     props = bearing.to_record()
-    states = np.concatenate([initial_state(props), initial_state(props)])
-    out = np.zeros(len(path), dtype=STATE)
-    v_out = np.zeros((len(path), 2))
-    increment = _INCREMENT * bearing.yield_displacement
+    old, new = initial_state(props), initial_state(props)
+    contacts = None
+    if level == "contact":
+        contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
+    out, v_out = np.zeros(len(path), dtype=STATE), np.zeros((len(path), 2))
+    bodies = np.zeros(len(path), dtype=BODIES)
     reached, code, time = run_path(
-        props, states, as_words(states), np.zeros(1, dtype=WORK), path, loads, speed,
-        increment, np.zeros((12, 12)), np.zeros(3), np.eye(3), as_words(out), v_out,
+        props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
+        loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12), np.zeros(12),
+        np.zeros((12, 12)), np.zeros(3), np.eye(3), as_rows(out), v_out, as_rows(bodies),
     )  # fmt: skip
     status = RunStatus(code)
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
     variables["time"] = labelled(("step",), out["time"][:reached], "s", "time")
+    if contacts is not None:
+        variables |= body_variables("step", bodies[:reached, None], out["displacement"][:reached, None])
     data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
     data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
-    detail = limit_detail(props, states[1:], 0)
+    detail = limit_detail(props, new, 0)
     return report(data, status, time, "bearing in the rig", detail, on_failure=on_failure)
 
 

@@ -6,17 +6,20 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lir_element import pendulum_trial
+from lir_element import levels
+from lir_element.bearing import STANDARD_GRAVITY
+from lir_element.contact_data import as_rows, contact_arrays, reset
 from lir_element.errors import AnalysisError, RunStatus
-from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records, Words
+from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
+from lir_element.pendulum_trial import has_no_state
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lir_element.bearing import LIRBearing
 
-Level = Literal["pendulum"]
-LEVELS = ("pendulum",)
+Level = Literal["pendulum", "contact"]
+LEVELS = ("pendulum", "contact")
 _ZERO = np.zeros(3)
 _AXES = np.eye(3)
 
@@ -32,11 +35,6 @@ def initial_state(props: Records) -> Records:
     return state
 
 
-def as_words(records: Records) -> Words:
-    """Return records (n,) as rows of 64-bit words (n, m), sharing their memory."""
-    return records.view(np.int64).reshape(len(records), -1)
-
-
 class Element:
     """An LIR-DCFP bearing between node i (below) and node j (above).
 
@@ -49,8 +47,9 @@ class Element:
     ----------
     bearing : LIRBearing
         The device.
-    level : {"pendulum"}
-        Level of fidelity.
+    level : {"pendulum", "contact"}
+        Level of fidelity: "pendulum" holds the sliders in full contact; "contact" has them as
+        bodies with contact points, which rock, open and land (some fifty times the cost).
 
     Examples
     --------
@@ -76,7 +75,11 @@ class Element:
         self._start = initial_state(self._props)
         self._committed = self._start.copy()
         self._trial = self._start.copy()
+        self._words = as_rows(self._committed), as_rows(self._trial)
         self._work = np.zeros(1, dtype=WORK)
+        self._contacts = None
+        if level == "contact":
+            self._contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
         self._tangent = np.zeros((12, 12))
         self._has_tangent = False
         self._pending = False
@@ -104,12 +107,13 @@ class Element:
             If an array has the wrong shape.
         """
         u, v = _twelve("displacement", displacement), _twelve("velocity", velocity)
-        code = pendulum_trial.trial_one(
-            self._props, self._committed, self._trial, self._work, u, v, float(time), _ZERO
-        )
+        code = levels.bearing_trial(
+            self._props, self._committed, self._trial, self._work, self._contacts, 0, u, v,
+            float(time), _ZERO,
+        )  # fmt: skip
         self._has_tangent = False
         self._pending = True
-        if pendulum_trial.has_no_state(code):
+        if has_no_state(code):
             self.revert_to_last_commit()
             raise AnalysisError(RunStatus(code), float(time), "bearing element")
 
@@ -120,20 +124,18 @@ class Element:
     def tangent_stiffness(self) -> Floats:
         """Return the consistent tangent (12, 12) of the trial state, unsymmetric as it comes."""
         if not self._has_tangent:
-            pendulum_trial.tangent_one(
-                self._props, self._trial, self._work, self._tangent, _ZERO, _AXES
-            )
+            levels.bearing_tangent(
+                self._props, self._trial, self._work, self._contacts, 0, self._tangent, _ZERO,
+                _AXES,
+            )  # fmt: skip
             self._has_tangent = True
         return self._tangent.copy()
 
     def initial_stiffness(self) -> Floats:
         """Return the stiffness (12, 12) at rest: undeformed, sticking, under the design load."""
         if self._initial is None:
-            other = Element.__new__(Element)
-            other.__dict__ |= self.__dict__
+            other = Element(self.bearing, self.level)
             options = self.bearing.resolved()
-            other._committed, other._trial = self._start.copy(), self._start.copy()
-            other._work, other._tangent = np.zeros_like(self._work), np.zeros((12, 12))
             u = np.zeros(12)
             u[8] = -options["design_load"] / options["axial_stiffness"]
             other.set_trial(u, np.zeros(12), 0.0)
@@ -156,8 +158,9 @@ class Element:
         if not self._pending:
             return
         self._pending = False
-        pendulum_trial.accumulate_one(self._props, self._committed, self._trial)
-        self._committed[:] = self._trial
+        levels.bearing_commit(
+            self._props, self._committed, self._trial, *self._words, self._contacts, 0
+        )
         status = RunStatus(int(self._committed["status"][0]))
         if status is not RunStatus.OK:  # a trial without a state never gets here
             detail = limit_detail(self._props, self._committed, 0)
@@ -167,14 +170,20 @@ class Element:
     def revert_to_last_commit(self) -> None:
         """Forget the trial state."""
         committed = self._committed
-        u = np.array(committed["displacement"][0])
-        self.set_trial(u, np.zeros(12), float(committed["time"][0]))
+        if self._contacts is None:
+            u = np.array(committed["displacement"][0])
+            self.set_trial(u, np.zeros(12), float(committed["time"][0]))
+        else:
+            levels.bearing_look(self._props, committed, self._work, self._contacts, 0)
+            self._has_tangent = False
         self._trial[:] = committed
         self._pending = False
 
     def revert_to_start(self) -> None:
         """Forget everything: the undeformed, unloaded bearing at time zero."""
         self._committed[:] = self._start
+        if self._contacts is not None:
+            reset(self._contacts, [self.bearing])
         self.revert_to_last_commit()
 
     def response(self, name: str) -> Any:

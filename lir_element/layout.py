@@ -1,7 +1,9 @@
 """Record layouts, declared once: dtypes, response names, units and labels all come from here.
 
 Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (what is
-committed) and `WORK` (scratch of one state determination; nothing in it survives).
+committed) and `WORK` (scratch of one state determination; nothing in it survives). Where the
+sliders are bodies with contact points, `SLIDERS` and `POINT` hold their constants, `BODIES` and
+`TOUCH` their state, `SCRATCH` the rest.
 """
 
 from __future__ import annotations
@@ -83,6 +85,7 @@ STATE_FIELDS = (
     Field("work_elastic", "J", "", "work of all friction before slip (elastic sliding)"),
     Field("work_rim", "J", "", "work done on the rims: bottom, top", (2,)),
     Field("work_contact", "J", "", "work done on the axial contact"),
+    Field("work_sliders", "J", "", "taken up by the sliders' own mass: motion, weight"),
     Field("travel", "m", "", "sliding path travelled since the start: bottom, top", (2,)),
     Field("interface_travel", "m", "", "path slipped in the interface since the start"),
     Field("largest_slip", "m", "", "largest interface slip since the start"),
@@ -154,6 +157,79 @@ WORK_FIELDS = (
 )
 
 
+SLIDER_FIELDS = (
+    Field("mass", "kg", "m", "mass: bottom slider, top slider", (2,)),
+    Field("inertia", "kg m2", "J", "rotational inertia about own axes: both sliders", (2, 3)),
+    Field("place", "m", "", "reference places of node i, sliders' mass centres, node j", (4, 3)),
+    Field("plane", "m", "", "interface from the mass centre: bottom slider, top slider", (2,)),
+    Field("vertex", "m", "", "lowest, highest point of the slider from the mass centres", (2,)),
+    Field("stiffness", "N/m", "k", "normal stiffness of one interface"),
+    Field("damping", "N s/m", "c", "normal damping of one interface"),
+    Field("radius", "m", "a", "slider radius, lever that compares moments with forces"),
+    Field("gravity", "m/s2", "g", "acceleration that gives the sliders their weight"),
+)
+
+POINT_FIELDS = (
+    Field("pair", "-", "", "0 bottom surface (B), 1 interface (C), 2 top surface (A)", (), "i8"),
+    Field("arm", "m", "", "contact point from its slider's mass centre, own axes", (3,)),
+    Field("share", "-", "", "share of the interface's stiffness"),
+)
+
+BODY_FIELDS = (
+    Field("place", "m", "", "displacement: bottom slider, top slider, top plate", (3, 3)),
+    Field("turn", "-", "", "rotation as quaternion (scalar first)", (3, 4)),
+    Field("velocity", "m/s", "", "velocity of the mass centres", (3, 3)),
+    Field("spin", "rad/s", "", "angular velocity, global axes", (3, 3)),
+    Field("acceleration", "m/s2", "", "acceleration of the mass centres", (3, 3)),
+    Field("spin_rate", "rad/s2", "", "angular acceleration, global axes", (3, 3)),
+    Field("parts", "N, N m", "", "forces on node i, sliders, node j by origin", (7, 24)),
+    Field("rim_gap", "m", "", "approach to the rim, negative when open: bottom, top", (2,)),
+    Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
+    Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
+)
+
+TOUCH_FIELDS = (
+    Field("spot", "m", "", "place of the contact, axes of what carries it", (3,)),
+    Field("hysteresis", "-", "z", "hysteretic variable of its friction", (2,)),
+    Field("gap", "m", "", "penetration, negative when open"),
+    Field("closure", "m", "pen", "penetration, zero when open"),
+    Field("push", "N", "N", "normal force"),
+    Field("friction", "-", "mu", "friction coefficient"),
+    Field("slid", "m", "", "slipped part of the last step"),
+    Field("speed", "m/s", "v", "speed of slip"),
+    Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
+)
+
+SCRATCH_FIELDS = (
+    Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
+    Field("q", "-", "", "their rotations", (4, 3, 3)),
+    Field("g", "N, N m", "", "forces and moments on them", (24,)),
+    Field("k", "N/m", "", "derivative of g by displacement and spin", (24, 24)),
+    Field("d", "m", "", "contact point in axes of its carrier", (3,)),
+    Field("normal", "N", "", "normal force of a contact, axes of its carrier", (3,)),
+    Field("tangential", "N", "", "friction force of a contact, axes of its carrier", (3,)),
+    Field("slope", "N/m", "", "derivative of both by the contact point", (3, 3)),
+    Field("global_slope", "N/m", "", "the same in global axes", (3, 3)),
+    Field("half", "", "", "spare", (3, 3)),
+    Field("row", "N/m", "", "derivative of a contact's force by both bodies", (3, 12)),
+    Field("arm", "m", "", "contact point from its body, from its carrier", (2, 3)),
+    Field("force", "N", "", "force of a contact, global", (2, 3)),
+    Field("tangent_1", "-", "t_1", "basis of the tangent plane", (3,)),
+    Field("tangent_2", "-", "t_2", "the same", (3,)),
+    Field("system", "", "", "matrix of Newton's method", (18, 18)),
+    Field("right", "", "", "its right-hand sides", (18, 12)),
+    Field("residual", "N, N m", "", "unbalanced forces on the bodies", (18,)),
+    Field("step", "m, rad", "", "last step of Newton's method", (18,)),
+    Field("try_place", "m", "", "places before a step", (3, 3)),
+    Field("try_turn", "-", "", "rotations before a step", (3, 4)),
+    Field("quaternion", "-", "", "spare", (4,)),
+    Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", (3, 3)),
+    Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", (3, 3)),
+    Field("spare_matrix", "", "", "spare", (3, 3)),
+    Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
+)
+
+
 def dtype_of(fields: tuple[Field, ...]) -> np.dtype[Any]:
     """Return the aligned record dtype of a table of fields."""
     entries = [(f.name, f.kind, f.shape) for f in fields]
@@ -163,6 +239,11 @@ def dtype_of(fields: tuple[Field, ...]) -> np.dtype[Any]:
 PROPS = dtype_of(PROPS_FIELDS)
 STATE = dtype_of(STATE_FIELDS)
 WORK = dtype_of(WORK_FIELDS)
+SLIDERS = dtype_of(SLIDER_FIELDS)
+POINT = dtype_of(POINT_FIELDS)
+BODIES = dtype_of(BODY_FIELDS)
+TOUCH = dtype_of(TOUCH_FIELDS)
+SCRATCH = dtype_of(SCRATCH_FIELDS)
 
 STATE_BY_NAME = {f.name: f for f in STATE_FIELDS}
 
@@ -183,3 +264,15 @@ State: TypeAlias = Any
 
 Work: TypeAlias = Any
 """One record of dtype WORK."""
+
+Sliders: TypeAlias = Any
+"""One record of dtype SLIDERS."""
+
+Bodies: TypeAlias = Any
+"""One record of dtype BODIES."""
+
+Scratch: TypeAlias = Any
+"""One record of dtype SCRATCH."""
+
+Touch: TypeAlias = Any
+"""One record of dtype TOUCH."""

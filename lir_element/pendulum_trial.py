@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.pendulum import aim_axis, place_plates, set_axis, static_speeds
-from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_solve import solve_axis
-from lir_element.pendulum_work import accumulate
 from lir_element.slip import return_map
 
 if TYPE_CHECKING:
-    from lir_element.layout import Floats, Props, Records, State, Words, Work
+    from lir_element.layout import Floats, Props, State, Words, Work
 
 _OK = int(RunStatus.OK)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
@@ -87,6 +85,7 @@ def keep_works(old: State, new: State) -> None:
     new.work_interface = old.work_interface
     new.work_elastic = old.work_elastic
     new.work_contact = old.work_contact
+    new.work_sliders = old.work_sliders
     new.interface_travel = old.interface_travel
     new.largest_slip = old.largest_slip
 
@@ -214,32 +213,3 @@ def copy_words(source: Words, target: Words) -> None:
     """Copy one record, seen as a row of 64-bit words."""
     for k in range(source.shape[0]):
         target[k] = source[k]
-
-
-@kernel
-def trial_one(
-    props: Records,
-    committed: Records,
-    trial_state: Records,
-    work: Records,
-    u: Floats,
-    v: Floats,
-    time: float,
-    zero: Floats,
-) -> int:
-    """Run `trial` on arrays of one record (records cross into kernels as arrays)."""
-    return trial(props[0], committed[0], trial_state[0], work[0], u, v, time, zero)
-
-
-@kernel
-def tangent_one(
-    props: Records, trial_state: Records, work: Records, k: Floats, zero: Floats, axes: Floats
-) -> None:
-    """Fill the tangent `k` (12, 12) of the trial in `work`, for arrays of one record."""
-    fill_tangent(props[0], work[0], trial_state[0].force, k, zero, axes)
-
-
-@kernel
-def accumulate_one(props: Records, committed: Records, trial_state: Records) -> None:
-    """Run `accumulate` on arrays of one record."""
-    accumulate(props[0], committed[0], trial_state[0])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
+from scipy.spatial.transform import Rotation
 
 from lir_element.errors import AnalysisError, AnalysisWarning, RunStatus, failure_message
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 AXES = ("x", "y", "z")
 SURFACES = ("bottom", "top")
+BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
 
 
 def labelled(dims: tuple[str, ...], values: Any, units: str, long_name: str) -> xr.Variable:
@@ -105,6 +107,41 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         "work_contact": labelled(
             each, states["work_contact"].copy(), "J", "work done on the axial contact"
         ),
+        "work_sliders": labelled(
+            each, states["work_sliders"].copy(), "J", "taken up by the sliders' own mass"
+        ),
+    }
+
+
+def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str, xr.Variable]:
+    """Return places and rotations of the bodies of a bearing with contact points.
+
+    Parameters
+    ----------
+    step : str
+        Name of the first dimension, 'time' or 'step'.
+    bodies : records, shape (n_steps, n_bearings)
+        Committed states of the bodies.
+    displacement : ndarray, shape (n_steps, n_bearings, 12)
+        Displacements of the nodes; those of node j belong to the top plate.
+
+    Returns
+    -------
+    dict
+        Variables by name; dimension 'body' is bottom_slider, top_slider, top_plate.
+    """
+    dims = (step, "bearing", "body", "axis")
+    turns = Rotation.from_quat(bodies["turn"][..., :2, :].reshape(-1, 4), scalar_first=True)
+    rotation = np.zeros((*displacement.shape[:2], 3, 3))
+    rotation[:, :, :2] = turns.as_rotvec().reshape(*displacement.shape[:2], 2, 3)
+    rotation[:, :, 2] = displacement[..., 9:12]
+    place = np.concatenate([bodies["place"][..., :2, :], displacement[..., None, 6:9]], axis=-2)
+    return {
+        "body": xr.Variable(("body",), list(BODY_NAMES)),
+        "body_position": labelled(
+            dims, place, "m", "displacement of mass centre or plate node from its undeformed place"
+        ),
+        "body_rotation": labelled(dims, rotation, "rad", "rotation vector of the body"),
     }
 
 

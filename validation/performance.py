@@ -24,7 +24,8 @@ import numpy as np
 from frames import GroundMotion, gravity, lumped_mass, moment_frame, time_history
 from frames._jit import kernel
 from lir_element import LIRBearing
-from lir_element.element import as_words, initial_state
+from lir_element.contact_data import as_rows
+from lir_element.element import initial_state
 from lir_element.layout import WORK, Floats, Records, Words
 from lir_element.pendulum_nodes import fill_tangent
 from lir_element.pendulum_trial import copy_words, trial
@@ -88,7 +89,7 @@ def element_microseconds(
         states = np.concatenate([initial_state(props), initial_state(props)])
         began = time.perf_counter()
         iterations = repeat_element(
-            props, states, as_words(states), np.zeros(1, dtype=WORK), path, 0.001, tangent,
+            props, states, as_rows(states), np.zeros(1, dtype=WORK), path, 0.001, tangent,
             np.zeros((12, 12)), np.zeros(3), np.eye(3),
         )  # fmt: skip
         times.append((time.perf_counter() - began) / len(path) * 1e6)
