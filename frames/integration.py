@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from frames._jit import kernel
 from frames.kernel_data import MAX_LEVEL
-from frames.ledger import add_bearing_energy, add_energy, ground_acceleration
+from frames.ledger import add_bearing_energy, add_energy
 from frames.stepping import commit_bearings, gather, newton
 from lir_element.errors import RunStatus
 from lir_element.levels import bearing_defect
 from lir_element.pendulum_trial import copy_words
+from lir_element.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Output, Run, Setup

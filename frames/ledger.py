@@ -6,27 +6,14 @@ energy; what another member of the family adds or takes is the term 'numerical'.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
+from lir_element.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run
     from lir_element.layout import Floats
-
-
-@kernel
-def ground_acceleration(motion: Floats, motion_dt: float, time: float, axis: int) -> float:
-    """Return the ground acceleration along `axis`, linear between samples, zero outside."""
-    place = time / motion_dt
-    first = math.floor(place)
-    if first < 0 or first >= motion.shape[0] - 1:
-        if first == motion.shape[0] - 1 and place - first < 1e-9:
-            return motion[first, axis]
-        return 0.0
-    share = place - first
-    return (1.0 - share) * motion[first, axis] + share * motion[first + 1, axis]
 
 
 @kernel

@@ -220,12 +220,15 @@ SCRATCH_FIELDS = (
     Field("right", "", "", "its right-hand sides", (18, 12)),
     Field("residual", "N, N m", "", "unbalanced forces on the bodies", (18,)),
     Field("step", "m, rad", "", "last step of Newton's method", (18,)),
+    Field("shift", "m", "", "displacement of the mass centres over the time step", (9,)),
+    Field("try_shift", "m", "", "the same before a step of Newton's method", (9,)),
     Field("try_place", "m", "", "places before a step", (3, 3)),
     Field("try_turn", "-", "", "rotations before a step", (3, 4)),
     Field("quaternion", "-", "", "spare", (4,)),
     Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", (3, 3)),
     Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", (3, 3)),
     Field("spare_matrix", "", "", "spare", (3, 3)),
+    Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
 )
 
