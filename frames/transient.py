@@ -12,6 +12,7 @@ from scipy import linalg
 from frames.integration import advance, record
 from frames.kernel_data import Setup, output_arrays
 from frames.results import build_dataset
+from frames.rigid import LARGEST_STEP, rigid_time_history
 from frames.static import force_tolerance, gravity
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from frames.static import GravityState
 
 METHODS = ("direct",)
-_LARGEST_STEP = 0.005  # s, where the program chooses
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 2e-7  # of the effective radius, a step, where the program chooses
@@ -45,8 +45,9 @@ def time_history(
     level: str | Mapping[str, str] = "pendulum",
     method: Literal["direct"] = "direct",
     *,
-    integrator: Literal["newmark", "generalised-alpha"] = "newmark",
+    integrator: Literal["newmark", "generalised-alpha", "explicit"] | None = None,
     spectral_radius: float = 0.8,
+    tolerance: float | None = None,
     record_every: int = 1,
     on_failure: Literal["warn", "raise"] = "warn",
     progress: Callable[[float], None] | None = None,
@@ -66,16 +67,20 @@ def time_history(
         Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
         error asks for it. A given step is halved only where Newton's method fails, or where a
         contact that opens or closes would make or lose energy.
-    level : {"pendulum", "contact"} or mapping
+    level : {"pendulum", "contact", "rigid_body"} or mapping
         Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
-        those that it does not name).
+        those that it does not name). "rigid_body" takes one bearing with a mass on it.
     method : {"direct"}
         "direct": all degrees of freedom.
-    integrator : {"newmark", "generalised-alpha"}
-        Time integration: Newmark's average acceleration, which conserves energy, or Chung and
-        Hulbert (1993).
+    integrator : {None, "newmark", "generalised-alpha", "explicit"}
+        Time integration. None is Newmark's average acceleration, which conserves energy;
+        "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
+        Bossak's implicit method, and "explicit" takes small equal steps of `dt`.
     spectral_radius : float
         Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
+    tolerance : float, optional
+        Error of a step over the effective radius where the program controls it: 2e-7 by default,
+        1e-8 at the level "rigid_body".
     record_every : int
         Record every so many steps.
     on_failure : {"warn", "raise"}
@@ -98,14 +103,23 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
-    _check_options(method, integrator, record_every, on_failure)
+    _check_options(method, integrator, level, record_every, on_failure)
     record_every = int(record_every)
+    if tolerance is not None:
+        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
     length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = min(motion.dt, _LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
+    base = min(motion.dt, LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
+    if level == "rigid_body":
+        return rigid_time_history(
+            model, motion, length, dt, integrator=integrator, tolerance=tolerance,
+            record_every=record_every, on_failure=on_failure, progress=progress,
+        )  # fmt: skip
+    integrator = integrator or "newmark"
     began = perf_counter()
     state = gravity(model, level)
-    settings = _settings(state, base, dt is None, integrator, spectral_radius)
+    error = _ERROR_TOLERANCE if tolerance is None else tolerance
+    settings = _settings(state, base, error if dt is None else math.inf, integrator, spectral_radius)
     steps = max(1, math.ceil(length / base - 1e-9))
     out, states, bodies = output_arrays(state.model, state.contacts, steps // record_every + 1)
     _start(state, motion)
@@ -124,6 +138,7 @@ def time_history(
         "spectral_radius": float(spectral_radius),
         "dt": float(base),
         "step_control": "error" if dt is None else "fixed",
+        "tolerance": float(error) if dt is None else math.nan,
         "steps": int(counters[0]),
         "newton_iterations": int(counters[1]),
         "halvings": int(counters[2]),
@@ -137,16 +152,19 @@ def time_history(
 
 
 def _check_options(
-    method: str, integrator: str, record_every: int, on_failure: str
+    method: str, integrator: str | None, level: object, record_every: int, on_failure: str
 ) -> None:
     choices = (
         ("method", method, METHODS),
-        ("integrator", integrator, ("newmark", "generalised-alpha")),
+        ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
     )
     for name, value, allowed in choices:
         if value not in allowed:
             msg = f"{name} = {value!r}: choose one of {allowed}"
             raise ValueError(msg)
+    if integrator == "explicit" and level != "rigid_body":
+        msg = f'integrator = "explicit" belongs to level="rigid_body", not to {level!r}'
+        raise ValueError(msg)
     if not record_every >= 1 or record_every % 1:
         msg = f"record_every = {record_every!r} must be a whole number of at least 1"
         raise ValueError(msg)
@@ -154,7 +172,7 @@ def _check_options(
 
 
 def _settings(
-    state: GravityState, dt: float, controlled: bool, integrator: str, radius: float
+    state: GravityState, dt: float, tolerance: float, integrator: str, radius: float
 ) -> Setup:
     alpha_m, alpha_f = 0.0, 0.0
     if integrator == "generalised-alpha":
@@ -170,7 +188,7 @@ def _settings(
         max_iterations=_MAX_ITERATIONS,
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
-        error_tolerance=float(_ERROR_TOLERANCE * length) if controlled else math.inf,
+        error_tolerance=float(tolerance * length),
     )
 
 

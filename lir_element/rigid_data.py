@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -125,3 +127,48 @@ def state_words(count: int) -> tuple[Records, Words]:
     """Return `count` state records, and the same as rows of words."""
     states = np.zeros(count, dtype=STATE)
     return states, as_rows(states)
+
+
+def stable_step(sliders: Records, props: Records, load: float) -> float:
+    """Return half the explicit step [s] at which the stiffest motion of a slider becomes unstable.
+
+    Parameters
+    ----------
+    sliders, props : records, (1,), (1,)
+        Constants of the bearing.
+    load : float
+        Largest axial force to count on [N]; it sets the stiffness of friction before slip.
+    """
+    mass = float(sliders["mass"][0].min())
+    across = sliders["radius"][0] ** 2 / sliders["inertia"][0, :, :2].min()
+    stiffness = 2.0 * float(sliders["stiffness"][0])
+    damping = 2.0 * float(sliders["damping"][0])
+    friction = load * float((props["friction_max"] / props["yield_displacement"]).max())
+    if not props["fused"][0]:
+        friction += load * float(props["interface_friction"][0] / props["interface_yield"][0])
+    inverse = max(1.0 / mass, 0.5 * across)
+    rate = damping * inverse + math.sqrt((stiffness + friction) * inverse)
+    return 0.5 * 2.0 / rate
+
+
+def rigid_setup(
+    length: float, largest: float, *, tolerance: float = 1e-8, spectral_radius: float = 0.0,
+    explicit: float = 0.0,
+) -> RigidSetup:  # fmt: skip
+    """Return the constants of the time integration.
+
+    Parameters
+    ----------
+    length : float
+        Effective radius [m], to which the tolerance refers.
+    largest : float
+        Largest step [s].
+    tolerance : float
+        Error of a step over the effective radius [-].
+    spectral_radius : float
+        Of Bossak's method at infinite frequency [-].
+    explicit : float
+        Step of the explicit mode [s], 0 for the implicit one.
+    """
+    alpha, beta, gamma = bossak(spectral_radius)
+    return RigidSetup(alpha, beta, gamma, tolerance * length, 1e-9, largest, explicit)

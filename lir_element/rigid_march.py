@@ -218,11 +218,8 @@ def explicit_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int)
 
 
 @kernel
-def march(run: RigidRun, given: RigidInput, setup: RigidSetup) -> int:
-    """Integrate from output to output and record each; return a status code.
-
-    ``run.clock[0]`` is the time reached, ``run.counters[3]`` the number of outputs written.
-    """
+def start(run: RigidRun, given: RigidInput) -> None:
+    """Set forces and accelerations of the state a run starts from, and record it."""
     w = run.scratch[0]
     set_instant(run, given, given.times[0], 0.0, 1)
     place_bodies(run.sliders[0], w, run.bodies[0], 1, 4)
@@ -238,7 +235,15 @@ def march(run: RigidRun, given: RigidInput, setup: RigidSetup) -> int:
         run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground
     )
     record(run, given, 0)
-    for place in range(1, given.times.shape[0]):
+
+
+@kernel
+def march(run: RigidRun, given: RigidInput, setup: RigidSetup, first: int, last: int) -> int:
+    """Integrate to the outputs `first` to `last` (exclusive), recording; return a status code.
+
+    ``run.clock[0]`` is the time reached, ``run.counters[3]`` the number of outputs written.
+    """
+    for place in range(first, last):
         if setup.explicit > 0.0:
             code = explicit_to(run, given, setup, place)
         else:
