@@ -181,9 +181,7 @@ def estimated_error(model: Model, run: Run, dt: float) -> float:
 
 
 @kernel
-def is_rough(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, dt: float
-) -> bool:
+def is_rough(model: Model, run: Run, contacts: Contacts | None, settings: Setup, dt: float) -> bool:
     """Return whether the step deserves to be halved, though it converged.
 
     Either its estimated error is too large, or contacts that open or close in it make or lose

@@ -17,8 +17,8 @@ from lir_element.contact_data import as_rows
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES
-from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, stable_step, state_words
 from lir_element.results import report
+from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, stable_step, state_words
 from lir_element.rigid_march import march, start
 
 if TYPE_CHECKING:
@@ -107,18 +107,14 @@ def rigid_time_history(
     given, states, bodies = _input(state, motion, interval, steps + 1)
     chosen = DEFAULT_TOLERANCE if tolerance is None else tolerance
     length_scale = state.system.bearings[0][3].effective_radius
-    setup = rigid_setup(
-        length_scale, interval / record_every, tolerance=chosen, explicit=explicit
-    )
+    setup = rigid_setup(length_scale, interval / record_every, tolerance=chosen, explicit=explicit)
     run.clock[1] = min(_FIRST_STEP, interval)
     prepared = perf_counter()
     code = _march(run, given, setup, progress)
     finished = perf_counter()
     count = int(run.counters[3])
     out = _output(state, given, states, bodies)
-    data = build_dataset(
-        model, state, motion, out, states[:, None], bodies[:, None], count
-    )
+    data = build_dataset(model, state, motion, out, states[:, None], bodies[:, None], count)
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -179,8 +175,8 @@ def _input(
     load = np.tile(state.system.node_load[6 * node : 6 * node + 6], (count, 1))
     given = RigidInput(
         motion=np.ascontiguousarray(motion.components), motion_dt=float(motion.dt),
-        times=interval * np.arange(count), drive=np.zeros((count, 2)), load=load, words=words,
-        bodies=as_rows(bodies), energy=np.zeros((count, 6)),
+        times=np.arange(count, dtype=np.float64) * interval, drive=np.zeros((count, 2)),
+        load=load, words=words, bodies=as_rows(bodies), energy=np.zeros((count, 6)),
     )  # fmt: skip
     return given, states, bodies
 
@@ -204,7 +200,7 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
             "lumped_mass(bearing, mass)"
         )
         raise ModelError(msg)
-    free = rows[6:].any(axis=1).astype(np.int64)
+    free: IntArray = np.array([row.any() for row in rows[6:]], dtype=np.int64)
     node = system.bearings[0][2]
     masses = system.node_mass[node]
     lacking = [name for a, name in enumerate("xyzxyz") if free[a] and not masses[a] > 0.0]
@@ -231,9 +227,7 @@ def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -
     return float(explicit)
 
 
-def _output(
-    state: GravityState, given: RigidInput, states: Records, bodies: Records
-) -> Output:
+def _output(state: GravityState, given: RigidInput, states: Records, bodies: Records) -> Output:
     count = len(given.times)
     out, _, _ = output_arrays(state.model, None, count)
     rows = bearing_rows(state.system).toarray()[6:]

@@ -121,7 +121,19 @@ def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> Gravit
 
 
 def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
-    """Return the level of each bearing.
+    """Look up the level of each bearing.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    level : str or mapping
+        One level for all bearings, or levels by name of bearing.
+
+    Returns
+    -------
+    list of str
+        Levels in the order of the bearings.
 
     Raises
     ------

@@ -67,9 +67,7 @@ def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: 
     """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
-        bearing_tangent(
-            model.props, run.new, run.work, contacts, k, element, run.zero, run.axes
-        )
+        bearing_tangent(model.props, run.new, run.work, contacts, k, element, run.zero, run.axes)
         for row in range(12):
             for i in range(model.start[k, row], model.start[k, row + 1]):
                 for col in range(12):
@@ -236,8 +234,6 @@ def solve_gravity(
 def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
-        bearing_commit(
-            model.props, run.old, run.new, run.old_words, run.new_words, contacts, k
-        )
+        bearing_commit(model.props, run.old, run.new, run.old_words, run.new_words, contacts, k)
     for a in range(run.force.shape[0]):
         run.force_old[a] = run.force[a]

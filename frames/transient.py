@@ -119,7 +119,9 @@ def time_history(
     began = perf_counter()
     state = gravity(model, level)
     error = _ERROR_TOLERANCE if tolerance is None else tolerance
-    settings = _settings(state, base, error if dt is None else math.inf, integrator, spectral_radius)
+    settings = _settings(
+        state, base, error if dt is None else math.inf, integrator, spectral_radius
+    )
     steps = max(1, math.ceil(length / base - 1e-9))
     out, states, bodies = output_arrays(state.model, state.contacts, steps // record_every + 1)
     _start(state, motion)

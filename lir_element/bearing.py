@@ -69,7 +69,7 @@ class LIRBearing:
     plate_thickness : float or (float, float)
         Distance from each node to the vertex of its concave surface [m].
     slider_density : float
-        Density of the sliders [kg/m3], for their mass and inertia at the levels with contact points.
+        Density of the sliders [kg/m3], for mass and inertia at the levels with contact points.
     slider_mass : float or (float, float), optional
         Mass of the bottom and the top slider [kg] instead of that from density and geometry.
     slider_inertia : ((float, float), (float, float)), optional
@@ -130,6 +130,9 @@ class LIRBearing:
     def __post_init__(self) -> None:
         for name in ("radius", "friction", "plate_thickness", "rims", "slider_mass"):
             object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
+        if self.slider_inertia is not None:
+            pairs = tuple(tuple(pair) for pair in self.slider_inertia)
+            object.__setattr__(self, "slider_inertia", pairs)
         check_bearing(self)
 
     @property

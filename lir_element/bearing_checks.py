@@ -6,6 +6,8 @@ import math
 import warnings
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from lir_element.friction import CoulombFriction, VelocityFriction
 from lir_element.validation import as_pair, require_non_negative, require_positive
 
@@ -50,6 +52,7 @@ def check_bearing(bearing: LIRBearing) -> None:
             require(name, value, unit)
     for name in ("yield_displacement", "interface_yield_displacement"):
         require_positive(name, getattr(bearing, name), "m")
+    _check_sliders(bearing)
     for name in ("torsional_friction", "allow_weak_interface"):
         if not isinstance(getattr(bearing, name), bool):
             msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
@@ -59,6 +62,31 @@ def check_bearing(bearing: LIRBearing) -> None:
         raise ValueError(msg)
     if require_positive("bouc_wen_exponent", bearing.bouc_wen_exponent, "-") < 1.0:
         msg = f"bouc_wen_exponent = {bearing.bouc_wen_exponent:g} must be at least 1"
+        raise ValueError(msg)
+
+
+def _check_sliders(bearing: LIRBearing) -> None:
+    require_positive("slider_density", bearing.slider_density, "kg/m3")
+    for mass in as_pair("slider_mass", bearing.slider_mass):
+        if mass is not None:
+            require_positive("slider_mass", mass, "kg")
+    inertia = bearing.slider_inertia
+    if inertia is not None:
+        shape = np.shape(np.asarray(inertia, dtype=object))
+        if shape != (2, 2):
+            msg = (
+                f"slider_inertia has shape {shape}: give two pairs (across, along) [kg m2], those "
+                "of the bottom and of the top slider"
+            )
+            raise ValueError(msg)
+        for value in (number for pair in inertia for number in pair):
+            require_positive("slider_inertia", value, "kg m2")
+    count = bearing.contact_points
+    if isinstance(count, bool) or count != int(count) or count < 4 or (count >= 8 and count % 2):
+        msg = (
+            f"contact_points = {count!r}: give a whole number, 4 to 7 (one ring on the slider's "
+            "edge) or an even one from 8 on (two rings, which act as a full disc)"
+        )
         raise ValueError(msg)
 
 

@@ -21,7 +21,14 @@ from lir_element.rotation import rotate
 
 if TYPE_CHECKING:
     from lir_element.layout import (
-        Bodies, Floats, Props, Records, Scratch, Sliders, State, Work,
+        Bodies,
+        Floats,
+        Props,
+        Records,
+        Scratch,
+        Sliders,
+        State,
+        Work,
     )  # fmt: skip
 
 _OK = int(RunStatus.OK)
@@ -97,7 +104,7 @@ def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
 
 @kernel
 def own_forces(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, b: int) -> None:
-    """Set weight and inertia forces of slider `b` (1, 2) in ``new.parts``; its velocity and spin."""
+    """Set weight and inertia forces of slider `b` (1, 2) in ``new.parts``, and its velocity."""
     part = new.parts[OWN]
     first, k = 6 * b, b - 1
     part[first + 2] = -c.mass[k] * c.gravity
@@ -320,9 +327,7 @@ def contact_trial(
             fly_on(b_old, b_new, dt)
         else:
             follow_string(p, c, b_new, w, pen)
-        count = settle(
-            p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed
-        )
+        count = settle(p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed)
     fill_state(p, c, points, old, new, b_new, touch_new, w, u)
     new.time = time
     new.iterations = count

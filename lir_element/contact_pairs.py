@@ -47,15 +47,15 @@ def turn_by(start: Floats, x: float, y: float, z: float, out: Floats) -> None:
 
 
 @kernel
-def turn_between(
-    old: Floats, new: Floats
-) -> tuple[float, float, float]:
+def turn_between(old: Floats, new: Floats) -> tuple[float, float, float]:
     """Return the rotation vector (global axes) that leads from the turn `old` to `new`."""
     a, b, c, d = new[0], new[1], new[2], new[3]
     e, f, g, h = old[0], -old[1], -old[2], -old[3]
     s = a * e - b * f - c * g - d * h
-    x, y, z = a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, (
-        a * h + b * g - c * f + d * e
+    x, y, z = (
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        (a * h + b * g - c * f + d * e),
     )
     sign = 1.0 if s >= 0.0 else -1.0
     size = math.sqrt(x * x + y * y + z * z)
@@ -74,7 +74,7 @@ def place_bodies(c: Sliders, w: Scratch, bodies: Bodies, first: int, last: int) 
 
 @kernel
 def locate(w: Scratch, body: int, carrier: int, x: float, y: float, z: float, up: float) -> None:
-    """Set the point (x, y, z) of `body` in axes of its `carrier`, from the carrier's axis at `up`."""
+    """Set the point (x, y, z) of `body` in axes of its `carrier`, from height `up` on its axis."""
     q, r = w.q[body], w.q[carrier]
     for a in range(3):
         w.arm[0, a] = q[a, 0] * x + q[a, 1] * y + q[a, 2] * z
@@ -134,7 +134,9 @@ def set_row(w: Scratch, carrier: int, f: Floats) -> None:
 
 
 @kernel
-def add_pair(w: Scratch, parts: Floats, body: int, carrier: int, friction: int, normal: int) -> None:
+def add_pair(
+    w: Scratch, parts: Floats, body: int, carrier: int, friction: int, normal: int
+) -> None:
     """Add a pair's normal and friction force to the `parts` of the given origins."""
     q = w.q[carrier]
     for which in range(2):
@@ -187,7 +189,7 @@ def press(
     touch_new: Records, w: Scratch, dt: float, speed_bottom: float, speed_top: float,
     derive: bool,
 ) -> None:  # fmt: skip
-    """Set the forces ``w.g`` on all bodies at their places ``w.x``, ``w.q``, and new contact states.
+    """Set the forces ``w.g`` on all bodies at ``w.x``, ``w.q``, and the new state of contacts.
 
     With `derive`, also ``w.k``. `speed_bottom` and `speed_top` are the sliding speeds of a static
     state (dt = 0).

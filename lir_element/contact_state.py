@@ -1,4 +1,4 @@
-"""Kernels of bearings with contact points: the bearing's record from its bodies, works of a step."""
+"""Kernels of bearings with contact points: their record from the bodies, works of a step."""
 
 from __future__ import annotations
 
@@ -7,14 +7,28 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.contact_pairs import (
-    HIGH, LOW_BOTTOM, LOW_TOP, NORMAL, OWN, RIM_BOTTOM, RIM_TOP, locate, turn_between,
+    HIGH,
+    LOW_BOTTOM,
+    LOW_TOP,
+    NORMAL,
+    OWN,
+    RIM_BOTTOM,
+    RIM_TOP,
+    locate,
+    turn_between,
 )  # fmt: skip
 from lir_element.pendulum_trial import keep_works
 from lir_element.pendulum_work import dissipated
 
 if TYPE_CHECKING:
     from lir_element.layout import (
-        Bodies, Floats, Props, Records, Scratch, Sliders, State,
+        Bodies,
+        Floats,
+        Props,
+        Records,
+        Scratch,
+        Sliders,
+        State,
     )  # fmt: skip
 
 
@@ -44,19 +58,13 @@ def set_axes(p: Props, w: Scratch, new: State) -> None:
     q, r = w.q[0], w.q[3]
     length = 0.0
     for a in range(3):
-        w.force[0, a] = (
-            w.x[3, a] - w.x[0, a] - p.lever[1] * r[a, 2] - p.lever[0] * q[a, 2]
-        )
+        w.force[0, a] = w.x[3, a] - w.x[0, a] - p.lever[1] * r[a, 2] - p.lever[0] * q[a, 2]
         length -= w.q[1][a, 2] * w.force[0, a]
     c = w.force[0]
     for a in range(3):
         new.centres[a] = q[0, a] * c[0] + q[1, a] * c[1] + q[2, a] * c[2]
-        new.axis[a] = (
-            q[0, a] * w.q[1][0, 2] + q[1, a] * w.q[1][1, 2] + q[2, a] * w.q[1][2, 2]
-        )
-        new.axis_top[a] = (
-            r[0, a] * w.q[2][0, 2] + r[1, a] * w.q[2][1, 2] + r[2, a] * w.q[2][2, 2]
-        )
+        new.axis[a] = q[0, a] * w.q[1][0, 2] + q[1, a] * w.q[1][1, 2] + q[2, a] * w.q[1][2, 2]
+        new.axis_top[a] = r[0, a] * w.q[2][0, 2] + r[1, a] * w.q[2][1, 2] + r[2, a] * w.q[2][2, 2]
     new.string = length
     new.closure = max(length - p.length, 0.0)
 
@@ -67,9 +75,7 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
     n = w.q[1]
     s, along = w.force[0], 0.0
     for a in range(3):
-        s[a] = (
-            w.x[2, a] + c.plane[1] * w.q[2][a, 2] - w.x[1, a] - c.plane[0] * n[a, 2]
-        )
+        s[a] = w.x[2, a] + c.plane[1] * w.q[2][a, 2] - w.x[1, a] - c.plane[0] * n[a, 2]
         along += s[a] * n[a, 2]
     for a in range(3):
         s[a] -= along * n[a, 2]

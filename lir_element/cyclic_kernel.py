@@ -54,9 +54,7 @@ def run_path(
     arrays of one; `bodies_out` (n, words) takes the sliders where they are bodies.
     """
     u[8] = -loads[0] / props[0].axial_stiffness
-    code = hold_load(
-        props, old, new, work, contacts, u, v, 0.0, loads[0], k, zero, axes
-    )
+    code = hold_load(props, old, new, work, contacts, u, v, 0.0, loads[0], k, zero, axes)
     if code != _OK:
         return 0, code, 0.0
     bearing_commit(props, old, new, old_words, new_words, contacts, 0)
@@ -74,9 +72,7 @@ def run_path(
             u[6], u[7] = x + share * d_x, y + share * d_y
             now = time + share * duration
             level = load + share * (loads[point] - load)
-            code = hold_load(
-                props, old, new, work, contacts, u, v, now, level, k, zero, axes
-            )
+            code = hold_load(props, old, new, work, contacts, u, v, now, level, k, zero, axes)
             if code != _OK:
                 return point, code, now
             bearing_commit(props, old, new, old_words, new_words, contacts, 0)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import xarray as xr
 
-from lir_element.cyclic_kernel import run_path
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.contact_data import as_rows, contact_arrays
-from lir_element.element import LEVELS, Level, initial_state, limit_detail
+from lir_element.cyclic_kernel import run_path
+from lir_element.element import ALL_LEVELS, Level, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES, STATE, WORK
 from lir_element.results import (
@@ -21,13 +21,14 @@ from lir_element.results import (
     report,
     require_on_failure,
 )
+from lir_element.rigid_rig import drive_path
 from lir_element.validation import require_positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lir_element.bearing import LIRBearing
-    from lir_element.layout import Floats
+    from lir_element.layout import Floats, Records
 
 _INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
 
@@ -37,7 +38,7 @@ def cyclic_test(
     displacement: ArrayLike,
     axial_load: float | ArrayLike,
     velocity: float = 0.02,
-    level: Level = "pendulum",
+    level: Level | Literal["rigid_body"] = "pendulum",
     on_failure: Literal["warn", "raise"] = "warn",
 ) -> xr.Dataset:
     """Impose a lateral path on the top plate under axial load, plates kept parallel.
@@ -53,8 +54,8 @@ def cyclic_test(
         Compression held by the vertical actuator [N], linear between the points.
     velocity : float
         Speed along the path [m/s].
-    level : {"pendulum", "contact"}
-        Level of fidelity.
+    level : {"pendulum", "contact", "rigid_body"}
+        Level of fidelity; "rigid_body" drives the top plate, which weighs what it carries.
     on_failure : {"warn", "raise"}
         Whether a failure hands back what was computed with a warning, or raises AnalysisError
         (whose `data` holds it).
@@ -78,8 +79,8 @@ def cyclic_test(
     >>> round(float(data.interface_slip.sel(axis="x")[-1, 0]), 3)
     0.01
     """
-    if level not in LEVELS:
-        msg = f"level = {level!r}: choose one of {LEVELS}"
+    if level not in ALL_LEVELS:
+        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
         raise ValueError(msg)
     require_on_failure(on_failure)
     path, loads = _path(displacement), _loads(axial_load, displacement)
@@ -87,22 +88,36 @@ def cyclic_test(
     props = bearing.to_record()
     old, new = initial_state(props), initial_state(props)
     contacts = None
-    if level == "contact":
+    if level != "pendulum":
         contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
+
+    def go(points: Floats, out: Records, v_out: Floats, bodies: Records) -> tuple[int, int, float]:
+        return run_path(
+            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts,
+            points, loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12),
+            np.zeros(12), np.zeros((12, 12)), np.zeros(3), np.eye(3), as_rows(out), v_out,
+            as_rows(bodies),
+        )  # fmt: skip
+
     out, v_out = np.zeros(len(path), dtype=STATE), np.zeros((len(path), 2))
     bodies = np.zeros(len(path), dtype=BODIES)
-    reached, code, time = run_path(
-        props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
-        loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12), np.zeros(12),
-        np.zeros((12, 12)), np.zeros(3), np.eye(3), as_rows(out), v_out, as_rows(bodies),
-    )  # fmt: skip
+    if level == "rigid_body":
+        reached, code, time = go(np.zeros((1, 2)), out[:1], v_out[:1], bodies[:1])
+        if code == int(RunStatus.OK) and contacts is not None:
+            out, bodies, reached, code, time = drive_path(props, contacts, old, path, loads, speed)
+        v_out = np.ascontiguousarray(bodies["velocity"][:, 2, :2])
+        new = out[max(reached - 1, 0) :]
+    else:
+        reached, code, time = go(path, out, v_out, bodies)
     status = RunStatus(code)
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
     variables["time"] = labelled(("step",), out["time"][:reached], "s", "time")
     if contacts is not None:
-        variables |= body_variables("step", bodies[:reached, None], out["displacement"][:reached, None])
+        variables |= body_variables(
+            "step", bodies[:reached, None], out["displacement"][:reached, None]
+        )
     data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
     data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
     detail = limit_detail(props, new, 0)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 Level = Literal["pendulum", "contact"]
 LEVELS = ("pendulum", "contact")
+ALL_LEVELS = (*LEVELS, "rigid_body")
 _ZERO = np.zeros(3)
 _AXES = np.eye(3)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -97,6 +96,11 @@ def rigid_run(
         1 where a degree of freedom of the top plate is free.
     driven : bool
         Whether its horizontal place is imposed.
+
+    Returns
+    -------
+    RigidRun
+        States, scratch and constants.
     """
     sliders = contacts.sliders
     masses, inertias = np.zeros((3, 3)), np.zeros((3, 3))
@@ -119,7 +123,8 @@ def rigid_run(
         bodies=bodies, touches=touches, states=states,
         bodies_words=as_rows(bodies), touches_words=as_rows(touches), states_words=as_rows(states),
         scratch=np.zeros(1, dtype=SCRATCH), energy=np.zeros((3, 6)), u=np.zeros(12),
-        ground=np.zeros(3), ground_mean=np.zeros(3), drive=np.zeros(2), clock=np.zeros(2), counters=np.zeros(4, np.int64),
+        ground=np.zeros(3), ground_mean=np.zeros(3), drive=np.zeros(2), clock=np.zeros(2),
+        counters=np.zeros(4, np.int64),
     )  # fmt: skip
 
 
@@ -130,7 +135,7 @@ def state_words(count: int) -> tuple[Records, Words]:
 
 
 def stable_step(sliders: Records, props: Records, load: float) -> float:
-    """Return half the explicit step [s] at which the stiffest motion of a slider becomes unstable.
+    """Return an explicit step at half the stability limit.
 
     Parameters
     ----------
@@ -138,6 +143,11 @@ def stable_step(sliders: Records, props: Records, load: float) -> float:
         Constants of the bearing.
     load : float
         Largest axial force to count on [N]; it sets the stiffness of friction before slip.
+
+    Returns
+    -------
+    float
+        Step [s]; the limit is that of the stiffest motion of a slider.
     """
     mass = float(sliders["mass"][0].min())
     across = sliders["radius"][0] ** 2 / sliders["inertia"][0, :, :2].min()
@@ -148,7 +158,7 @@ def stable_step(sliders: Records, props: Records, load: float) -> float:
         friction += load * float(props["interface_friction"][0] / props["interface_yield"][0])
     inverse = max(1.0 / mass, 0.5 * across)
     rate = damping * inverse + math.sqrt((stiffness + friction) * inverse)
-    return 0.5 * 2.0 / rate
+    return float(1.0 / rate)
 
 
 def rigid_setup(
@@ -169,6 +179,11 @@ def rigid_setup(
         Of Bossak's method at infinite frequency [-].
     explicit : float
         Step of the explicit mode [s], 0 for the implicit one.
+
+    Returns
+    -------
+    RigidSetup
+        What the kernels read.
     """
     alpha, beta, gamma = bossak(spectral_radius)
     return RigidSetup(alpha, beta, gamma, tolerance * length, 1e-9, largest, explicit)

@@ -231,9 +231,7 @@ def start(run: RigidRun, given: RigidInput) -> None:
         run.props[0], run.sliders[0], run.points, run.bodies[0], run.bodies[0], run.touches[0],
         run.touches[1], w, 0.0, 0.0, 0.0, False,
     )  # fmt: skip
-    set_accelerations(
-        run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground
-    )
+    set_accelerations(run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground)
     record(run, given, 0)
 
 

@@ -53,11 +53,21 @@ def half_slider(
 
 
 def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
-    """Return places (count, 2) in plan and shares (count,) of the contact points of an interface.
+    """Return the contact points of an interface in plan.
 
-    Below eight: one ring on the slider's edge, as in the paper's Fig. 5. From eight on: two rings,
-    on the edge with a third of the stiffness and at half the radius with the rest, which give
-    the area, the torque 2/3 a N and the rocking stiffness of a full disc (Gauss-Radau in r^2).
+    Parameters
+    ----------
+    count : int
+        Below eight: one ring on the slider's edge, as in the paper's Fig. 5. From eight on: two
+        rings, on the edge with a third of the stiffness and at half the radius with the rest,
+        which give the area, the torque 2/3 a mu N and the rocking stiffness of a full disc.
+    radius : float
+        Slider's radius [m].
+
+    Returns
+    -------
+    tuple
+        Places (count, 2) [m] and shares of the stiffness (count,) [-].
     """
     if count < 8:
         angle = 2.0 * math.pi * np.arange(count) / count
@@ -88,15 +98,15 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
         for sphere, height in ((first, lower), (second, upper))
     ]
     given_mass = as_pair("slider_mass", bearing.slider_mass)
-    given_inertia = as_pair("slider_inertia", bearing.slider_inertia)
     record = np.zeros(1, dtype=SLIDERS)
     for k, (mass, _, (across, along)) in enumerate(bodies):
         own = given_mass[k]
         scale = 1.0 if own is None else float(own) / mass
         record["mass"][0, k] = scale * mass
-        moment = given_inertia[k]
-        across, along = (scale * across, scale * along) if moment is None else moment
-        record["inertia"][0, k] = across, across, along
+        moments = (scale * across, scale * along)
+        if bearing.slider_inertia is not None:
+            moments = bearing.slider_inertia[k]
+        record["inertia"][0, k] = moments[0], moments[0], moments[1]
     bottom = -first + bodies[0][1]
     top = -first + bearing.slider_height - bodies[1][1]
     interface = -first + lower

@@ -22,8 +22,10 @@ ALLOWED = {
 }
 KERNEL_MODULES = {
     "lir_element": [
-        "cyclic_kernel", "pendulum", "pendulum_nodes", "pendulum_solve", "pendulum_tangent",
-        "pendulum_trial", "pendulum_work", "rotation", "slip",
+        "condensed", "contact", "contact_pairs", "contact_state", "cyclic_kernel", "levels",
+        "linear", "pendulum", "pendulum_nodes", "pendulum_solve", "pendulum_tangent",
+        "pendulum_trial", "pendulum_work", "rigid_body", "rigid_march", "rotation", "sampling",
+        "slip",
     ],
 }  # fmt: skip
 
