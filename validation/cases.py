@@ -1,10 +1,28 @@
-"""The paper's bearings, as its sections give them."""
+"""The paper's bearings, as its sections give them, and the levels that the claims are run at."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+
+if TYPE_CHECKING:
+    from lir_element.element import Level
+
+LEVELS_STATIC: tuple[Level, ...] = ("pendulum",)
+"""Levels of the static cyclic test."""
+
+LEVELS_HISTORY: tuple[Level, ...] = ("pendulum",)
+"""Levels of the numerical example."""
+
+LEVELS_DRIFT: tuple[Level, ...] = ("pendulum",)
+"""Levels at which the drift under Bouc-Wen friction is followed through the numerical example."""
+
+EXAMPLE_MASS = 204e3
+"""Mass on the bearing of the numerical example [kg] (section 3.1)."""
+
+EXAMPLE_RECORD = "RSN1044_NORTHR_NWH360.AT2"
+"""PEER file of the numerical example: Newhall, Northridge 1994, 360."""
 
 
 def static_bearing() -> LIRBearing:

@@ -1,0 +1,71 @@
+"""docs/validation: a page for each claim, all in the index, figures there and small."""
+
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import validation
+from validation.page import CLAIMS, FOLDER, index
+
+PACKAGE = Path(str(validation.__file__)).parent
+FIGURE = re.compile(r"!\[[^\]]+\]\((figures/[^)]+)\)")
+claims = pytest.mark.parametrize("name", CLAIMS)
+
+
+def text_of(name: str) -> str:
+    return (FOLDER / f"{name}.md").read_text(encoding="utf-8")
+
+
+def test_every_script_is_listed():
+    found = {
+        path.stem
+        for path in PACKAGE.glob("*.py")
+        if re.search(r"^CLAIM = ", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    assert found == set(CLAIMS)
+
+
+@claims
+def test_a_script_names_its_claim(name):
+    module = import_module(f"validation.{name}")
+    claim = module.CLAIM
+    assert claim.name == name
+    assert claim.statement
+    assert claim.source
+    assert callable(module.page)
+    assert f"python -m validation.{name}" in module.__doc__
+    assert "Source" in module.__doc__
+
+
+@claims
+def test_a_script_has_its_page(name):
+    claim = import_module(f"validation.{name}").CLAIM
+    text = text_of(name)
+    assert text.startswith(f"# {claim.title}\n")
+    assert f"| {claim.statement} | {claim.source} |" in text
+    assert FIGURE.search(text)
+
+
+@claims
+def test_all_statements_hold(name):
+    assert "**no**" not in text_of(name)
+
+
+def test_the_index_is_that_of_the_pages():
+    text = (FOLDER / "README.md").read_text(encoding="utf-8")
+    assert text == index(), "run: python -m validation"
+    assert all(f"]({name}.md) |" in text for name in CLAIMS)
+
+
+def test_pages_and_figures_belong_to_claims():
+    assert {path.stem for path in FOLDER.glob("*.md")} == {"README", *CLAIMS}
+    shown = {target for name in CLAIMS for target in FIGURE.findall(text_of(name))}
+    there = {f"figures/{path.name}" for path in (FOLDER / "figures").iterdir()}
+    assert there == shown
+
+
+def test_figures_are_small():
+    for path in (FOLDER / "figures").iterdir():
+        assert path.stat().st_size < (1_500_000 if path.suffix == ".gif" else 150_000), path.name

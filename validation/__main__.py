@@ -1,0 +1,28 @@
+"""Run all claims and write docs/validation: ``python -m validation``.
+
+    LIR_RECORDS=<folder of records> python -m validation
+
+Claims that need a record are skipped, with the reason, where it is missing. The exit code is 1 if
+a statement does not hold.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from validation.page import CLAIMS, FOLDER, run
+
+
+def main() -> int:
+    """Run all claims; return how many do not hold."""
+    failed = 0
+    for name in CLAIMS:
+        module = import_module(f"validation.{name}")
+        page = run(module.CLAIM, module.page)
+        failed += page is not None and page.holds != "yes"
+    print(f"written to {FOLDER}")
+    return failed
+
+
+if __name__ == "__main__":
+    raise SystemExit(min(main(), 1))
