@@ -47,6 +47,7 @@ ATTRIBUTES = {
     "spectral_radius": "of the generalised-alpha method at infinite frequency [-]",
     "dt": "base step [s]",
     "step_control": '"error" where the program chose the step (dt=None), "fixed" where given',
+    "tolerance": "error of a step over the effective radius [-] where the program chose the step",
     "steps": "steps taken, halved ones included",
     "newton_iterations": "iterations of Newton's method in all",
     "halvings": "how often a step was halved",
@@ -73,6 +74,7 @@ TERMS = {
     "friction_elastic": "work of all friction before slip (elastic sliding)",
     "rims": "work done on the rims: strain and damping",
     "contact": "work done on the axial contacts: strain and damping",
+    "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",
     "numerical": "left over: Newton's tolerance, and what the integrator itself takes out",
 }
 

@@ -15,7 +15,7 @@ from frames.basis import Basis, bearing_rows, build_basis
 from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
 from frames.parts import bearing_axial_stiffness
 from frames.stepping import solve_gravity
-from lir_element.element import LEVELS, limit_detail
+from lir_element.element import ALL_LEVELS, LEVELS, limit_detail
 from lir_element.errors import AnalysisError, RunStatus
 
 if TYPE_CHECKING:
@@ -140,6 +140,9 @@ def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
     ValueError
         If a level or the name of a bearing is unknown.
     """
+    if isinstance(level, str) and level not in LEVELS:
+        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
+        raise ValueError(msg)
     names = [name for name, _, _, _ in system.bearings]
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))
@@ -148,7 +151,7 @@ def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
         raise ValueError(msg)
     for value in given.values():
         if value not in LEVELS:
-            msg = f"level = {value!r}: choose one of {LEVELS}"
+            msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
             raise ValueError(msg)
     return [given.get(name, "pendulum") for name in names]
 

@@ -10,7 +10,7 @@ import xarray as xr
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.contact_data import as_rows, contact_arrays
 from lir_element.cyclic_kernel import run_path
-from lir_element.element import ALL_LEVELS, Level, initial_state, limit_detail
+from lir_element.element import ALL_LEVELS, AnyLevel, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES, STATE, WORK
 from lir_element.results import (
@@ -38,7 +38,7 @@ def cyclic_test(
     displacement: ArrayLike,
     axial_load: float | ArrayLike,
     velocity: float = 0.02,
-    level: Level | Literal["rigid_body"] = "pendulum",
+    level: AnyLevel = "pendulum",
     on_failure: Literal["warn", "raise"] = "warn",
 ) -> xr.Dataset:
     """Impose a lateral path on the top plate under axial load, plates kept parallel.
@@ -104,9 +104,10 @@ def cyclic_test(
     if level == "rigid_body":
         reached, code, time = go(np.zeros((1, 2)), out[:1], v_out[:1], bodies[:1])
         if code == int(RunStatus.OK) and contacts is not None:
-            out, bodies, reached, code, time = drive_path(props, contacts, old, path, loads, speed)
+            out, bodies, reached, code, time, new = drive_path(
+                props, contacts, old, path, loads, speed
+            )
         v_out = np.ascontiguousarray(bodies["velocity"][:, 2, :2])
-        new = out[max(reached - 1, 0) :]
     else:
         reached, code, time = go(path, out, v_out, bodies)
     status = RunStatus(code)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lir_element.bearing import LIRBearing
 
 Level = Literal["pendulum", "contact"]
+AnyLevel = Literal["pendulum", "contact", "rigid_body"]
 LEVELS = ("pendulum", "contact")
 ALL_LEVELS = (*LEVELS, "rigid_body")
 _ZERO = np.zeros(3)

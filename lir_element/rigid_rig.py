@@ -23,7 +23,7 @@ _FIRST_STEP = 1e-4  # s
 def drive_path(
     props: Records, contacts: Contacts, state: Records, path: Floats, loads: Floats,
     velocity: float,
-) -> tuple[Records, Records, int, int, float]:  # fmt: skip
+) -> tuple[Records, Records, int, int, float, Records]:  # fmt: skip
     """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
 
     Parameters
@@ -40,7 +40,8 @@ def drive_path(
     Returns
     -------
     tuple
-        States (n,), bodies (n,), number of points reached, status code, time of the end.
+        States (n,), bodies (n,), number of points reached, status code, time of the end, and the
+        last state tried (1,).
 
     Notes
     -----
@@ -70,4 +71,4 @@ def drive_path(
     start(run, given)
     code = march(run, given, setup, 1, count)
     reached = int(run.counters[3]) - 1
-    return states[1:], bodies[1:], reached, code, float(run.clock[0])
+    return states[1:], bodies[1:], reached, code, float(run.clock[0]), run.states[2:]

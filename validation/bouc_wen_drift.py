@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from lir_element.element import Level
+    from lir_element.element import AnyLevel
 
 CLAIM = Claim(
     "bouc_wen_drift",
@@ -132,7 +132,7 @@ def held_checks(found: dict[tuple[float, float], xr.Dataset]) -> list[Check]:
     ]  # fmt: skip
 
 
-def newhall_runs(record: GroundMotion, level: Level) -> dict[tuple[float, float], xr.Dataset]:
+def newhall_runs(record: GroundMotion, level: AnyLevel) -> dict[tuple[float, float], xr.Dataset]:
     """Run the numerical example, by exponent and yield displacement."""
     return {
         (eta, u_y): time_history(

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
-    from lir_element.element import Level
+    from lir_element.element import AnyLevel
 
-LEVELS_STATIC: tuple[Level, ...] = ("pendulum",)
+LEVELS_STATIC: tuple[AnyLevel, ...] = ("pendulum", "contact", "rigid_body")
 """Levels of the static cyclic test."""
 
-LEVELS_HISTORY: tuple[Level, ...] = ("pendulum",)
+LEVELS_HISTORY: tuple[AnyLevel, ...] = ("rigid_body", "contact", "pendulum")
 """Levels of the numerical example."""
 
-LEVELS_DRIFT: tuple[Level, ...] = ("pendulum",)
+LEVELS_DRIFT: tuple[AnyLevel, ...] = ("pendulum", "rigid_body")
 """Levels at which the drift under Bouc-Wen friction is followed through the numerical example."""
 
 EXAMPLE_MASS = 204e3

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from lir_element import LIRBearing
-    from lir_element.element import Level
+    from lir_element.element import AnyLevel
 
 CLAIM = Claim(
     "newhall",
@@ -53,7 +53,7 @@ def motion(folder: Path) -> GroundMotion:
 
 
 def histories(
-    record: GroundMotion, levels: Sequence[Level] = LEVELS_HISTORY
+    record: GroundMotion, levels: Sequence[AnyLevel] = LEVELS_HISTORY
 ) -> dict[str, xr.Dataset]:
     """Run the example at some levels of fidelity."""
     model = lumped_mass(example_bearing(), EXAMPLE_MASS)

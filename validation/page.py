@@ -19,7 +19,14 @@ if TYPE_CHECKING:
 
 FOLDER = Path(__file__).parents[1] / "docs" / "validation"
 DPI = 120
-CLAIMS = ("static_test", "newhall", "shake_table", "double_pendulum", "bouc_wen_drift")
+CLAIMS = (
+    "static_test",
+    "newhall",
+    "convergence",
+    "shake_table",
+    "double_pendulum",
+    "bouc_wen_drift",
+)
 """The modules of the claims, in the order of the index."""
 
 SUMMARY_HEAD = ("claim", "source", "result", "holds")

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
-    from lir_element.element import Level
+    from lir_element.element import AnyLevel
 
 CLAIM = Claim(
     "static_test",
@@ -60,7 +60,7 @@ def path() -> FloatArray:
     return np.concatenate([[0.0], *pieces])
 
 
-def loops(levels: Sequence[Level] = LEVELS_STATIC) -> dict[str, xr.Dataset]:
+def loops(levels: Sequence[AnyLevel] = LEVELS_STATIC) -> dict[str, xr.Dataset]:
     """Run the test at some levels of fidelity."""
     bearing, way = static_bearing(), path()
     return {level: cyclic_test(bearing, way, axial_load=LOAD, level=level) for level in levels}
