@@ -66,6 +66,10 @@ def loops(levels: Sequence[AnyLevel] = LEVELS_STATIC) -> dict[str, xr.Dataset]:
     return {level: cyclic_test(bearing, way, axial_load=LOAD, level=level) for level in levels}
 
 
+DYNAMIC = 0.01
+"""Of the largest forces, where the rig's plate has a mass: the axial force swings at the rims."""
+
+
 def checks(data: xr.Dataset, level: str) -> list[Check]:
     """Check the statements about the test at one level."""
     bearing, way = static_bearing(), path()
@@ -85,6 +89,7 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
     normal = LOAD * math.cos(tilt) + limit * math.sin(tilt)
     slides = 4.0 * (REACH - bearing.lateral_capacity)
     of = f" ({level})"
+    within = DYNAMIC if level == "rigid_body" else 0.005
     return [
         near("displacement at the first high-friction sliding" + of, "paper 2.2", 175.0,
              1e3 * way[first], 0.005, "mm"),
@@ -92,11 +97,11 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
         near("displacement at the next one" + of, "paper 2.2", -165.0, 1e3 * second, 0.005, "mm"),
         below(
             "largest force / force that starts the first high-friction sliding" + of, "paper 2.2",
-            1.005, float(np.abs(force).max() / force[first]), "",
+            1.0 + within, float(np.abs(force).max() / force[first]), "",
         ),
         near("largest force" + of, "W tan(θ + atan μ_h)", 1e-3 * limit, 1e-3 * force.max(),
-             0.005, "kN"),
-        near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), 0.005, "kN"),
+             within, "kN"),
+        near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), within, "kN"),
         near("sliding force at zero" + of, "μ (R1 + R2)/L W", 1e-3 * sliding, -1e-3 * zero,
              0.005, "kN"),
         near(
@@ -148,6 +153,9 @@ def page(_: Path | None = None) -> Page:
         "that is left to the amplitude remains as slip, so that on the way back the rims are met "
         "at 16.5 cm. The rims are met at `U - s = ± U_cap` while the restoring force stays centred "
         "on U = 0: the force at which the interface slides is the same each time.",
+        "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is free "
+        "vertically: the axial force swings by half a per cent where the slider meets a rim, and "
+        "the largest force with it.",
         "**Friction from a loop.** The one-piece slider's moment equilibrium makes the force at "
         "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. Whoever reads 0.066 off "
         "a measured loop as force at zero over load (the paper does not say how its value was "
