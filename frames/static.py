@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly import System
     from frames.model import Frame
+    from lir_element import Features
 
 _FORCE_TOLERANCE = 1e-9  # of the total weight
 _MAX_ITERATIONS = 100
@@ -59,7 +60,7 @@ class GravityState:
     axial_forces: FloatArray
 
 
-def gravity(frame: Frame) -> GravityState:
+def gravity(frame: Frame, features: Features | None = None) -> GravityState:
     """Bring a frame into equilibrium under its permanent loads.
 
     The members' axial forces of a first, linear solution give the geometric stiffness; the
@@ -70,6 +71,9 @@ def gravity(frame: Frame) -> GravityState:
     ----------
     frame : Frame
         The model, with at least one bearing.
+    features : Features, optional
+        What is modelled; everything if None. Without vertical coupling the equilibrium is sought
+        again, the bearings' axial forces of the first one being their constant loads.
 
     Returns
     -------
@@ -83,20 +87,18 @@ def gravity(frame: Frame) -> GravityState:
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     """
-    system = assemble(frame)
+    system = assemble(frame, features)
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
-    linear = spsolve(sparse.csc_array(system.stiffness + _springs(system)), system.load)
+    linear = spsolve(sparse.csc_array(system.stiffness + guessed_springs(system)), system.load)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)
-    model = model_arrays(system, basis)
-    run = run_arrays(model)
-    run.b[:] = linear[basis.bearing_dofs]
-    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
-    status = RunStatus(solve_gravity(model, run, tolerance, _MAX_ITERATIONS))
-    _raise_gravity_failure(system, run, status, linear)
+    model, run = _equilibrium(system, basis, linear, None)
+    axial_forces = np.array(run.old["axial_force"])
+    if not system.features.vertical_coupling:
+        model, run = _equilibrium(system, basis, linear, -run.old["force"][:, 8])
     return GravityState(
         system=system,
         geometric=geometric,
@@ -105,8 +107,20 @@ def gravity(frame: Frame) -> GravityState:
         model=model,
         run=run,
         displacement=expand(basis, run.b, run.e),
-        axial_forces=np.array(run.old["axial_force"]),
+        axial_forces=axial_forces,
     )
+
+
+def _equilibrium(
+    system: System, basis: Basis, linear: FloatArray, static_load: FloatArray | None
+) -> tuple[Model, Run]:
+    model = model_arrays(system, basis, static_load)
+    run = run_arrays(model)
+    run.b[:] = linear[basis.bearing_dofs]
+    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    status = RunStatus(solve_gravity(model, run, tolerance, _MAX_ITERATIONS))
+    _raise_gravity_failure(system, run, status, linear)
+    return model, run
 
 
 def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
@@ -142,8 +156,8 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
     return q + basis.offset if offset else q
 
 
-def _springs(system: System) -> SparseMatrix:
-    # Bearings as linear springs, for the first guess: axial stiffness, a hundredth sideways.
+def guessed_springs(system: System) -> SparseMatrix:
+    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways."""
     values = np.zeros((len(system.bearings), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
     values[:, :2] = 0.01 * values[:, 2:3]

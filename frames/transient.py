@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import math
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from scipy import linalg
 
+from frames.auditing import audit_report
+from frames.automatic import settle
 from frames.integration import advance, record
 from frames.kernel_data import Setup, output_arrays
-from frames.results import build_dataset
+from frames.results import build_dataset, peak_velocity
+from frames.scene import exact_features, plane_coupling
 from frames.static import force_tolerance, gravity
 from lir_element.element import LEVELS, limit_detail
 from lir_element.errors import RunStatus
+from lir_element.features import Features
 from lir_element.results import report, require_on_failure
 from lir_element.validation import require_between, require_positive
 
@@ -42,13 +46,14 @@ def time_history(
     motion: GroundMotion,
     duration: float | None = None,
     dt: float | None = None,
-    level: Literal["pendulum"] = "pendulum",
+    level: Literal["pendulum", "auto"] = "pendulum",
     method: Literal["direct"] = "direct",
     *,
     integrator: Literal["newmark", "generalised-alpha"] = "newmark",
     spectral_radius: float = 0.8,
     record_every: int = 1,
     on_failure: Literal["warn", "raise"] = "warn",
+    features: Features | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Analyse a frame on bearings under a ground motion.
@@ -66,8 +71,9 @@ def time_history(
         Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
         error asks for it. A given step is halved only where Newton's method fails, or where a
         contact that opens or closes would make or lose energy.
-    level : {"pendulum"}
-        Level of fidelity of the bearings.
+    level : {"pendulum", "auto"}
+        Level of fidelity of the bearings. "auto": the cheapest that is sufficient; the analysis is
+        run, audited, and run again with what was missing.
     method : {"direct"}
         "direct": all degrees of freedom.
     integrator : {"newmark", "generalised-alpha"}
@@ -80,13 +86,17 @@ def time_history(
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
+    features : Features, optional
+        What is modelled; everything if None. The audit tells whether what was left out mattered.
+        Not together with ``level="auto"``, which chooses for itself.
     progress : callable, optional
         Called with the share done (0 to 1) some fifty times.
 
     Returns
     -------
     xarray.Dataset
-        See docs/results.md. Attributes hold status, message, versions, options and timings.
+        See docs/results.md. Attributes hold status, message, versions, options, timings and the
+        audit: for each feature left out whether it mattered, with a number.
 
     Raises
     ------
@@ -97,32 +107,85 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
-    _check_options(level, method, integrator, record_every, on_failure)
-    record_every = int(record_every)
+    _check_options(level, method, integrator, record_every, on_failure, features)
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
-    length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = min(motion.dt, _LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
+    options = Options(
+        duration=motion.duration
+        if duration is None
+        else require_positive("duration", duration, "s"),
+        base=min(motion.dt, _LARGEST_STEP) if dt is None else require_positive("dt", dt, "s"),
+        controlled=dt is None,
+        method=method,
+        integrator=integrator,
+        spectral_radius=float(spectral_radius),
+        record_every=int(record_every),
+        progress=progress,
+    )
+    outcomes: list[Outcome] = []
+
+    def analyse(kept: Features, at: str) -> xr.Dataset:
+        data, outcome = _run(model, motion, kept, at, options)
+        outcomes.append(outcome)
+        return data
+
+    if level == "auto":
+        data = settle(analyse, exact_features(model, motion))
+    else:
+        data = analyse(Features.all() if features is None else features, level)
+    status, time, where, detail = outcomes[-1]
+    return report(data, status, time, where, detail, on_failure=on_failure)
+
+
+class Options(NamedTuple):
+    """What every run of an analysis has in common."""
+
+    duration: float
+    base: float
+    controlled: bool
+    method: str
+    integrator: str
+    spectral_radius: float
+    record_every: int
+    progress: Callable[[float], None] | None
+
+
+Outcome: TypeAlias = tuple[RunStatus, float, str, str]
+"""Status, time [s], place and detail."""
+
+
+def _run(
+    model: Frame, motion: GroundMotion, features: Features, level: str, options: Options
+) -> tuple[xr.Dataset, Outcome]:
+    # One run and its audit.
     began = perf_counter()
-    state = gravity(model)
-    settings = _settings(state, base, dt is None, integrator, spectral_radius)
-    steps = max(1, math.ceil(length / base - 1e-9))
-    out, states = output_arrays(state.model, steps // record_every + 1)
-    _start(state, motion)
+    coupling = 0.0
+    if not features.second_direction:
+        coupling = plane_coupling(model)
+    state = gravity(model, features)
+    settings = _settings(state, options)
+    steps = max(1, math.ceil(options.duration / options.base - 1e-9))
+    out, states = output_arrays(state.model, steps // options.record_every + 1)
+    shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
+    _start(state, shaking)
     prepared = perf_counter()
-    code, base_steps = _march(state, settings, motion, out, steps, record_every, progress)
+    code, base_steps = _march(state, settings, shaking, out, steps, options)
     finished = perf_counter()
     status, detail = _outcome(state, RunStatus(code))
-    data = build_dataset(model, state, motion, out, states, base_steps // record_every + 1)
+    count = base_steps // options.record_every + 1
+    peak = peak_velocity(motion, float(out.time[count - 1]))
+    data = build_dataset(model, state, shaking, peak, out, states, count)
     counters = state.run.counters
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
         "level": level,
-        "method": method,
-        "integrator": integrator,
-        "spectral_radius": float(spectral_radius),
-        "dt": float(base),
-        "step_control": "error" if dt is None else "fixed",
+        "features_left_out": ", ".join(features.left_out) or "none",
+        "plane_coupling": coupling,
+        "method": options.method,
+        "integrator": options.integrator,
+        "spectral_radius": options.spectral_radius,
+        "dt": float(options.base),
+        "step_control": "error" if options.controlled else "fixed",
         "steps": int(counters[0]),
         "newton_iterations": int(counters[1]),
         "halvings": int(counters[2]),
@@ -130,16 +193,22 @@ def time_history(
         "seconds_gravity": prepared - began,
         "seconds_loop": finished - prepared,
     }
+    data.attrs["audit"] = audit_report(data)
     name = state.system.bearings[int(counters[3])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else _culprit(state)
-    return report(data, status, float(state.run.clock[0]), where, detail, on_failure=on_failure)
+    return data, (status, float(state.run.clock[0]), where, detail)
 
 
 def _check_options(
-    level: str, method: str, integrator: str, record_every: int, on_failure: str
+    level: str,
+    method: str,
+    integrator: str,
+    record_every: int,
+    on_failure: str,
+    features: object,
 ) -> None:
     choices = (
-        ("level", level, LEVELS),
+        ("level", level, (*LEVELS, "auto")),
         ("method", method, METHODS),
         ("integrator", integrator, ("newmark", "generalised-alpha")),
     )
@@ -151,17 +220,22 @@ def _check_options(
         msg = f"record_every = {record_every!r} must be a whole number of at least 1"
         raise ValueError(msg)
     require_on_failure(on_failure)
+    if features is not None and not isinstance(features, Features):
+        msg = f"features = {features!r} must be a Features, such as Features(rims=False), or None"
+        raise TypeError(msg)
+    if features is not None and level == "auto":
+        msg = 'level = "auto" chooses the features for itself: leave features out, or give a level'
+        raise ValueError(msg)
 
 
-def _settings(
-    state: GravityState, dt: float, controlled: bool, integrator: str, radius: float
-) -> Setup:
+def _settings(state: GravityState, options: Options) -> Setup:
     alpha_m, alpha_f = 0.0, 0.0
-    if integrator == "generalised-alpha":
+    radius = options.spectral_radius
+    if options.integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
     length = min(bearing.effective_radius for _, _, _, bearing in state.system.bearings)
     return Setup(
-        dt=float(dt),
+        dt=float(options.base),
         alpha_m=float(alpha_m),
         alpha_f=float(alpha_f),
         beta=float(0.25 * (1.0 - alpha_m + alpha_f) ** 2),
@@ -170,7 +244,7 @@ def _settings(
         max_iterations=_MAX_ITERATIONS,
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
-        error_tolerance=float(_ERROR_TOLERANCE * length) if controlled else math.inf,
+        error_tolerance=float(_ERROR_TOLERANCE * length) if options.controlled else math.inf,
     )
 
 
@@ -195,11 +269,10 @@ def _march(
     motion: GroundMotion,
     out: Any,
     steps: int,
-    every: int,
-    progress: Callable[[float], None] | None,
+    options: Options,
 ) -> tuple[int, int]:
     # Run the compiled loop in chunks; returns the status code and the base steps completed.
-    run = state.run
+    run, every, progress = state.run, options.record_every, options.progress
     components = np.ascontiguousarray(motion.components)
     record(run, out, 0)
     chunk = steps if progress is None else max(1, -(-steps // _CHUNKS))

@@ -8,6 +8,7 @@ import numpy as np
 
 from lir_element import pendulum_trial
 from lir_element.errors import AnalysisError, RunStatus
+from lir_element.features import Features, apply
 from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records, Words
 
 if TYPE_CHECKING:
@@ -26,8 +27,9 @@ def initial_state(props: Records) -> Records:
     state = np.zeros(len(props), dtype=STATE)
     state["axis"][:, 2] = 1.0
     state["axis_top"][:, 2] = 1.0
-    state["string"] = props["length"]
-    state["centres"][:, 2] = -props["length"]
+    string = props["length"] + props["fixed_load"] / props["axial_stiffness"]
+    state["string"] = string
+    state["centres"][:, 2] = -string
     state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
     return state
 
@@ -51,6 +53,15 @@ class Element:
         The device.
     level : {"pendulum"}
         Level of fidelity.
+    features : Features, optional
+        What is modelled; everything if None. Without vertical coupling the constant load is the
+        bearing's design load. Plate rotation and the second direction belong to the displacements
+        that are imposed: they cannot be left out here.
+
+    Raises
+    ------
+    ValueError
+        If the level is not known, or a feature is left out that cannot be.
 
     Examples
     --------
@@ -66,13 +77,20 @@ class Element:
     True
     """
 
-    def __init__(self, bearing: LIRBearing, level: Level = "pendulum") -> None:
+    def __init__(
+        self, bearing: LIRBearing, level: Level = "pendulum", *, features: Features | None = None
+    ) -> None:
         if level not in LEVELS:
             msg = f"level = {level!r}: choose one of {LEVELS}"
             raise ValueError(msg)
         self.bearing = bearing
         self.level = level
-        self._props = bearing.to_record()
+        self.features = Features.all() if features is None else features
+        for name in ("plate_rotation", "second_direction"):
+            if name in self.features.left_out:
+                msg = f"{name} = False: not for an element, impose no such displacement instead"
+                raise ValueError(msg)
+        self._props = apply(self.features, bearing.to_record(), bearing.resolved()["design_load"])
         self._start = initial_state(self._props)
         self._committed = self._start.copy()
         self._trial = self._start.copy()

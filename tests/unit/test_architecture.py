@@ -22,8 +22,8 @@ ALLOWED = {
 }
 KERNEL_MODULES = {
     "lir_element": [
-        "cyclic_kernel", "pendulum", "pendulum_nodes", "pendulum_solve", "pendulum_tangent",
-        "pendulum_trial", "pendulum_work", "rotation", "slip",
+        "cyclic_kernel", "pendulum", "pendulum_axial", "pendulum_nodes", "pendulum_solve",
+        "pendulum_tangent", "pendulum_trial", "pendulum_work", "rotation", "slip",
     ],
 }  # fmt: skip
 
