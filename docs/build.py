@@ -42,6 +42,11 @@ ATTRIBUTES = {
     "title": "what was analysed",
     "motion": "name of the ground motion",
     "level": "level of fidelity of the bearings",
+    "features_left_out": 'names of the features left out, or "none"',
+    "plane_coupling": "displacement along y over that along x of a push along x, where the second "
+    "direction is left out [-]; else 0",
+    "audit": 'lines of the audit; "!" begins those on something left out that mattered',
+    "auto_runs": 'a line for each run of `level="auto"`; only of those',
     "method": "method of the analysis",
     "integrator": "time integration",
     "spectral_radius": "of the generalised-alpha method at infinite frequency [-]",
@@ -91,7 +96,7 @@ def runs() -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
     )
     wave = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motion = GroundMotion(x=2.0 * wave, y=wave, z=0.5 * wave, dt=0.01, name="sine")
-    history = time_history(moment_frame((1, 1), 1, bearing=bearing), motion)
+    history = time_history(moment_frame((1, 1), 1, bearing=bearing), motion, level="auto")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         failed = cyclic_test(bearing, [0.0, 0.25], 100e3)

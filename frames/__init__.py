@@ -1,6 +1,9 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
 from frames._validate import ModelError as ModelError
+from frames.auditing import Finding as Finding
+from frames.auditing import audit as audit
+from frames.auditing import audit_report as audit_report
 from frames.damping import ModalDamping as ModalDamping
 from frames.damping import RayleighDamping as RayleighDamping
 from frames.ground_motion import GroundMotion as GroundMotion
@@ -17,3 +20,4 @@ from frames.sections import Section as Section
 from frames.static import gravity as gravity
 from frames.static import modes as modes
 from frames.transient import time_history as time_history
+from lir_element.features import Features as Features

@@ -21,19 +21,22 @@ from frames.parts import bearing_axial_stiffness
 from frames.system import MemberTable as MemberTable
 from frames.system import System as System
 from frames.system import element_dofs
+from lir_element.features import Features
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.contents import FrameContents
 
 
-def assemble(frame: FrameContents) -> System:
+def assemble(frame: FrameContents, features: Features | None = None) -> System:
     """Check a frame and turn it into matrices.
 
     Parameters
     ----------
     frame : Frame
         The model; it is not changed.
+    features : Features, optional
+        What is modelled; everything if None.
 
     Returns
     -------
@@ -46,12 +49,15 @@ def assemble(frame: FrameContents) -> System:
     compute, parts without connection or support, no mass, or a mechanism (see `frames.check`).
     """
     check_connections(frame)
+    features = Features.all() if features is None else features
     names = tuple(frame.nodes)
     index = {name: place for place, name in enumerate(names)}
     coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
     members = _member_table(frame, index, coordinates)
     node_mass = _node_mass(frame, index, members)
-    transform, labels = free_dofs(frame, coordinates, node_mass)
+    transform, labels = free_dofs(
+        frame, coordinates, node_mass, planar=not features.second_direction
+    )
     node_stiffness = _node_stiffness(frame, index, coordinates, members)
     node_load = _node_load(frame, index, members, node_mass)
     translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
@@ -73,6 +79,7 @@ def assemble(frame: FrameContents) -> System:
         node_stiffness=node_stiffness,
         node_load=node_load,
         members=members,
+        features=features,
     )
     check_mass(system)
     levers = [coordinates[j] - coordinates[i] for _, i, j, _ in system.bearings]

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import linalg
+from scipy import linalg, sparse
 
 from frames._validate import ModelError
 from frames.damping import ModalDamping, RayleighDamping
@@ -69,9 +69,16 @@ class Basis:
 
 def bearing_rows(system: System) -> SparseMatrix:
     """Return the rows of the transform that give the bearings' displacements, (12 n, n_free)."""
+    # those of rotations are empty where plate rotation is left out: neither do the nodes' rotations
+    # reach a bearing, nor its moments the nodes
     nodes = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
     rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
-    return system.transform[rows]
+    if system.features.plate_rotation:
+        return system.transform[rows]
+    kept = sparse.diags_array((rows % 6 < 3).astype(np.float64))
+    picked = sparse.csr_array(kept @ system.transform[rows])
+    picked.eliminate_zeros()
+    return picked
 
 
 def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:

@@ -24,9 +24,12 @@ if TYPE_CHECKING:
 IN_PLANE = (0, 1, 5)
 """Places of ux, uy and rz, the displacements a diaphragm ties, among a node's six."""
 
+OUT_OF_PLANE = ("uy", "rx", "rz")
+"""Displacements held where the second horizontal direction is left out."""
+
 
 def free_dofs(
-    frame: FrameContents, coordinates: FloatArray, node_mass: FloatArray
+    frame: FrameContents, coordinates: FloatArray, node_mass: FloatArray, *, planar: bool = False
 ) -> tuple[SparseMatrix, tuple[str, ...]]:
     """Eliminate supports and diaphragms.
 
@@ -38,6 +41,8 @@ def free_dofs(
         Coordinates [m].
     node_mass : ndarray, (n_nodes, 6)
         Lumped masses; the masters of diaphragms sit at the centroid of their nodes' masses.
+    planar : bool
+        Hold uy, rx and rz of all nodes: the x-z plane alone.
 
     Returns
     -------
@@ -47,13 +52,14 @@ def free_dofs(
         Name of each free DOF, as "node ux" or "diaphragm (diaphragm) rz".
     """
     index = {name: place for place, name in enumerate(frame.nodes)}
+    held = held_dofs(frame, planar=planar)
     tied = {node for diaphragm in frame.diaphragms.values() for node in diaphragm.nodes}
     rows: list[int] = []
     columns: list[int] = []
     values: list[float] = []
     labels: list[str] = []
     for name, place in index.items():
-        fixed = frame.fixed_dofs.get(name, frozenset())
+        fixed = held[name]
         for dof, word in enumerate(DOFS):
             if word in fixed or (name in tied and dof in IN_PLANE):
                 continue
@@ -63,7 +69,7 @@ def free_dofs(
             labels.append(f"{name} {word}")
     for diaphragm in frame.diaphragms.values():
         places = np.array([index[node] for node in diaphragm.nodes])
-        block, kept = _diaphragm_block(frame, diaphragm, coordinates[places], node_mass[places])
+        block, kept = _diaphragm_block(held, diaphragm, coordinates[places], node_mass[places])
         places_in_plane = (6 * places[:, None] + np.array(IN_PLANE)).ravel()
         at_row, at_column = np.nonzero(block)
         rows.extend(places_in_plane[at_row].tolist())
@@ -77,6 +83,12 @@ def free_dofs(
         )
     )
     return transform, tuple(labels)
+
+
+def held_dofs(frame: FrameContents, *, planar: bool = False) -> dict[str, frozenset[str]]:
+    """Return the names of the displacements held at each node, all out of the plane if `planar`."""
+    more = frozenset(OUT_OF_PLANE if planar else ())
+    return {name: frame.fixed_dofs.get(name, frozenset()) | more for name in frame.nodes}
 
 
 def in_plane_rows(position: FloatArray, centre: FloatArray) -> FloatArray:
@@ -102,18 +114,13 @@ def in_plane_rows(position: FloatArray, centre: FloatArray) -> FloatArray:
 
 
 def _diaphragm_block(
-    frame: FrameContents, diaphragm: Diaphragm, position: FloatArray, mass: FloatArray
+    held: dict[str, frozenset[str]], diaphragm: Diaphragm, position: FloatArray, mass: FloatArray
 ) -> tuple[FloatArray, IntArray]:
     # Matrix (3 n, n_kept) from the kept ones of (X, Y, RZ) to (ux, uy, rz) of every node.
     weight = mass[:, 0] if mass[:, 0].any() else np.ones(len(diaphragm.nodes))
     centre = weight @ position[:, :2] / weight.sum()
     rows = in_plane_rows(position, centre)
-    fixed = np.array(
-        [
-            [DOFS[dof] in frame.fixed_dofs.get(node, frozenset()) for dof in IN_PLANE]
-            for node in diaphragm.nodes
-        ]
-    )
+    fixed = np.array([[DOFS[dof] in held[node] for dof in IN_PLANE] for node in diaphragm.nodes])
     span = float(np.linalg.norm(position[:, :2] - centre, axis=1).max()) or 1.0
     scale = np.array([1.0, 1.0, 1.0 / span])
     kept, solution = _solve_homogeneous(rows[fixed] * scale)

@@ -9,6 +9,7 @@ import numpy as np
 from frames.basis import bearing_rows
 from lir_element.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.element import initial_state
+from lir_element.features import apply
 from lir_element.layout import BODIES, STATE, WORK
 
 if TYPE_CHECKING:
@@ -121,8 +122,8 @@ class Setup(NamedTuple):
     error_tolerance: float  # m, estimated error of a step in displacement; infinite: fixed step
 
 
-def model_arrays(system: System, basis: Basis) -> Model:
-    """Return the frame as the time loop reads it."""
+def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> Model:
+    """Return the frame as the time loop reads it; `static_load` as in `features.apply`."""
     rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
     rows.sort_indices()
     count = len(system.bearings)
@@ -146,11 +147,16 @@ def model_arrays(system: System, basis: Basis) -> Model:
         load_e=plain(basis.load_e),
         inertia_b=plain(basis.inertia_b),
         inertia_e=plain(basis.inertia_e),
-        props=np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings]),
+        props=apply(system.features, device_records(system), static_load),
         start=start,
         columns=rows.indices.astype(np.int64),
         values=plain(rows.data),
     )
+
+
+def device_records(system: System) -> Array:
+    """Return the properties of all bearings with everything modelled."""
+    return np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings])
 
 
 def run_arrays(model: Model) -> Run:

@@ -9,9 +9,11 @@ import xarray as xr
 
 from frames.assembly import node_geometric_stiffness
 from frames.basis import bearing_rows
-from frames.kernel_data import ENERGY_TERMS
+from frames.kernel_data import ENERGY_TERMS, device_records
 from frames.parts import DOFS
 from frames.static import expand
+from lir_element.eccentricity import interface_eccentricity
+from lir_element.layout import PROPS_BY_NAME
 from lir_element.results import bearing_coordinates, bearing_variables, body_variables, labelled
 
 if TYPE_CHECKING:
@@ -29,17 +31,45 @@ if TYPE_CHECKING:
 ABSORBED = ENERGY_TERMS[1:]
 """Terms of the energy that take up the input."""
 
+DEVICE = (
+    "length", "slider_radius", "interface_friction", "lever", "rim_displacement", "friction_max",
+    "friction_drop", "friction_rate",
+)  # fmt: skip
+"""Properties of the bearings that a Dataset keeps, whatever the run left out."""
+
 
 def build_dataset(
     frame: Frame,
     state: GravityState,
     motion: GroundMotion,
+    peak: FloatArray,
     out: Output,
     states: Records,
     bodies: Records,
     count: int,
 ) -> xr.Dataset:
-    """Put the first `count` recorded steps into a Dataset (docs/results.md)."""
+    """Put the first `count` recorded steps into a Dataset (docs/results.md).
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    state : GravityState
+        The state the run started from, and the run.
+    motion : GroundMotion
+        As it was applied.
+    peak : ndarray, (3,)
+        Peak velocities of the motion as it was given [m/s].
+    out, states : Output, records
+        What was recorded.
+    count : int
+        Number of recorded steps.
+
+    Returns
+    -------
+    xarray.Dataset
+        Without attributes.
+    """
     system, basis = state.system, state.basis
     q = expand(basis, out.b[:count], out.e[:count])
     a = expand(basis, out.a_b[:count], out.a_e[:count], offset=False)
@@ -56,7 +86,17 @@ def build_dataset(
     grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
     forces = states["force"][:count, grounded, 6:9].sum(axis=1)
     forces += _other_reactions(state, displacement)
+    variables |= _device_variables(system)
     variables |= {
+        "interface_eccentricity": labelled(
+            ("time", "bearing"),
+            interface_eccentricity(state.model.props, states[:count]),
+            "m",
+            "offset of the resultant between the sliders from their axes, the larger; 0 lifted",
+        ),
+        "peak_ground_velocity": labelled(
+            ("axis",), peak, "m/s", "largest velocity of the ground, also of a direction left out"
+        ),
         "node_displacement": labelled(
             node, displacement, "m, rad", "displacement relative to the ground"
         ),
@@ -108,6 +148,13 @@ def ground_at(motion: GroundMotion, time: FloatArray) -> FloatArray:
     shaking = place < samples[-1] + 1e-9  # the time loop's own bound
     ground: FloatArray = np.column_stack(columns) * shaking[:, None]
     return ground
+
+
+def peak_velocity(motion: GroundMotion, end: float) -> FloatArray:
+    """Return the largest ground velocity (3,) up to the time `end` [m/s]."""
+    a = motion.components[: max(round(end / motion.dt), 1) + 1]
+    velocity = np.cumsum(0.5 * (a[1:] + a[:-1]), axis=0) * motion.dt
+    return np.asarray(np.abs(velocity).max(axis=0, initial=0.0), dtype=np.float64)
 
 
 def energy_error(data: xr.Dataset) -> float:
@@ -201,6 +248,21 @@ def _bodies(contacts: Contacts, states: Records, bodies: Records) -> dict[str, x
     variables = body_variables("time", full, states["displacement"])
     for name in ("body_position", "body_rotation"):
         variables[name].data[:, ~chosen, :2] = np.nan
+    return variables
+
+
+def _device_variables(system: System) -> dict[str, xr.Variable]:
+    records = device_records(system)
+    variables = {}
+    for name in DEVICE:
+        field = PROPS_BY_NAME[name]
+        dims = ("bearing", "surface") if field.shape else ("bearing",)
+        unit = "1" if field.unit == "-" else field.unit
+        variables[name] = labelled(dims, records[name].copy(), unit, field.meaning)
+    ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64)
+    variables["bearing_node"] = labelled(
+        ("bearing", "end"), ends, "1", "place of the node among the nodes"
+    )
     return variables
 
 

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._validate import ModelError
+from frames.auditing import audit_report
 from frames.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS, Output, output_arrays
-from frames.results import build_dataset
+from frames.results import build_dataset, peak_velocity
 from frames.static import gravity
 from lir_element.contact_data import as_rows
 from lir_element.element import limit_detail
@@ -101,7 +102,7 @@ def rigid_time_history(
     interval = record_every * (own_step if dt is None or integrator == "explicit" else dt)
     steps = max(1, math.ceil(length / interval - 1e-9))
     began = perf_counter()
-    state = gravity(model, "contact")
+    state = gravity(model, level="contact")
     run = _prepare(state)
     explicit = _explicit_step(state, run, dt) if integrator == "explicit" else 0.0
     given, states, bodies = _input(state, motion, interval, steps + 1)
@@ -114,7 +115,8 @@ def rigid_time_history(
     finished = perf_counter()
     count = int(run.counters[3])
     out = _output(state, given, states, bodies)
-    data = build_dataset(model, state, motion, out, states[:, None], bodies[:, None], count)
+    peak = peak_velocity(motion, float(out.time[count - 1]))
+    data = build_dataset(model, state, motion, peak, out, states[:, None], bodies[:, None], count)
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -129,7 +131,10 @@ def rigid_time_history(
         "degrees_of_freedom": 12 + int(run.free[12:].sum()),
         "seconds_gravity": prepared - began,
         "seconds_loop": finished - prepared,
+        "features_left_out": "none",
+        "plane_coupling": 0.0,
     }
+    data.attrs["audit"] = audit_report(data)
     name = state.system.bearings[0][0]
     detail = limit_detail(run.props, run.states[2:], 0)
     return report(

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly import System
     from frames.model import Frame
+    from lir_element import Features
     from lir_element.contact_data import Contacts
 
 _FORCE_TOLERANCE = 1e-9  # of the total weight
@@ -65,7 +66,11 @@ class GravityState:
     axial_forces: FloatArray
 
 
-def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> GravityState:
+def gravity(
+    frame: Frame,
+    features: Features | None = None,
+    level: str | Mapping[str, str] = "pendulum",
+) -> GravityState:
     """Bring a frame into equilibrium under its permanent loads.
 
     The members' axial forces of a first, linear solution give the geometric stiffness; the
@@ -76,6 +81,9 @@ def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> Gravit
     ----------
     frame : Frame
         The model, with at least one bearing.
+    features : Features, optional
+        What is modelled; everything if None. Without vertical coupling the equilibrium is sought
+        again, the bearings' axial forces of the first one being their constant loads.
     level : str or mapping
         Level of fidelity of the bearings, one for all or by name of bearing ("pendulum" for those
         that it does not name).
@@ -92,21 +100,20 @@ def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> Gravit
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     """
-    system = assemble(frame)
+    system = assemble(frame, features)
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
-    linear = spsolve(sparse.csc_array(system.stiffness + _springs(system)), system.load)
+    linear = spsolve(sparse.csc_array(system.stiffness + guessed_springs(system)), system.load)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)
-    model = model_arrays(system, basis)
-    run = run_arrays(model)
-    contacts = contacts_of(system, levels_of(system, level))
-    run.b[:] = linear[basis.bearing_dofs]
-    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
-    status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
-    _raise_gravity_failure(system, run, status, linear)
+    levels = levels_of(system, level)
+    model, run, contacts = _equilibrium(system, basis, linear, levels, None)
+    axial_forces = np.array(run.old["axial_force"])
+    if not system.features.vertical_coupling:
+        load = -run.old["force"][:, 8]
+        model, run, contacts = _equilibrium(system, basis, linear, levels, load)
     return GravityState(
         system=system,
         geometric=geometric,
@@ -116,7 +123,7 @@ def gravity(frame: Frame, level: str | Mapping[str, str] = "pendulum") -> Gravit
         run=run,
         contacts=contacts,
         displacement=expand(basis, run.b, run.e),
-        axial_forces=np.array(run.old["axial_force"]),
+        axial_forces=axial_forces,
     )
 
 
@@ -156,6 +163,20 @@ def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
     return [given.get(name, "pendulum") for name in names]
 
 
+def _equilibrium(
+    system: System, basis: Basis, linear: FloatArray, levels: list[str],
+    static_load: FloatArray | None,
+) -> tuple[Model, Run, Contacts | None]:  # fmt: skip
+    model = model_arrays(system, basis, static_load)
+    run = run_arrays(model)
+    contacts = contacts_of(system, levels)
+    run.b[:] = linear[basis.bearing_dofs]
+    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
+    _raise_gravity_failure(system, run, status, linear)
+    return model, run, contacts
+
+
 def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
     # A bearing that lifts is the cause, whatever Newton's method made of it; then limits.
     lifted = np.flatnonzero(run.new["axial_force"] <= 0.0)
@@ -189,8 +210,8 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
     return q + basis.offset if offset else q
 
 
-def _springs(system: System) -> SparseMatrix:
-    # Bearings as linear springs, for the first guess: axial stiffness, a hundredth sideways.
+def guessed_springs(system: System) -> SparseMatrix:
+    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways."""
     values = np.zeros((len(system.bearings), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
     values[:, :2] = 0.01 * values[:, 2:3]

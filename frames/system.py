@@ -11,7 +11,7 @@ from frames.members import MemberArrays
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from lir_element import LIRBearing
+    from lir_element import Features, LIRBearing
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,8 @@ class System:
         Weights and permanent loads before elimination [N, N m].
     members : MemberTable
         The members.
+    features : Features
+        What is modelled.
     """
 
     node_names: tuple[str, ...]
@@ -95,6 +97,7 @@ class System:
     node_stiffness: SparseMatrix
     node_load: FloatArray
     members: MemberTable
+    features: Features
 
 
 def element_dofs(nodes: IntArray) -> IntArray:

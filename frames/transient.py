@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from scipy import linalg
 
+from frames.auditing import audit_report
+from frames.automatic import settle
 from frames.integration import advance, record
 from frames.kernel_data import Setup, output_arrays
-from frames.results import build_dataset
+from frames.results import build_dataset, peak_velocity
 from frames.rigid import LARGEST_STEP, rigid_time_history
+from frames.scene import exact_features, plane_coupling
 from frames.static import force_tolerance, gravity
-from lir_element.element import limit_detail
+from lir_element.element import ALL_LEVELS, limit_detail
 from lir_element.errors import RunStatus
+from lir_element.features import Features
 from lir_element.results import report, require_on_failure
 from lir_element.validation import require_between, require_positive
 
@@ -50,6 +54,7 @@ def time_history(
     tolerance: float | None = None,
     record_every: int = 1,
     on_failure: Literal["warn", "raise"] = "warn",
+    features: Features | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Analyse a frame on bearings under a ground motion.
@@ -69,7 +74,9 @@ def time_history(
         contact that opens or closes would make or lose energy.
     level : {"pendulum", "contact", "rigid_body"} or mapping
         Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
-        those that it does not name). "rigid_body" takes one bearing with a mass on it.
+        those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":
+        the cheapest that is sufficient; the analysis is run, audited, and run again with what was
+        missing.
     method : {"direct"}
         "direct": all degrees of freedom.
     integrator : {None, "newmark", "generalised-alpha", "explicit"}
@@ -86,13 +93,17 @@ def time_history(
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
+    features : Features, optional
+        What is modelled; everything if None. The audit tells whether what was left out mattered.
+        Not together with ``level="auto"``, which chooses for itself.
     progress : callable, optional
         Called with the share done (0 to 1) some fifty times.
 
     Returns
     -------
     xarray.Dataset
-        See docs/results.md. Attributes hold status, message, versions, options and timings.
+        See docs/results.md. Attributes hold status, message, versions, options, timings and the
+        audit: for each feature left out whether it mattered, with a number.
 
     Raises
     ------
@@ -103,8 +114,7 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
-    _check_options(method, integrator, level, record_every, on_failure)
-    record_every = int(record_every)
+    _check_options(level, method, integrator, record_every, on_failure, features)
     if tolerance is not None:
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
@@ -113,34 +123,90 @@ def time_history(
     if level == "rigid_body":
         return rigid_time_history(
             model, motion, length, dt, integrator=integrator, tolerance=tolerance,
-            record_every=record_every, on_failure=on_failure, progress=progress,
+            record_every=int(record_every), on_failure=on_failure, progress=progress,
         )  # fmt: skip
-    integrator = integrator or "newmark"
-    began = perf_counter()
-    state = gravity(model, level)
     error = _ERROR_TOLERANCE if tolerance is None else tolerance
-    settings = _settings(
-        state, base, error if dt is None else math.inf, integrator, spectral_radius
+    options = Options(
+        duration=length,
+        base=base,
+        tolerance=error if dt is None else math.inf,
+        method=method,
+        integrator=integrator or "newmark",
+        spectral_radius=float(spectral_radius),
+        record_every=int(record_every),
+        progress=progress,
     )
-    steps = max(1, math.ceil(length / base - 1e-9))
-    out, states, bodies = output_arrays(state.model, state.contacts, steps // record_every + 1)
-    _start(state, motion)
+    outcomes: list[Outcome] = []
+
+    def analyse(kept: Features, at: str | Mapping[str, str]) -> xr.Dataset:
+        data, outcome = _run(model, motion, kept, at, options)
+        outcomes.append(outcome)
+        return data
+
+    if level == "auto":
+        data = settle(analyse, exact_features(model, motion))
+    else:
+        data = analyse(Features.all() if features is None else features, level)
+    status, time, where, detail = outcomes[-1]
+    return report(data, status, time, where, detail, on_failure=on_failure)
+
+
+class Options(NamedTuple):
+    """What every run of an analysis has in common."""
+
+    duration: float
+    base: float
+    tolerance: float  # error of a step over the effective radius; infinite: fixed step
+    method: str
+    integrator: str
+    spectral_radius: float
+    record_every: int
+    progress: Callable[[float], None] | None
+
+
+Outcome: TypeAlias = tuple[RunStatus, float, str, str]
+"""Status, time [s], place and detail."""
+
+
+def _run(
+    model: Frame,
+    motion: GroundMotion,
+    features: Features,
+    level: str | Mapping[str, str],
+    options: Options,
+) -> tuple[xr.Dataset, Outcome]:
+    # One run and its audit.
+    began = perf_counter()
+    coupling = 0.0
+    if not features.second_direction:
+        coupling = plane_coupling(model)
+    state = gravity(model, features, level)
+    settings = _settings(state, options)
+    steps = max(1, math.ceil(options.duration / options.base - 1e-9))
+    count = steps // options.record_every + 1
+    out, states, bodies = output_arrays(state.model, state.contacts, count)
+    shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
+    _start(state, shaking)
     prepared = perf_counter()
-    code, base_steps = _march(state, settings, motion, out, steps, record_every, progress)
+    code, base_steps = _march(state, settings, shaking, out, steps, options)
     finished = perf_counter()
     status, detail = _outcome(state, RunStatus(code))
-    data = build_dataset(model, state, motion, out, states, bodies, base_steps // record_every + 1)
+    count = base_steps // options.record_every + 1
+    peak = peak_velocity(motion, float(out.time[count - 1]))
+    data = build_dataset(model, state, shaking, peak, out, states, bodies, count)
     counters = state.run.counters
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
         "level": level if isinstance(level, str) else str(dict(level)),
-        "method": method,
-        "integrator": integrator,
-        "spectral_radius": float(spectral_radius),
-        "dt": float(base),
-        "step_control": "error" if dt is None else "fixed",
-        "tolerance": float(error) if dt is None else math.nan,
+        "features_left_out": ", ".join(features.left_out) or "none",
+        "plane_coupling": coupling,
+        "method": options.method,
+        "integrator": options.integrator,
+        "spectral_radius": options.spectral_radius,
+        "dt": float(options.base),
+        "step_control": "error" if math.isfinite(options.tolerance) else "fixed",
+        "tolerance": options.tolerance if math.isfinite(options.tolerance) else math.nan,
         "steps": int(counters[0]),
         "newton_iterations": int(counters[1]),
         "halvings": int(counters[2]),
@@ -148,18 +214,26 @@ def time_history(
         "seconds_gravity": prepared - began,
         "seconds_loop": finished - prepared,
     }
+    data.attrs["audit"] = audit_report(data)
     name = state.system.bearings[int(counters[3])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else _culprit(state)
-    return report(data, status, float(state.run.clock[0]), where, detail, on_failure=on_failure)
+    return data, (status, float(state.run.clock[0]), where, detail)
 
 
 def _check_options(
-    method: str, integrator: str | None, level: object, record_every: int, on_failure: str
+    level: object,
+    method: str,
+    integrator: str | None,
+    record_every: int,
+    on_failure: str,
+    features: object,
 ) -> None:
-    choices = (
+    choices: list[tuple[str, object, tuple[str | None, ...]]] = [
         ("method", method, METHODS),
         ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
-    )
+    ]
+    if isinstance(level, str):
+        choices.insert(0, ("level", level, (*ALL_LEVELS, "auto")))
     for name, value, allowed in choices:
         if value not in allowed:
             msg = f"{name} = {value!r}: choose one of {allowed}"
@@ -171,17 +245,38 @@ def _check_options(
         msg = f"record_every = {record_every!r} must be a whole number of at least 1"
         raise ValueError(msg)
     require_on_failure(on_failure)
+    if features is not None and not isinstance(features, Features):
+        msg = f"features = {features!r} must be a Features, such as Features(rims=False), or None"
+        raise TypeError(msg)
+    if features is not None and level == "auto":
+        msg = 'level = "auto" chooses the features for itself: leave features out, or give a level'
+        raise ValueError(msg)
+    if features is not None:
+        _check_features(features, level)
 
 
-def _settings(
-    state: GravityState, dt: float, tolerance: float, integrator: str, radius: float
-) -> Setup:
+def _check_features(features: Features, level: object) -> None:
+    refused: set[str] = set()
+    if level == "rigid_body":
+        refused = set(features.left_out)
+    elif level not in {"pendulum", "auto"} if isinstance(level, str) else True:
+        refused = set(features.left_out) & {"uplift", "vertical_coupling"}
+    if refused:
+        msg = (
+            f"features leave out {', '.join(sorted(refused))}, which level = {level!r} always has: "
+            'keep it, or use level="pendulum"'
+        )
+        raise ValueError(msg)
+
+
+def _settings(state: GravityState, options: Options) -> Setup:
     alpha_m, alpha_f = 0.0, 0.0
-    if integrator == "generalised-alpha":
+    radius = options.spectral_radius
+    if options.integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
     length = min(bearing.effective_radius for _, _, _, bearing in state.system.bearings)
     return Setup(
-        dt=float(dt),
+        dt=float(options.base),
         alpha_m=float(alpha_m),
         alpha_f=float(alpha_f),
         beta=float(0.25 * (1.0 - alpha_m + alpha_f) ** 2),
@@ -190,7 +285,7 @@ def _settings(
         max_iterations=_MAX_ITERATIONS,
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
-        error_tolerance=float(tolerance * length),
+        error_tolerance=float(options.tolerance * length),
     )
 
 
@@ -215,11 +310,10 @@ def _march(
     motion: GroundMotion,
     out: Any,
     steps: int,
-    every: int,
-    progress: Callable[[float], None] | None,
+    options: Options,
 ) -> tuple[int, int]:
     # Run the compiled loop in chunks; returns the status code and the base steps completed.
-    run = state.run
+    run, every, progress = state.run, options.record_every, options.progress
     components = np.ascontiguousarray(motion.components)
     record(run, state.contacts, out, 0)
     chunk = steps if progress is None else max(1, -(-steps // _CHUNKS))

@@ -7,5 +7,6 @@ from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError
 from lir_element.errors import AnalysisWarning as AnalysisWarning
 from lir_element.errors import RunStatus as RunStatus
+from lir_element.features import Features as Features
 from lir_element.friction import CoulombFriction as CoulombFriction
 from lir_element.friction import VelocityFriction as VelocityFriction

@@ -262,6 +262,9 @@ class LIRBearing:
             "rim_displacement": self.rim_displacement,
             "torsion_lever": 2.0 / 3.0 * self.slider_radius * self.torsional_friction,
             "torsion_yield": self.yield_displacement / (2.0 / 3.0 * self.slider_radius),
+            "slider_radius": self.slider_radius,
+            "bilateral": False,
+            "fixed_load": 0.0,
         }
         names = {f.name for f in PROPS_FIELDS}
         values |= {name: value for name, value in options.items() if name in names}

@@ -223,6 +223,8 @@ def points_defect(
         travel = abs((after.gap - before.gap) - (after.closure - before.closure))
         defect += 0.5 * (before.push + after.push) * travel
     for k in range(2):
+        if b_old.rim_force[k] == 0.0 and b_new.rim_force[k] == 0.0:
+            continue  # a rim at infinity among them
         approach = b_new.rim_gap[k] - b_old.rim_gap[k]
         travel = abs(approach - (b_new.rim_closure[k] - b_old.rim_closure[k]))
         force = 0.5 * (b_old.rim_force[k] + b_new.rim_force[k])

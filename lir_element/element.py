@@ -10,6 +10,7 @@ from lir_element import levels
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.contact_data import as_rows, contact_arrays, reset
 from lir_element.errors import AnalysisError, RunStatus
+from lir_element.features import Features, apply
 from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
 from lir_element.pendulum_trial import has_no_state
 
@@ -31,8 +32,9 @@ def initial_state(props: Records) -> Records:
     state = np.zeros(len(props), dtype=STATE)
     state["axis"][:, 2] = 1.0
     state["axis_top"][:, 2] = 1.0
-    state["string"] = props["length"]
-    state["centres"][:, 2] = -props["length"]
+    string = props["length"] + props["fixed_load"] / props["axial_stiffness"]
+    state["string"] = string
+    state["centres"][:, 2] = -string
     state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
     return state
 
@@ -52,6 +54,15 @@ class Element:
     level : {"pendulum", "contact"}
         Level of fidelity: "pendulum" holds the sliders in full contact; "contact" has them as
         bodies with contact points, which rock, open and land (some fifty times the cost).
+    features : Features, optional
+        What is modelled; everything if None. Without vertical coupling the constant load is the
+        bearing's design load. Plate rotation and the second direction belong to the displacements
+        that are imposed: they cannot be left out here.
+
+    Raises
+    ------
+    ValueError
+        If the level is not known, or a feature is left out that cannot be.
 
     Examples
     --------
@@ -67,13 +78,24 @@ class Element:
     True
     """
 
-    def __init__(self, bearing: LIRBearing, level: Level = "pendulum") -> None:
+    def __init__(
+        self, bearing: LIRBearing, level: Level = "pendulum", *, features: Features | None = None
+    ) -> None:
         if level not in LEVELS:
             msg = f"level = {level!r}: choose one of {LEVELS}"
             raise ValueError(msg)
         self.bearing = bearing
         self.level = level
-        self._props = bearing.to_record()
+        self.features = Features.all() if features is None else features
+        for name in ("plate_rotation", "second_direction"):
+            if name in self.features.left_out:
+                msg = f"{name} = False: not for an element, impose no such displacement instead"
+                raise ValueError(msg)
+        always = {"uplift", "vertical_coupling"} & set(self.features.left_out)
+        if level == "contact" and always:
+            msg = f'{min(always)} = False: the level "contact" always has it, use "pendulum"'
+            raise ValueError(msg)
+        self._props = apply(self.features, bearing.to_record(), bearing.resolved()["design_load"])
         self._start = initial_state(self._props)
         self._committed = self._start.copy()
         self._trial = self._start.copy()
@@ -136,7 +158,7 @@ class Element:
     def initial_stiffness(self) -> Floats:
         """Return the stiffness (12, 12) at rest: undeformed, sticking, under the design load."""
         if self._initial is None:
-            other = Element(self.bearing, self.level)
+            other = Element(self.bearing, self.level, features=self.features)
             options = self.bearing.resolved()
             u = np.zeros(12)
             u[8] = -options["design_load"] / options["axial_stiffness"]

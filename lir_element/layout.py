@@ -48,6 +48,9 @@ PROPS_FIELDS = (
     Field("slip_capacity", "m", "s_max", "interface slip that the sliders' overlap supports"),
     Field("torsion_lever", "m", "", "torque of friction about the axis over friction force"),
     Field("torsion_yield", "rad", "", "elastic twist before torsional slip"),
+    Field("slider_radius", "m", "a", "radius of the inner slider in plan"),
+    Field("bilateral", "-", "", "1 where uplift is left out: the contact pulls", (), "i8"),
+    Field("fixed_load", "N", "W", "constant vertical load without vertical coupling; 0: coupled"),
 )
 
 STATE_FIELDS = (
@@ -60,6 +63,7 @@ STATE_FIELDS = (
     Field("string", "m", "l", "length between the sphere centres along the slider's axis"),
     Field("closure", "m", "pen", "axial closure of the contact, zero when uplifted"),
     Field("axial_force", "N", "N", "axial force, compression positive"),
+    Field("vertical_force", "N", "", "of the vertical spring where vertical coupling is left out"),
     Field("slip", "m", "s", "interface slip in the plane of the interface", (2,)),
     Field("slip_total", "m", "s", "interface slip in global axes, top slider on bottom", (3,)),
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
@@ -108,10 +112,17 @@ WORK_FIELDS = (
     Field("sigma", "m", "sigma", "interface slip in the basis t", _W_PAIR),
     Field("dt", "s", "", "time since the committed state, zero if static"),
     Field("static_speed", "m/s", "", "sliding speeds of a static trial", _W_PAIR),
+    Field("height", "m", "c_3", "vertical part of c, where the string has its own"),
+    Field("fixed_length", "m", "l", "the string's constant length under a fixed load; 0: elastic"),
+    Field("vertical", "N", "", "force of the vertical spring beside a fixed load"),
+    Field("stiff_vertical", "N/m", "", "its derivative"),
+    Field("drag", "m", "", "moment of the surfaces' friction over axial force", _W_PAIR),
+    Field("push", "N m", "", "moment of the rims", _W_PAIR),
     Field("n_true", "N", "N", "axial force"),
+    Field("n_pos", "N", "", "axial force, not below zero"),
     Field("n_hat", "N", "", "axial force, not below its floor"),
     Field("stiff_n", "N/m", "", "derivative of the axial force"),
-    Field("scale", "-", "", "n_true / n_hat"),
+    Field("scale", "-", "", "n_pos / n_hat"),
     Field("closure", "m", "", "axial closure"),
     Field("z", "-", "z", "hysteretic variable", (2, 2)),
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
@@ -249,6 +260,7 @@ TOUCH = dtype_of(TOUCH_FIELDS)
 SCRATCH = dtype_of(SCRATCH_FIELDS)
 
 STATE_BY_NAME = {f.name: f for f in STATE_FIELDS}
+PROPS_BY_NAME = {f.name: f for f in PROPS_FIELDS}
 
 Records: TypeAlias = npt.NDArray[Any]
 """Array of records."""

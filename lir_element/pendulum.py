@@ -22,6 +22,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.pendulum_axial import axial, fix_length, hold_load
 from lir_element.rotation import rotate
 from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
 
@@ -47,6 +48,7 @@ def place_plates(p: Props, w: Work, u: Floats) -> None:
         for b in range(3):
             for k in range(3):
                 w.a[a, b] += w.q_i[k, a] * w.q_j[k, b]
+    fix_length(p, w)
 
 
 @kernel
@@ -58,6 +60,8 @@ def set_axis(w: Work, x: float, y: float, z: float) -> None:
     w.n[0], w.n[1], w.n[2] = x, y, z
     w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x
     w.t[1, 0], w.t[1, 1], w.t[1, 2] = -k * x * y, 1.0 - k * y * y, -y
+    if w.fixed_length > 0.0:
+        w.c[2] = -(w.fixed_length + x * w.c[0] + y * w.c[1]) / z
     w.l = -(x * w.c[0] + y * w.c[1] + z * w.c[2])
     for a in range(2):
         w.sigma[a] = w.t[a, 0] * w.c[0] + w.t[a, 1] * w.c[1] + w.t[a, 2] * w.c[2]
@@ -105,6 +109,12 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
     rate[0] += cg[1] * v[5] - cg[2] * v[4]
     rate[1] += cg[2] * v[3] - cg[0] * v[5]
     rate[2] += cg[0] * v[4] - cg[1] * v[3]
+    if p.fixed_load > 0.0:  # the string's own height: its length does not change
+        along = 0.0
+        for k in range(3):
+            along += rate[k] * (w.q_i[k, 0] * w.n[0] + w.q_i[k, 1] * w.n[1] + w.q_i[k, 2] * w.n[2])
+        for k in range(3):
+            rate[k] -= w.q_i[k, 2] * along / w.n[2]
     for a in range(2):
         bottom, top = 0.0, 0.0
         for k in range(3):
@@ -117,19 +127,6 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
         w.phi[0, a], w.phi[1, a] = bottom, bottom + top
     for k in range(2):
         w.static_speed[k] = p.radius[k] * math.sqrt(w.phi[k, 0] ** 2 + w.phi[k, 1] ** 2)
-
-
-@kernel
-def axial(p: Props, old: State, w: Work) -> None:
-    """Set the axial force of the string and its floor (below it all forces fade alike)."""
-    gap = w.l - p.length
-    w.n_true, w.stiff_n, w.closure = kelvin_voigt(
-        gap, old.closure, p.axial_stiffness, p.axial_damping, w.dt
-    )
-    if w.n_true > p.axial_floor:
-        w.n_hat, w.scale = w.n_true, 1.0
-    else:
-        w.n_hat, w.scale = p.axial_floor, w.n_true / p.axial_floor
 
 
 @kernel
@@ -210,27 +207,34 @@ def evaluate(p: Props, old: State, w: Work) -> None:
     surface(p, old, w, 0)
     surface(p, old, w, 1)
     rims(p, old, w)
-    n = w.n_true if p.fused else w.n_hat
     for a in range(2):
         rim_top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
-        w.residual[a] = (
-            -n * (p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a])
-            + p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a]
-            + p.radius[1] * w.rim[1] * rim_top
+        w.drag[a] = p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a]
+        w.push[a] = (
+            p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a] + p.radius[1] * w.rim[1] * rim_top
         )
+    if not p.fused:
+        interface(p, old, w)
+    if p.fixed_load > 0.0:
+        hold_load(p, w)
+    n = w.n_pos if p.fused else w.n_hat
+    for a in range(2):
+        w.residual[a] = -n * w.drag[a] + w.push[a]
     if p.fused:  # the interface carries what equilibrium asks for
         w.rim_scale = 1.0
         for a in range(2):
             w.f_s[a] = -w.residual[a] / w.l
             w.residual[a] = 0.0
         return
-    interface(p, old, w)
     w.rim_scale = w.scale
     k = 1.0 / (1.0 + w.n[2])
     chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
     w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
     w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
-    w.f_s[0], w.f_s[1] = w.n_true * w.phi_s[0], w.n_true * w.phi_s[1]
+    w.f_s[0], w.f_s[1] = w.n_pos * w.phi_s[0], w.n_pos * w.phi_s[1]
+    if w.n_true < 0.0:  # pulled along the line of centres: the interface holds
+        w.f_s[0] += w.n_true * w.sigma[0] / w.l
+        w.f_s[1] += w.n_true * w.sigma[1] / w.l
 
 
 @kernel

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.pendulum_axial import follow_height, held_rate, held_rate_fused, tension_rates
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, Work
@@ -69,10 +70,14 @@ def direction(
     s_1, s_2 = w.sigma[0], w.sigma[1]
     spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
     tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
-    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
-    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
-    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * d[2]
+    rise = follow_height(p, w, e_1, e_2, d)
+    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise
+    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise
+    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * rise
     d_n = w.stiff_n * d_l
+    if p.fixed_load > 0.0 and not p.fused:
+        d_n = held_rate(w, e_1, e_2, d_s1, d_s2)
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
     # surfaces
     f_11, f_12 = friction_rate(
@@ -91,8 +96,8 @@ def direction(
                        + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
     )  # fmt: skip
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
-        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_n, w.scale * f_12 + w.phi[0, 1] * d_n
-        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_n, w.scale * f_22 + w.phi[1, 1] * d_n
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
     # rims
@@ -116,6 +121,10 @@ def direction(
                 r_1 += p.radius[1] * part
             else:
                 r_2 += p.radius[1] * part
+    if p.fixed_load > 0.0 and p.fused:
+        d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
+        f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
+        r_1, r_2 = r_1 - w.drag[0] * d_n, r_2 - w.drag[1] * d_n
     # interface and string
     g_1, g_2 = w.f_s[0], w.f_s[1]
     if not p.fused:
@@ -148,10 +157,9 @@ def slider_jacobian(p: Props, w: Work, zero: Floats) -> None:
 def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> None:
     """Set column `col` of the condensed 6 x 6 stiffness: g and tau by centre and spin."""
     if p.fused:
-        along = w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
-        e_1 = -along / w.l
-        along = w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
-        e_2 = -along / w.l
+        rise = follow_height(p, w, 0.0, 0.0, d)
+        e_1 = -(w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise) / w.l
+        e_2 = -(w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise) / w.l
         rates = direction(p, w, e_1, e_2, d, v)
         for k in range(12):
             w.rates[k] = rates[k]
@@ -163,6 +171,7 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
         for k in range(12):
             w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
     d_n, g_d1, g_d2 = w.rates[2], w.rates[3], w.rates[4]
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
     f_1, f_2, d_rim, spin = w.rates[5], w.rates[6], w.rates[7], w.rates[11]
     n_0, n_1, n_2 = w.n[0], w.n[1], w.n[2]
     t = w.t
@@ -170,15 +179,17 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
     d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
     d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
     if not p.fused and w.scale < 1.0:  # the forces fade with the axial force
-        fade = d_n / w.n_hat
-        g_d1 = w.scale * g_d1 + d_n * w.phi_s[0]
-        g_d2 = w.scale * g_d2 + d_n * w.phi_s[1]
-        f_1 = w.scale * f_1 + d_n * w.phi[1, 0]
-        f_2 = w.scale * f_2 + d_n * w.phi[1, 1]
-        d_rim = w.scale * d_rim + fade * w.rim[1]
+        g_d1 = w.scale * g_d1 + d_pos * w.phi_s[0]
+        g_d2 = w.scale * g_d2 + d_pos * w.phi_s[1]
+        f_1 = w.scale * f_1 + d_pos * w.phi[1, 0]
+        f_2 = w.scale * f_2 + d_pos * w.phi[1, 1]
+        d_rim = w.scale * d_rim + d_pos / w.n_hat * w.rim[1]
+        if w.n_true < 0.0:
+            pull_1, pull_2 = tension_rates(w, e_1, e_2, spin, d)
+            g_d1, g_d2 = g_d1 + pull_1, g_d2 + pull_2
     s_1, s_2 = w.f_s[0], w.f_s[1]
     twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
-    k_1, k_2 = w.n_true * w.phi[1, 0], w.n_true * w.phi[1, 1]
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
     x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
     rim = w.rim_scale * w.rim[1]
     m = w.sums  # the top plate's force on the slider and its rate
@@ -195,7 +206,9 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
     w.k6[3, col] = lever * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1])
     w.k6[4, col] = lever * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2])
     w.k6[5, col] = lever * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0])
-    w.dn6[col] = d_n
+    w.dn6[col] = d_pos
+    if p.fixed_load > 0.0:
+        w.k6[2, col] = w.stiff_vertical if col == 2 else 0.0
 
 
 @kernel

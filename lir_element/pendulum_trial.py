@@ -31,12 +31,14 @@ _SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing lef
 @kernel
 def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     """Set the nodes' forces from the evaluated string, surfaces and rims."""
-    k_1, k_2 = w.n_true * w.phi[1, 0], w.n_true * w.phi[1, 1]
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
     rim = w.rim_scale * w.rim[1]
     t, n, q = w.t, w.n, w.q_i
     for a in range(3):
         w.g[a] = -w.n_true * n[a] + t[0, a] * w.f_s[0] + t[1, a] * w.f_s[1]
         w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2 - rim * w.r_top[a])
+    if p.fixed_load > 0.0:
+        w.g[2] = -w.vertical
     m = w.sums
     m_0, m_1, m_2 = n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]
     f = new.force
@@ -69,8 +71,8 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
         p.torsion_yield,
     )  # fmt: skip
     w.torque_axial = p.torsion_lever * mu * z
-    w.torque = w.torque_axial * w.n_true
-    w.torque_stiffness = p.torsion_lever * mu * w.n_true * slope
+    w.torque = w.torque_axial * w.n_pos
+    w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
     new.twist_hysteresis, new.slid_twist = z, slip
     new.torque = w.torque
 
@@ -109,6 +111,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
     new.closure = w.closure
     new.slid_interface = 0.0 if p.fused else w.slid_s
     new.axial_force = w.n_true
+    new.vertical_force = w.vertical
     for k in range(2):
         new.slip[k] = w.sigma[k]
         new.slip_increment[k] = w.sigma[k] - old.slip[k]
@@ -122,7 +125,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.rim_force[k] = w.rim_scale * w.rim[k]
         for a in range(2):
             new.hysteresis[k, a] = w.z[k, a]
-            new.friction_force[k, a] = w.n_true * w.phi[k, a]
+            new.friction_force[k, a] = w.n_pos * w.phi[k, a]
             new.sliding_increment[k, a] = w.dw[k, a]
 
 

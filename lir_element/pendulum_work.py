@@ -50,8 +50,10 @@ def contact_defect(p: Props, old: State, new: State) -> float:
     times the part of the travel that no closure took part in. And what a contact gives must not
     exceed what it had stored, which a slider that runs along a rim in large steps would violate.
     """
-    travel = abs((new.string - old.string) - (new.closure - old.closure))
-    defect = 0.5 * (old.axial_force + new.axial_force) * travel
+    defect = 0.0
+    if p.fixed_load == 0.0:
+        travel = abs((new.string - old.string) - (new.closure - old.closure))
+        defect = 0.5 * (old.axial_force + new.axial_force) * travel
     for k in range(2):
         if old.rim_force[k] == 0.0 and new.rim_force[k] == 0.0:
             continue
@@ -77,7 +79,7 @@ def dissipated(cap_old: float, cap: float, z_1: float, z_2: float, slip: float) 
 def torsion_cap(p: Props, at: State) -> float:
     """Return the torque about the vertical at full slip in the state `at`."""
     mu = min(at.friction_coefficient[0], at.friction_coefficient[1], p.interface_friction)
-    return p.torsion_lever * mu * at.axial_force
+    return p.torsion_lever * mu * max(at.axial_force, 0.0)
 
 
 @kernel
@@ -87,6 +89,7 @@ def accumulate(p: Props, old: State, new: State) -> None:
     Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
     so for the stiff contacts, whose forces jump).
     """
+    before, after = max(old.axial_force, 0.0), max(new.axial_force, 0.0)
     total = 0.5 * (old.torque + new.torque) * (new.twist - old.twist)
     turned = dissipated(
         torsion_cap(p, old), torsion_cap(p, new), new.twist_hysteresis, 0.0, new.slid_twist
@@ -96,8 +99,8 @@ def accumulate(p: Props, old: State, new: State) -> None:
         f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
         total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
         work = dissipated(
-            old.friction_coefficient[k] * old.axial_force,
-            new.friction_coefficient[k] * new.axial_force,
+            old.friction_coefficient[k] * before,
+            new.friction_coefficient[k] * after,
             new.hysteresis[k, 0],
             new.hysteresis[k, 1],
             new.slid[k],
@@ -113,12 +116,13 @@ def accumulate(p: Props, old: State, new: State) -> None:
         total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
         z = new.interface_hysteresis
         mu = p.interface_friction
-        work = dissipated(
-            mu * old.axial_force, mu * new.axial_force, z[0], z[1], new.slid_interface
-        )
+        work = dissipated(mu * before, mu * after, z[0], z[1], new.slid_interface)
     new.work_interface = old.work_interface + work
     new.work_elastic = old.work_elastic + total - lost - work
     new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
     new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
     work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
+    if p.fixed_load > 0.0:  # the load of the string rises; the spring beside it
+        work += p.fixed_load * (new.centres[2] - old.centres[2])
+        work += 0.5 * (old.vertical_force + new.vertical_force) * (new.closure - old.closure)
     new.work_contact = old.work_contact + work

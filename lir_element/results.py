@@ -78,6 +78,12 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             vector, states["slip_total"].copy(), "m", "top slider relative to bottom slider"
         ),
         "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
+        "interface_force": labelled(
+            each,
+            np.linalg.norm(states["interface_force"], axis=-1),
+            "N",
+            "force that the interface passes in its plane",
+        ),
         "rim_force": labelled(surface, states["rim_force"].copy(), "N", "radial force of each rim"),
         "rim_closure": labelled(
             surface, states["rim_closure"].copy(), "m", "deformation of each rim"

@@ -153,9 +153,9 @@ def page(_: Path | None = None) -> Page:
         "that is left to the amplitude remains as slip, so that on the way back the rims are met "
         "at 16.5 cm. The rims are met at `U - s = ± U_cap` while the restoring force stays centred "
         "on U = 0: the force at which the interface slides is the same each time.",
-        "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is free "
-        "vertically: the axial force swings by half a per cent where the slider meets a rim, and "
-        "the largest force with it.",
+        "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is "
+        "free vertically: the axial force swings by half a per cent where the slider meets a rim, "
+        "and the largest force with it.",
         "**Friction from a loop.** The one-piece slider's moment equilibrium makes the force at "
         "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. Whoever reads 0.066 off "
         "a measured loop as force at zero over load (the paper does not say how its value was "

@@ -34,7 +34,13 @@ CONTRACT = {
     "axial_force": (EACH, "N"),
     "slider_displacement": ((*EACH, "surface", "axis"), "m"),
     "interface_slip": ((*EACH, "axis"), "m"),
+    "interface_force": (EACH, "N"),
+    "interface_eccentricity": (EACH, "m"),
     "rim_force": ((*EACH, "surface"), "N"),
+    "rim_displacement": (("bearing", "surface"), "m"),
+    "slider_radius": (("bearing",), "m"),
+    "bearing_node": (("bearing", "end"), "1"),
+    "peak_ground_velocity": (("axis",), "m/s"),
     "node_displacement": (("time", "node", "dof"), "m, rad"),
     "node_acceleration": (("time", "node", "dof"), "m/s2, rad/s2"),
     "ground_acceleration": (("time", "axis"), "m/s2"),
@@ -45,7 +51,8 @@ ATTRIBUTES = {
     "status": str, "message": str, "lir_dcfp_version": str, "level": str, "method": str,
     "integrator": str, "spectral_radius": float, "dt": float, "step_control": str, "steps": int,
     "newton_iterations": int, "halvings": int, "degrees_of_freedom": int, "seconds_gravity": float,
-    "seconds_loop": float, "title": str, "motion": str,
+    "seconds_loop": float, "title": str, "motion": str, "audit": str,
+    "features_left_out": str, "plane_coupling": float,
 }  # fmt: skip
 
 

@@ -80,6 +80,9 @@ def test_completes_or_reports(seed):
         warnings.simplefilter("always")
         data = time_history(random_model(rng, bearing), motion, dt=dt)
     for name, values in data.items():
+        if name in {"rim_displacement", "interface_friction"}:  # without rims, in one piece
+            assert not np.isnan(values.to_numpy()).any(), name
+            continue
         assert np.isfinite(values.to_numpy()).all(), name
     axial = data["axial_force"]
     assert float(axial.min()) >= 0.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, Element, Features, LIRBearing, VelocityFriction
 
 # Soft contacts (1e8 N/m): the pendulum's stiffness W/L must not drown in that of the contact.
 BASE: dict[str, Any] = {
@@ -140,9 +140,10 @@ def walk(
     time: np.ndarray,
     names: tuple[str, ...] = (),
     visit: Callable[[Element, int], None] | None = None,
+    features: Features | None = None,
 ) -> SimpleNamespace:
     """Take a new element through a path; return forces (n, 12) and the histories of `names`."""
-    element = Element(bearing)
+    element = Element(bearing, features=features)
     kept: dict[str, list[Any]] = {name: [] for name in ("resisting", *names)}
     for k in range(len(u)):
         element.set_trial(u[k], np.zeros(12), time[k])

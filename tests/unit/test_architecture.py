@@ -23,9 +23,9 @@ ALLOWED = {
 KERNEL_MODULES = {
     "lir_element": [
         "condensed", "contact", "contact_pairs", "contact_state", "cyclic_kernel", "levels",
-        "linear", "pendulum", "pendulum_nodes", "pendulum_solve", "pendulum_tangent",
-        "pendulum_trial", "pendulum_work", "rigid_body", "rigid_march", "rotation", "sampling",
-        "slip",
+        "linear", "pendulum", "pendulum_axial", "pendulum_nodes", "pendulum_solve",
+        "pendulum_tangent", "pendulum_trial", "pendulum_work", "rigid_body", "rigid_march",
+        "rotation", "sampling", "slip",
     ],
 }  # fmt: skip
 

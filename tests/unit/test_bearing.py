@@ -429,6 +429,7 @@ def test_record_is_complete() -> None:
         "axial_damping": 2e5, "axial_floor": 200.0, "rim_displacement": (0.07, 0.12),
         "rim_stiffness": 4e7, "rim_damping": 5e4, "rim_overrun": 0.006, "slip_capacity": 0.05,
         "torsion_lever": 2 / 3 * 0.08, "torsion_yield": 3e-4 / (2 / 3 * 0.08),
+        "slider_radius": 0.08, "bilateral": 0, "fixed_load": 0.0,
     }  # fmt: skip
     assert set(expected) == set(record.dtype.names)
     for name, value in expected.items():

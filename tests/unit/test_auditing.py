@@ -1,0 +1,303 @@
+"""The audit's numbers on made cases, and what follows from them."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_allclose
+
+from frames import (
+    Features,
+    Finding,
+    GroundMotion,
+    audit,
+    audit_report,
+    automatic,
+    load,
+    lumped_mass,
+    moment_frame,
+    save,
+    time_history,
+)
+from frames.auditing import centre_shift, is_missing, needed_level
+from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
+from lir_element.eccentricity import interface_eccentricity
+
+DT = 0.005
+MASS = 3e4
+
+
+def device(**changes) -> LIRBearing:
+    options = {
+        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.2,
+        "friction": CoulombFriction(0.05), "interface_friction": 0.12, "design_load": 3e5,
+    }  # fmt: skip
+    return LIRBearing(**(options | changes))
+
+
+def wave(peak: float, period: float = 1.5, rest: float = 1.0) -> np.ndarray:
+    t = np.arange(0.0, 2.0 * period, DT)
+    pulse = peak * np.sin(2.0 * np.pi * t / period) * np.sin(np.pi * t / (2.0 * period))
+    return np.concatenate([pulse, np.zeros(round(rest / DT))])
+
+
+PULSE = GroundMotion(x=wave(1.5), dt=DT)
+
+
+def run(bearing: LIRBearing, motion: GroundMotion = PULSE, **options) -> xr.Dataset:
+    return time_history(lumped_mass(bearing, MASS), motion, dt=DT, **options)
+
+
+def found(data: xr.Dataset) -> dict[str, Finding]:
+    return {finding.feature: finding for finding in audit(data)}
+
+
+def test_one_finding_a_feature():
+    names = [finding.feature for finding in audit(run(device()))]
+    assert names == [*Features.names(), "full_contact"]
+
+
+def test_rims_left_out_that_were_not_needed():
+    free = run(device(capacity=math.inf), features=Features(rims=False))
+    largest = float(np.abs(free["bearing_displacement"].sel(axis="x")).max())
+    finding = found(run(device(capacity=largest / 0.71), features=Features(rims=False)))["rims"]
+    assert_allclose(finding.number, 0.71, rtol=1e-4)  # the load stretches the string: 3e-5
+    assert finding.sentence == "rims left out: reached 71 % of capacity"
+    assert (finding.left_out, finding.mattered) == (True, False)
+    without = found(free)["rims"]
+    assert (without.mattered, without.number) == (False, 0.0)
+
+
+@pytest.mark.parametrize(("share", "mattered"), [(0.94, False), (0.97, True)])
+def test_near_the_rims_counts_where_more_is_left_out(share, mattered):
+    features = Features(rims=False, interface=False)
+    free = run(device(capacity=math.inf), features=features)
+    largest = float(np.abs(free["bearing_displacement"].sel(axis="x")).max())
+    at = device(capacity=largest / share)
+    assert found(run(at, features=features))["rims"].mattered == mattered
+    assert not found(run(at, features=Features(rims=False)))["rims"].mattered
+
+
+def test_rims_that_were_met():
+    data = run(device(capacity=0.08))
+    finding = found(data)["rims"]
+    touched = (data["rim_force"] > 0.0).any(["bearing", "surface"]).to_numpy()
+    first = float(data["time"][int(np.argmax(touched))])
+    assert finding.sentence == f"rims: met by 1 of 1 bearings, first at {first:.2f} s"
+    assert finding.mattered
+    assert not is_missing(finding)
+    slip = found(data)["interface"]
+    size = 1e3 * float(data["interface_slip_size"].max())
+    assert f"slipped up to {size:.3g} mm, 1 of 1 bearings, first at " in slip.sentence
+
+
+def test_interface_left_out():
+    """One piece carries mu (R1 + R2) / L of its load while it slides, 0.0526; mu_h is 0.12."""
+    data = run(device(), features=Features(interface=False))
+    finding = found(data)["interface"]
+    assert_allclose(finding.number, 0.05 * 2.0 / 1.9 / 0.12, rtol=0.01)
+    assert finding.sentence == "interface left out: carried 44 % of what its friction holds"
+    weak = device(interface_friction=0.0528)  # within 1 %
+    assert not found(run(weak, features=Features(interface=False)))["interface"].mattered
+    more = Features(interface=False, uplift=False)
+    assert found(run(weak, features=more))["interface"].mattered
+
+
+def test_uplift_left_out():
+    up = wave(6.0, 0.5)
+    motion = GroundMotion(x=0.2 * up, z=up, dt=DT)
+    data = run(device(), motion, features=Features(uplift=False))
+    finding = found(data)["uplift"]
+    least = float((data["axial_force"] / data["static_axial_force"]).min())
+    assert finding.number == least
+    assert 0.0 < least < 0.6
+    assert finding.sentence == f"uplift left out: smallest N {least:.2f} W"
+    assert not finding.mattered
+    pulled = run(device(), motion.scaled(2.5), features=Features(uplift=False))
+    assert found(pulled)["uplift"].mattered
+    assert found(pulled)["uplift"].number < 0.0
+    lifted = found(run(device(), motion.scaled(2.5)))["uplift"]
+    assert lifted.sentence.startswith("uplift: lifted off: 1 of 1 bearings, first at ")
+    assert needed_level(audit(run(device(), motion.scaled(2.5)))) == "contact"
+
+
+def test_velocity_dependence_at_a_constant_share():
+    friction = VelocityFriction(0.06, 0.03, 1e-9)  # so slow that f_min rules at all speeds
+    data = run(device(friction=friction))
+    finding = found(data)["velocity_dependence"]
+    assert_allclose(finding.number, 0.5, rtol=1e-6)
+    assert finding.mattered
+    left = found(run(device(friction=friction), features=Features(velocity_dependence=False)))
+    assert_allclose(left["velocity_dependence"].number, 0.5, rtol=1e-6)
+    assert is_missing(left["velocity_dependence"])
+    assert found(run(device()))["velocity_dependence"].number == 0.0
+
+
+def test_second_direction_left_out():
+    motion = GroundMotion(x=wave(1.5), y=0.3 * wave(1.5), dt=DT)
+    data = run(device(), motion, features=Features(second_direction=False))
+    finding = found(data)["second_direction"]
+    assert_allclose(finding.number, 0.3, rtol=1e-9)
+    assert "peak ground velocity along y 30 % of that along x" in finding.sentence
+    assert finding.mattered
+    assert float(np.abs(data["ground_acceleration"].sel(axis="y")).max()) == 0.0
+    assert not found(run(device(), features=Features(second_direction=False)))[
+        "second_direction"
+    ].mattered
+
+
+def test_vertical_coupling_left_out_is_estimated():
+    """The lift of the pendulum, which the run leaves out, is added: the coupled run says so too."""
+    coupled = found(run(device(capacity=math.inf)))["vertical_coupling"]
+    apart = found(run(device(capacity=math.inf), features=Features(vertical_coupling=False)))
+    assert coupled.number > 0.01
+    assert_allclose(apart["vertical_coupling"].number, coupled.number, rtol=0.3)  # an estimate
+
+
+def test_plate_rotation_is_that_of_the_spheres_centres():
+    frame = moment_frame((1, 1), 1, bearing=device())
+    data = time_history(frame, PULSE, dt=DT)
+    turns = data["node_displacement"].sel(node="base-0-0", dof="ry")
+    shift = centre_shift(data)[:, 0, 0]
+    assert_allclose(shift, 1.0 * turns, rtol=0.0, atol=1e-15)  # the ground does not turn
+    finding = found(data)["plate_rotation"]
+    largest = np.linalg.norm(data["bearing_displacement"][..., :2], axis=-1).max()
+    size = np.linalg.norm(centre_shift(data), axis=-1).max()
+    assert_allclose(finding.number, size / largest, rtol=1e-12)
+
+
+def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
+    """Return the eccentricity from moment equilibrium of one slider, with vectors in space."""
+    n, p = element.response("axis"), bearing.to_record()[0]
+    k = 1.0 / (1.0 + n[2])
+    t = np.array([[1.0 - k * n[0] ** 2, -k * n[0] * n[1], -n[0]],
+                  [-k * n[0] * n[1], 1.0 - k * n[1] ** 2, -n[1]]])  # fmt: skip
+    load, half = element.response("axial_force"), 0.5 * bearing.slider_height
+    pushed = -load * n + element.response("interface_force") @ t  # down on the bottom slider
+    side = 1 if top else 0
+    sign = 1.0 if top else -1.0  # the vertex lies above the centre, or below
+    outward = sign * np.array([n[0], n[1], 0.0]) / np.hypot(n[0], n[1])
+    plate = sign * element.response("friction_force")[side] @ t
+    plate = plate - element.response("rim_force")[side] * outward
+    moment = np.cross(sign * p["radius"][side] * n, plate)
+    pushed = -pushed if top else pushed
+    moment = moment + np.cross(sign * (p["radius"][side] - half) * n, pushed)
+    # e x (-+N n) must balance what is across n
+    across = moment - (moment @ n) * n
+    return float(np.linalg.norm(across) / load)
+
+
+@pytest.mark.parametrize("lateral", [0.02, 0.09, 0.115])
+def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
+    bearing = device(
+        radius=(1.0, 0.7), friction=(CoulombFriction(0.03), CoulombFriction(0.06)), capacity=0.1,
+        axial_stiffness=1e9,
+    )  # fmt: skip
+    element = Element(bearing)
+    length = bearing.effective_radius + 2e5 / bearing.resolved()["axial_stiffness"]
+    for share in np.linspace(0.0, 1.0, 200):
+        u = np.zeros(12)
+        u[6], u[7] = share * lateral, 0.4 * share * lateral
+        u[8] = bearing.effective_radius - math.sqrt(length**2 - u[6] ** 2 - u[7] ** 2)
+        element.set_trial(u, np.zeros(12), 0.0)
+        element.commit()
+    e = interface_eccentricity(bearing.to_record(), element._committed[None])[0, 0]
+    sides = [resultant(bearing, element, top=top) for top in (False, True)]
+    assert_allclose(e, max(sides), rtol=3e-3)  # equal to (A) but for the stretch of the string
+    assert e > 1e-3
+
+
+def test_eccentricity_of_a_symmetric_bearing_is_half_its_slip():
+    rig = cyclic_test(device(capacity=0.1), [0.0, 0.13], 3e5)
+    slip = float(rig["interface_slip_size"][-1, 0])
+    assert slip > 0.02
+    data = run(device(capacity=0.08))
+    # the axial force stretches the string: some 1e-4 of its length
+    assert_allclose(
+        data["interface_eccentricity"], 0.5 * data["interface_slip_size"], rtol=0.0, atol=2e-4
+    )
+
+
+def test_full_contact_levels():
+    data = run(device(capacity=0.08))
+    share = found(data)["full_contact"].number
+    assert_allclose(share, 5.0 * float(data["interface_slip_size"].max()), rtol=0.05)
+    for factor, text in ((0.2, "full contact holds"), (0.4, "no tipping"), (0.8, "edge contact"),
+                         (1.2, "the slider tips")):  # fmt: skip
+        other = data.copy()
+        other["interface_eccentricity"] = data["interface_eccentricity"] * (factor / share)
+        finding = found(other)["full_contact"]
+        assert_allclose(finding.number, factor, rtol=1e-9)
+        assert text in finding.sentence
+        assert (needed_level(audit(other)) == "contact") == (factor > 0.5)
+
+
+def test_audit_survives_a_file(tmp_path):
+    data = run(device(), features=Features(rims=False, vertical_coupling=False))
+    save(data, tmp_path / "run.nc")
+    again = load(tmp_path / "run.nc")
+    assert again.attrs["audit"] == data.attrs["audit"] == audit_report(again)
+    assert audit(again) == audit(data)
+    lines = data.attrs["audit"].splitlines()
+    assert len(lines) == len(Features.names()) + 1
+    assert sum("left out" in line for line in lines) == 3
+
+
+def test_missing_features_are_marked():
+    features = Features(rims=False, interface=False)
+    data = run(device(capacity=0.08), features=features)
+    assert "! rims left out: reached " in audit_report(data)
+    assert not found(data)["interface"].mattered  # it carries little while there is no rim
+
+
+def test_auto_settles_at_once_where_nothing_is_missing():
+    data = run(device(capacity=0.08), level="auto")
+    assert data.attrs["level"] == "pendulum"
+    assert data.attrs["features_left_out"] == "velocity_dependence, second_direction"
+    assert data.attrs["auto_runs"].count("\n") == 0
+    assert data.attrs["auto_runs"].endswith(": sufficient")
+    plain = run(device(capacity=0.08))
+    gap = data["bearing_displacement"] - plain["bearing_displacement"]
+    assert float(np.abs(gap).max()) < 1e-9
+
+
+def settled(bearing: LIRBearing, features: Features) -> xr.Dataset:
+    return automatic.settle(lambda kept, level: run(bearing, features=kept, level=level), features)
+
+
+def test_cheap_run_is_repeated_where_the_rims_are_met():
+    features = Features(rims=False, interface=False, second_direction=False)
+    data = settled(device(capacity=0.08), features)
+    assert data.attrs["features_left_out"] == "second_direction"
+    lines = data.attrs["auto_runs"].splitlines()
+    assert len(lines) == 2
+    assert "again, for rims left out: reached " in lines[0]
+    assert lines[1].endswith("sufficient")
+    plain = run(device(capacity=0.08), features=Features(second_direction=False))
+    xr.testing.assert_equal(data["bearing_displacement"], plain["bearing_displacement"])
+    assert settled(device(), features).attrs["auto_runs"].count("\n") == 0  # not met: one run
+
+
+def test_auto_asks_for_another_level(monkeypatch):
+    up = wave(15.0, 0.5)
+    motion = GroundMotion(x=0.2 * up, z=up, dt=DT)
+    monkeypatch.setattr(automatic, "LEVELS", ("pendulum",))
+    data = run(device(), motion, level="auto")
+    assert "the level 'contact' would be needed" in data.attrs["auto_runs"]
+    monkeypatch.setattr(automatic, "LEVELS", ("pendulum", "contact"))
+    levels = []
+
+    def analyse(features: Features, level: str) -> xr.Dataset:
+        levels.append(level)
+        return data.assign_attrs(level=level)
+
+    again = automatic.settle(analyse, Features())
+    assert levels == ["pendulum", "contact"]
+    assert "again at the level 'contact'" in again.attrs["auto_runs"]
+
+
+def test_findings_are_data():
+    finding = audit(run(device()))[0]
+    assert replace(finding, mattered=True) != finding
