@@ -65,8 +65,10 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
     if len(touches):
         end = int(np.argmax(slip)) if slip.max() > 1e-3 else int(np.argmax(size))
         start = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
-        while start > 0 and size[start - 1] <= size[start] and force[start - 1] > 0.0:
-            start -= 1  # back to the begin of this contact
+        rise = start
+        while rise > 0 and size[rise - 1] <= size[rise]:  # back to the first touch of this way out
+            rise -= 1
+            start = rise if force[rise] > 0.0 else start
         found["rim contact"] = float(time[start])
     else:
         start = int(np.argmax(size))

@@ -329,7 +329,7 @@ def contact_trial(
             follow_string(p, c, b_new, w, pen)
         count = settle(p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed)
     fill_state(p, c, points, old, new, b_new, touch_new, w, u)
-    new.time = time
+    new.time, new.step = time, dt
     new.iterations = count
     status = limit_status(p, new)
     if min(w.q[1][2, 2], w.q[2][2, 2]) < _SMALLEST_COSINE:

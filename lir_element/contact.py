@@ -12,7 +12,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
+from lir_element.slip import friction_coefficient, friction_map, kelvin_voigt, speed_at_end
 
 if TYPE_CHECKING:
     from lir_element.layout import Bodies, Props, Scratch, Touch
@@ -57,11 +57,14 @@ def sphere(
     o_2 = s[0] * o[0] + s[1] * o[1] + s[2] * o[2]
     o_n = n_0 * o[0] + n_1 * o[1] + n_2 * o[2]
     dw_1, dw_2 = -radius * o_1, -radius * o_2
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
+    before = old.increment
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.yield_displacement[side],
+        p.yield_displacement[side], before[0], before[1], w.share,
     )  # fmt: skip
-    speed = slip / dt if dt > 0.0 else static_speed
+    speed, by_slip = static_speed, 0.0
+    if dt > 0.0:
+        speed, by_slip = speed_at_end(slip, dt, old.slid, w.step_before, w.share)
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
@@ -78,9 +81,7 @@ def sphere(
         w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
-    by_1, by_2 = 0.0, 0.0
-    if dt > 0.0:
-        by_1, by_2 = slope * s_1 / dt, slope * s_2 / dt
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     g_11, g_12 = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
     g_21, g_22 = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
     k, inv = 1.0 / (1.0 + n_2), 1.0 / size
@@ -109,8 +110,9 @@ def plane(
     """
     d, o = w.d, old.spot
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = return_map(
-        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2, p.interface_yield,
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
+        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
+        p.interface_yield, old.increment[0], old.increment[1], w.share,
     )  # fmt: skip
     mu = p.interface_friction
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.contact import bond, clear_pair, plane, rim, sphere
+from lir_element.slip import step_share
 
 if TYPE_CHECKING:
     from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders
@@ -194,6 +195,8 @@ def press(
     With `derive`, also ``w.k``. `speed_bottom` and `speed_top` are the sliding speeds of a static
     state (dt = 0).
     """
+    new.step = dt
+    w.share, w.step_before = step_share(dt, old.step), old.step
     for row in range(24):
         w.g[row] = 0.0
         for part in range(_ORIGINS):

@@ -55,6 +55,7 @@ PROPS_FIELDS = (
 
 STATE_FIELDS = (
     Field("time", "s", "t", "time of this state"),
+    Field("step", "s", "dt", "time step that led to this state, zero if static"),
     Field("displacement", "m, rad", "u", "displacements of node i, then of node j", (12,)),
     Field("force", "N, N m", "f", "resisting forces on node i, then on node j", (12,)),
     Field("axis", "-", "n", "slider axis, in axes that turn with the bottom plate", (3,)),
@@ -187,6 +188,7 @@ POINT_FIELDS = (
 )
 
 BODY_FIELDS = (
+    Field("step", "s", "dt", "time step that led to this state, zero if static"),
     Field("place", "m", "", "displacement: bottom slider, top slider, top plate", (3, 3)),
     Field("turn", "-", "", "rotation as quaternion (scalar first)", (3, 4)),
     Field("velocity", "m/s", "", "velocity of the mass centres", (3, 3)),
@@ -212,6 +214,8 @@ TOUCH_FIELDS = (
 )
 
 SCRATCH_FIELDS = (
+    Field("share", "-", "", "time step over the sum of this one and the one before"),
+    Field("step_before", "s", "", "the one before"),
     Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
     Field("q", "-", "", "their rotations", (4, 3, 3)),
     Field("g", "N, N m", "", "forces and moments on them", (24,)),

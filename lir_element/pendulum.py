@@ -24,7 +24,13 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.pendulum_axial import axial, fix_length, hold_load
 from lir_element.rotation import rotate
-from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
+from lir_element.slip import (
+    friction_coefficient,
+    friction_map,
+    kelvin_voigt,
+    speed_at_end,
+    step_share,
+)
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
@@ -138,19 +144,21 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
         w.dw[k, a] = p.radius[k] * w.old[k, a]
     w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
+    before = old.sliding_increment[k]
+    share = step_share(w.dt, old.step)
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k],
+        p.yield_displacement[k], before[0], before[1], share,
     )  # fmt: skip
     w.slid[k] = slip
     # the speed of slip, not of the elastic part: friction must not grow while it unloads
-    w.speed[k] = slip / w.dt if w.dt > 0.0 else w.static_speed[k]
+    w.speed[k], by_slip = w.static_speed[k], 0.0
+    if w.dt > 0.0:
+        w.speed[k], by_slip = speed_at_end(slip, w.dt, old.slid[k], old.step, share)
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
-    by_1, by_2 = 0.0, 0.0
-    if w.dt > 0.0:
-        by_1, by_2 = slope * s_1 / w.dt, slope * s_2 / w.dt
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.mu[k] = mu
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
@@ -161,9 +169,11 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 @kernel
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = return_map(
+    before = old.slip_increment
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
+        before[0], before[1], step_share(w.dt, old.step),
     )  # fmt: skip
     mu = p.interface_friction
     w.z_s[0], w.z_s[1], w.slid_s = z_1, z_2, slip

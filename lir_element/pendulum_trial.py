@@ -189,6 +189,7 @@ def trial(
     for k in range(12):
         new.displacement[k] = u[k]
     new.time = time
+    new.step = w.dt
     new.twist = u[11] - u[5]
     new.iterations = count
     set_forces(w, p, new, old)

@@ -16,6 +16,8 @@ import math
 
 from lir_element._jit import kernel
 
+_BEND = 0.6  # rad a step, beyond which a path is too coarse to tell where it is bound for
+
 
 @kernel
 def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, float]:
@@ -72,6 +74,75 @@ def return_map(
         e_1 - grad_1,
         e_2 - grad_2,
     )
+
+
+@kernel
+def friction_map(
+    bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
+    u_y: float, before_1: float, before_2: float, share: float,
+) -> tuple[float, float, float, float, float, float, float, float, float]:  # fmt: skip
+    """Return what `return_map` does, z turned to where the sliding is bound for at the step's end.
+
+    The return map leaves z along the mean direction of the step: half a step late where the path
+    bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
+    on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
+    slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
+    """
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
+        bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y
+    )
+    cross = before_1 * dw_2 - before_2 * dw_1
+    dot = before_1 * dw_1 + before_2 * dw_2
+    if share == 0.0 or slip == 0.0 or cross == 0.0 or not dot > 0.0:
+        return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
+    angle = math.atan2(cross, dot)
+    q = (angle / _BEND) ** 2
+    if not q < 1.0:
+        return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
+    square = dw_1 * dw_1 + dw_2 * dw_2
+    part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
+    turn = share * angle * (1.0 - q) ** 2 * part
+    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
+    by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
+    turn_1 = -by_angle * dw_2 + by_slip * s_1
+    turn_2 = by_angle * dw_1 + by_slip * s_2
+    c, s = math.cos(turn), math.sin(turn)
+    r_1, r_2 = c * z_1 - s * z_2, s * z_1 + c * z_2
+    return (
+        r_1,
+        r_2,
+        c * h_11 - s * h_21 - r_2 * turn_1,
+        c * h_12 - s * h_22 - r_2 * turn_2,
+        s * h_11 + c * h_21 + r_1 * turn_1,
+        s * h_12 + c * h_22 + r_1 * turn_2,
+        slip,
+        s_1,
+        s_2,
+    )
+
+
+@kernel
+def step_share(dt: float, before: float) -> float:
+    """Return ``dt / (dt + dt_before)``, zero without a step before."""
+    return dt / (dt + before) if dt > 0.0 and before > 0.0 else 0.0
+
+
+@kernel
+def speed_at_end(
+    slip: float, dt: float, slip_before: float, dt_before: float, share: float
+) -> tuple[float, float]:
+    """Return the speed of slip at the end of the step and its derivative by the slip.
+
+    The mean speed of a step is that of its middle; the step before tells how it changes. `share`
+    is ``dt / (dt + dt_before)``.
+    """
+    if share == 0.0 or slip == 0.0 or slip_before == 0.0:
+        return slip / dt, 1.0 / dt
+    speed = slip / dt
+    ahead = speed + share * (speed - slip_before / dt_before)
+    if ahead > 0.0:
+        return ahead, (1.0 + share) / dt
+    return 0.0, 0.0
 
 
 @kernel

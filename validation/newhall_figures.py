@@ -74,7 +74,7 @@ def motions(found: Mapping[str, xr.Dataset], bearing: LIRBearing, contact: float
         Line2D([], [], color=PALETTE[b], linewidth=BODY_WIDTHS[b], label=body.replace("_", " "))
         for b, body in enumerate(BODIES)
     ] + _levels(found)
-    add_legend(drawn, handles, columns=len(handles), title="Motion of the bodies, Newhall 360")
+    add_legend(drawn, handles, columns=3, title="Motion of the bodies, Newhall 360")
     return drawn
 
 

@@ -10,7 +10,13 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from lir_element.slip import friction_coefficient, kelvin_voigt, return_map
+from lir_element.slip import (
+    friction_coefficient,
+    friction_map,
+    kelvin_voigt,
+    return_map,
+    speed_at_end,
+)
 
 U_Y = 0.25e-3
 STEP = st.floats(-5e-3, 5e-3)
@@ -243,3 +249,74 @@ def test_contact_is_continuous(old: float, k: float, c: float) -> None:
     bound = (k + c / dt) * (gaps[1] - gaps[0])
     assert np.abs(np.diff(force)).max() <= bound * (1.0 + 1e-9)
     assert kelvin_voigt(1e-12, 0.0, k, c, dt)[0] <= (k + c / dt) * 1e-12 * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@given(
+    size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, bend=st.floats(-0.8, 0.8),
+    before=st.floats(0.1, 3.0), share=st.floats(0.1, 0.9),
+)  # fmt: skip
+def test_derivative_half_a_step_ahead(
+    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, bend: float,
+    before: float, share: float,
+) -> None:  # fmt: skip
+    """Against differences of fourth order, on paths that bend by `bend` from step to step."""
+    z = np.array(turned(size, 0.0, angle))
+    b = z + np.array([d_1, d_2]) / U_Y
+    far, step = math.hypot(*b), math.hypot(d_1, d_2)
+    kappa = (b @ [d_1, d_2]) / U_Y / max(far, 1e-9)
+    if abs(far - 1.0) < 2e-2 or abs(kappa) < 2e-2 or far < 5e-2 or step < 0.2 * U_Y:
+        return
+    last = before * np.array(turned(d_1, d_2, -bend))
+    h = 1e-3 * min(U_Y * min(far, 1.0), step)
+
+    def at(x: float, y: float) -> np.ndarray:
+        return np.array(friction_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y, *last, share))
+
+    columns = []
+    for x, y in ((h, 0.0), (0.0, h)):
+        near, wide = (at(m * x, m * y) - at(-m * x, -m * y) for m in (1, 2))
+        columns.append((8.0 * near - wide) / (12.0 * h))
+    out = at(0.0, 0.0)
+    assert_allclose(np.hypot(*out[:2]), np.hypot(*return_map(bouc_wen, eta, *z, d_1, d_2, U_Y)[:2]))
+    limit = max(1e-8, 1e-10 * eta**4)
+    found = out[2:6] * U_Y
+    expected = np.array([columns[0][0], columns[1][0], columns[0][1], columns[1][1]]) * U_Y
+    assert_allclose(found, expected, rtol=0.0, atol=limit)
+
+
+@pytest.mark.parametrize("steps", [16, 64])  # a step of 20 and of 5 yield displacements
+def test_direction_on_a_circle(steps: int) -> None:
+    """At the end of a step z has the direction that the rate law has then, on a circle too."""
+    radius, turns = 0.02, 1.5
+    count = int(steps * turns)
+    phase = np.linspace(0.0, 2.0 * np.pi * turns, count + 1)
+    path = radius * np.column_stack([np.sin(phase), 1.0 - np.cos(phase)])
+    increments = np.diff(path, axis=0)
+    lags = {}
+    for name in ("ahead", "plain"):
+        z, last = np.zeros(2), np.zeros(2)
+        for dw in increments:
+            last_share = 0.5 if name == "ahead" and last.any() else 0.0
+            z = np.array(friction_map(0, 2.0, *z, *dw, U_Y, *last, last_share)[:2])
+            last = dw
+        direction = math.atan2(z[1], z[0])
+        lags[name] = (phase[-1] - direction + np.pi) % (2.0 * np.pi) - np.pi
+    exact = math.asin(U_Y / radius)  # z' = (v - z (z . v)) / u_y on a circle, steady
+    half = np.pi / steps
+    assert lags["plain"] - exact == pytest.approx(half, rel=0.1)
+    assert abs(lags["ahead"] - exact) < 0.06 * half
+
+
+def test_speed_at_the_end() -> None:
+    """Exact for speeds that change linearly; never negative; plain without a step before."""
+    assert speed_at_end(0.0, 0.01, 1e-3, 0.01, 0.5)[0] == 0.0
+    assert speed_at_end(2e-3, 0.01, 0.0, 0.02, 0.3) == (0.2, 100.0)
+    speeds, times = (0.1, 0.4), (0.02, 0.01)  # means of two steps of a uniform acceleration
+    share = times[1] / sum(times)
+    rate = (speeds[1] - speeds[0]) / (0.5 * sum(times))
+    slips = [v * t for v, t in zip(speeds, times, strict=True)]
+    ahead, by_slip = speed_at_end(slips[1], times[1], slips[0], times[0], share)
+    assert ahead == pytest.approx(speeds[1] + 0.5 * times[1] * rate)
+    assert by_slip == pytest.approx((1.0 + share) / times[1])
+    assert speed_at_end(1e-5, 0.01, 5e-3, 0.01, 0.5) == (0.0, 0.0)
