@@ -17,18 +17,24 @@ from frames.members import (
     member_arrays,
     spring_stiffness,
 )
-from frames.parts import bearing_axial_stiffness
+from frames.parts import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.system import MemberTable as MemberTable
 from frames.system import System as System
 from frames.system import element_dofs
 from lir_element.features import Features
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.contents import FrameContents
 
 
-def assemble(frame: FrameContents, features: Features | None = None) -> System:
+def assemble(
+    frame: FrameContents,
+    features: Features | None = None,
+    with_points: Collection[str] = (),
+) -> System:
     """Check a frame and turn it into matrices.
 
     Parameters
@@ -37,6 +43,8 @@ def assemble(frame: FrameContents, features: Features | None = None) -> System:
         The model; it is not changed.
     features : Features, optional
         What is modelled; everything if None.
+    with_points : collection of str
+        Bearings with contact points, which resist the rotation of their plates.
 
     Returns
     -------
@@ -84,7 +92,11 @@ def assemble(frame: FrameContents, features: Features | None = None) -> System:
     check_mass(system)
     levers = [coordinates[j] - coordinates[i] for _, i, j, _ in system.bearings]
     ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
-    pushes = [[bearing_axial_stiffness(link[3])] * 3 + [0.0] * 3 for link in system.bearings]
+    pushes = [
+        [bearing_axial_stiffness(bearing)] * 3
+        + [bearing_rocking_stiffness(bearing) if name in with_points else 0.0] * 3
+        for name, _, _, bearing in system.bearings
+    ]
     supported = node_stiffness + scatter(
         spring_stiffness(np.array(levers).reshape(-1, 3), np.array(pushes).reshape(-1, 6)),
         ends,

@@ -39,10 +39,11 @@ def lumped_mass(
     bearing: LIRBearing,
     mass: float,
     *,
+    inertia: tuple[float, float, float] | None = None,
     gravity: float = STANDARD_GRAVITY,
     name: str = "lumped mass",
 ) -> Frame:
-    """Build a mass on one bearing whose plates stay parallel.
+    """Build a mass on one bearing.
 
     Parameters
     ----------
@@ -50,6 +51,10 @@ def lumped_mass(
         The device.
     mass : float
         Mass above the bearing [kg], > 0.
+    inertia : (float, float, float), optional
+        Rotational inertia of the mass about x, y, z through the top node [kg m2], > 0: it is then
+        free to rotate, for the levels "contact" and "rigid_body" (at the level "pendulum" a
+        bearing does not hold its plate's tilt). None: the plates stay parallel.
     gravity : float
         Acceleration of gravity [m/s2].
     name : str
@@ -64,8 +69,13 @@ def lumped_mass(
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.add_node("mass", 0.0, 0.0, bearing.height)
     frame.fix("ground", "all")
-    frame.fix("mass", "rx", "ry", "rz")
-    frame.add_mass("mass", positive(mass, "lumped_mass: mass [kg]", "give the isolated mass"))
+    checked = positive(mass, "lumped_mass: mass [kg]", "give the isolated mass")
+    if inertia is None:
+        frame.fix("mass", "rx", "ry", "rz")
+        frame.add_mass("mass", checked)
+    else:
+        moments = [positive(value, "lumped_mass: inertia [kg m2]") for value in inertia]
+        frame.add_mass("mass", [checked] * 3 + moments)
     frame.add_bearing("bearing", "ground", "mass", bearing)
     return frame
 

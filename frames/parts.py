@@ -95,6 +95,11 @@ def bearing_axial_stiffness(bearing: LIRBearing) -> float:
     return float(bearing.resolved()["axial_stiffness"] if given is None else given)
 
 
+def bearing_rocking_stiffness(bearing: LIRBearing) -> float:
+    """Return a measure of how contact points resist the tilt of a plate, full disc [N m/rad]."""
+    return 0.25 * bearing_axial_stiffness(bearing) * float(bearing.slider_radius) ** 2
+
+
 def bearing_height(name: str, bearing: LIRBearing) -> float:
     """Check that a device can be placed, and return its height.
 

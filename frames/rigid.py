@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from lir_element.contact_data import as_rows
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES
-from lir_element.results import report
 from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, stable_step, state_words
 from lir_element.rigid_march import march, start
 
@@ -40,6 +39,9 @@ DEFAULT_TOLERANCE = 1e-8
 LARGEST_STEP = 0.005
 """Largest time between outputs that the program chooses [s]."""
 
+Outcome: TypeAlias = tuple[RunStatus, float, str, str]
+"""Status, time [s], place and detail."""
+
 _FIRST_STEP = 1e-4  # s
 _CHUNKS = 50
 _TERMS = {"input": 0, "gravity": 1, "kinetic": 2, "numerical": 3}
@@ -60,9 +62,8 @@ def rigid_time_history(
     integrator: str | None,
     tolerance: float | None,
     record_every: int,
-    on_failure: str,
     progress: Callable[[float], None] | None,
-) -> xr.Dataset:
+) -> tuple[xr.Dataset, Outcome]:
     """Analyse one bearing with a mass on it as rigid bodies in contact.
 
     Parameters
@@ -80,13 +81,13 @@ def rigid_time_history(
         None: Bossak's method with control of the error.
     tolerance : float or None
         Error of a step over the effective radius [-]; None: 1e-8.
-    record_every, on_failure, progress
+    record_every, progress
         As for `time_history`; in the explicit mode outputs are those of the motion's step.
 
     Returns
     -------
-    xarray.Dataset
-        See docs/results.md.
+    tuple
+        The Dataset (docs/results.md), and status, time, place and detail of its end.
 
     Raises
     ------
@@ -135,12 +136,9 @@ def rigid_time_history(
         "plane_coupling": 0.0,
     }
     data.attrs["audit"] = audit_report(data)
-    name = state.system.bearings[0][0]
+    where = f'bearing "{state.system.bearings[0][0]}"'
     detail = limit_detail(run.props, run.states[2:], 0)
-    return report(
-        data, RunStatus(code), float(run.clock[0]), f'bearing "{name}"', detail,
-        on_failure=on_failure,
-    )  # fmt: skip
+    return data, (RunStatus(code), float(run.clock[0]), where, detail)
 
 
 def _march(

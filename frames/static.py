@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -13,13 +14,13 @@ from frames._validate import ModelError
 from frames.assembly import assemble, geometric_stiffness, member_axial_forces
 from frames.basis import Basis, bearing_rows, build_basis
 from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
-from frames.parts import bearing_axial_stiffness
+from frames.parts import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.stepping import solve_gravity
 from lir_element.element import ALL_LEVELS, LEVELS, limit_detail
 from lir_element.errors import AnalysisError, RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection
 
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly import System
@@ -100,15 +101,17 @@ def gravity(
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     """
-    system = assemble(frame, features)
+    levels = levels_of(tuple(frame.bearings), level)
+    points = [name for name, own in levels.items() if own == "contact"]
+    system = assemble(frame, features, points)
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
-    linear = spsolve(sparse.csc_array(system.stiffness + guessed_springs(system)), system.load)
+    springs = guessed_springs(system, points)
+    linear = spsolve(sparse.csc_array(system.stiffness + springs), system.load)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)
-    levels = levels_of(system, level)
     model, run, contacts = _equilibrium(system, basis, linear, levels, None)
     axial_forces = np.array(run.old["axial_force"])
     if not system.features.vertical_coupling:
@@ -127,20 +130,20 @@ def gravity(
     )
 
 
-def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
+def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
     """Look up the level of each bearing.
 
     Parameters
     ----------
-    system : System
-        The frame.
+    names : tuple of str
+        Of the bearings.
     level : str or mapping
         One level for all bearings, or levels by name of bearing.
 
     Returns
     -------
-    list of str
-        Levels in the order of the bearings.
+    dict of str to str
+        Levels by name.
 
     Raises
     ------
@@ -150,7 +153,9 @@ def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
     if isinstance(level, str) and level not in LEVELS:
         msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
         raise ValueError(msg)
-    names = [name for name, _, _, _ in system.bearings]
+    if not isinstance(level, (str, Mapping)):
+        msg = f"level = {level!r}: give a level, or a mapping of levels by name of bearing"
+        raise TypeError(msg)
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))
     if unknown:
@@ -160,16 +165,16 @@ def levels_of(system: System, level: str | Mapping[str, str]) -> list[str]:
         if value not in LEVELS:
             msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
             raise ValueError(msg)
-    return [given.get(name, "pendulum") for name in names]
+    return {name: given.get(name, "pendulum") for name in names}
 
 
 def _equilibrium(
-    system: System, basis: Basis, linear: FloatArray, levels: list[str],
+    system: System, basis: Basis, linear: FloatArray, levels: Mapping[str, str],
     static_load: FloatArray | None,
 ) -> tuple[Model, Run, Contacts | None]:  # fmt: skip
     model = model_arrays(system, basis, static_load)
     run = run_arrays(model)
-    contacts = contacts_of(system, levels)
+    contacts = contacts_of(system, [levels[name] for name, _, _, _ in system.bearings])
     run.b[:] = linear[basis.bearing_dofs]
     tolerance = force_tolerance(system, _FORCE_TOLERANCE)
     status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
@@ -210,11 +215,17 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
     return q + basis.offset if offset else q
 
 
-def guessed_springs(system: System) -> SparseMatrix:
-    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways."""
+def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
+    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways.
+
+    Those named in `with_points` have contact points, which resist the rotation of their plates.
+    """
     values = np.zeros((len(system.bearings), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
     values[:, :2] = 0.01 * values[:, 2:3]
+    for k, (name, _, _, bearing) in enumerate(system.bearings):
+        if name in with_points:
+            values[k, 3:] = bearing_rocking_stiffness(bearing)
     return _spring_matrix(system, values)
 
 

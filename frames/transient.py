@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from scipy import linalg
@@ -14,7 +14,7 @@ from frames.automatic import settle
 from frames.integration import advance, record
 from frames.kernel_data import Setup, output_arrays
 from frames.results import build_dataset, peak_velocity
-from frames.rigid import LARGEST_STEP, rigid_time_history
+from frames.rigid import LARGEST_STEP, Outcome, rigid_time_history
 from frames.scene import exact_features, plane_coupling
 from frames.static import force_tolerance, gravity
 from lir_element.element import ALL_LEVELS, limit_detail
@@ -121,10 +121,11 @@ def time_history(
     length = motion.duration if duration is None else require_positive("duration", duration, "s")
     base = min(motion.dt, LARGEST_STEP) if dt is None else require_positive("dt", dt, "s")
     if level == "rigid_body":
-        return rigid_time_history(
+        data, (status, time, where, detail) = rigid_time_history(
             model, motion, length, dt, integrator=integrator, tolerance=tolerance,
-            record_every=int(record_every), on_failure=on_failure, progress=progress,
+            record_every=int(record_every), progress=progress,
         )  # fmt: skip
+        return report(data, status, time, where, detail, on_failure=on_failure)
     error = _ERROR_TOLERANCE if tolerance is None else tolerance
     options = Options(
         duration=length,
@@ -162,10 +163,6 @@ class Options(NamedTuple):
     spectral_radius: float
     record_every: int
     progress: Callable[[float], None] | None
-
-
-Outcome: TypeAlias = tuple[RunStatus, float, str, str]
-"""Status, time [s], place and detail."""
 
 
 def _run(

@@ -72,17 +72,18 @@ def _check_sliders(bearing: LIRBearing) -> None:
             require_positive("slider_mass", mass, "kg")
     inertia = bearing.slider_inertia
     if inertia is not None:
-        shape = np.shape(np.asarray(inertia, dtype=object))
-        if shape != (2, 2):
+        pairs = inertia if isinstance(inertia, tuple) else ()
+        if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
             msg = (
-                f"slider_inertia has shape {shape}: give two pairs (across, along) [kg m2], those "
-                "of the bottom and of the top slider"
+                f"slider_inertia = {inertia!r}: give two pairs (across, along) [kg m2], those of "
+                "the bottom and of the top slider"
             )
             raise ValueError(msg)
         for value in (number for pair in inertia for number in pair):
             require_positive("slider_inertia", value, "kg m2")
     count = bearing.contact_points
-    if isinstance(count, bool) or count != int(count) or count < 4 or (count >= 8 and count % 2):
+    whole = isinstance(count, (int, np.integer)) and not isinstance(count, (bool, np.bool_))
+    if not whole or count < 4 or (count >= 8 and count % 2):
         msg = (
             f"contact_points = {count!r}: give a whole number, 4 to 7 (one ring on the slider's "
             "edge) or an even one from 8 on (two rings, which act as a full disc)"

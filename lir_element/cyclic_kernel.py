@@ -26,18 +26,25 @@ def hold_load(
     """Find the vertical displacement ``u[8]`` that carries `load`; return a status code."""
     p = props[0]
     code = _NEWTON_FAILED
-    for _ in range(40):
+    low, high = -math.inf, math.inf  # places that carry too much, too little
+    for _ in range(60):
         code = bearing_trial(props, old, new, work, contacts, 0, u, v, time, zero)
         if has_no_state(code):
             return code
         excess = new[0].force[8] + load
         if abs(excess) <= 1e-9 * load:
             return new[0].status
+        if excess > 0.0:
+            high = min(high, u[8])
+        else:
+            low = max(low, u[8])
         bearing_tangent(props, new, work, contacts, 0, k, zero, axes)
         if k[8, 8] > 0.0:
             u[8] -= excess / k[8, 8]
         else:  # lifted off: close the gap
             u[8] -= (p.length - new[0].string) + load / p.axial_stiffness
+        if not low < u[8] < high and low < high and math.isfinite(high - low):
+            u[8] = 0.5 * (low + high)
     return _NEWTON_FAILED
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _MAX_ITERATIONS = 25
 _LARGEST_TURN = 0.1  # rad, of a body in one iteration
+_ROUND_OFF = 4e-16  # of lengths and turns
 
 
 @kernel
@@ -188,6 +189,18 @@ def predict(
 
 
 @kernel
+def small_enough(
+    p: Props, c: Sliders, mass: Floats, inertia: Floats, free: Words, touch: Records, dt: float
+) -> float:
+    """Return the residual to reach: that of the contacts, and round-off of the plate's inertia."""
+    own = 0.0
+    for a in range(3):
+        if free[15 + a] != 0:
+            own = max(own, inertia[2, a] / c.radius)
+    return tolerance(p, c, touch, dt) + _ROUND_OFF * (mass[2, 2] + 4.0 * own) / (dt * dt)
+
+
+@kernel
 def implicit_step(
     p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
     old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
@@ -202,7 +215,7 @@ def implicit_step(
     for _ in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return False
-        if size <= tolerance(p, c, touch_new, dt):
+        if size <= small_enough(p, c, mass, inertia, free, touch_new, dt):
             return True
         set_matrix(mass, inertia, free, w, setup, dt)
         for row in range(18):
@@ -226,10 +239,10 @@ def implicit_step(
                 p, c, points, mass, inertia, free, old, new, touch_old, touch_new, w, setup, dt,
                 ground, True,
             )  # fmt: skip
-            if size < before or size <= tolerance(p, c, touch_new, dt):
+            if size < before or size <= small_enough(p, c, mass, inertia, free, touch_new, dt):
                 break
             factor *= 0.35
-    return size <= tolerance(p, c, touch_new, dt)
+    return size <= small_enough(p, c, mass, inertia, free, touch_new, dt)
 
 
 @kernel

@@ -93,16 +93,16 @@ def friction_map(
     )
     cross = before_1 * dw_2 - before_2 * dw_1
     dot = before_1 * dw_1 + before_2 * dw_2
-    if share == 0.0 or slip == 0.0 or cross == 0.0 or not dot > 0.0:
+    if share == 0.0 or slip == 0.0 or not dot > 0.0:
         return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
     angle = math.atan2(cross, dot)
-    q = (angle / _BEND) ** 2
+    q = (angle / _BEND) ** 4
     if not q < 1.0:
         return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part
-    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
+    by_angle = share * part * (1.0 - q) * (1.0 - 9.0 * q) / square
     by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2

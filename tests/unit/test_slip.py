@@ -285,7 +285,7 @@ def test_derivative_half_a_step_ahead(
     assert_allclose(found, expected, rtol=0.0, atol=limit)
 
 
-@pytest.mark.parametrize("steps", [16, 64])  # a step of 20 and of 5 yield displacements
+@pytest.mark.parametrize("steps", [32, 128])  # a step of 16 and of 4 yield displacements
 def test_direction_on_a_circle(steps: int) -> None:
     """At the end of a step z has the direction that the rate law has then, on a circle too."""
     radius, turns = 0.02, 1.5
