@@ -182,7 +182,7 @@ def test_not_finite_input_is_refused_at_the_door(value):
 
 
 BAD = [
-    ({"level": "atomic"}, ValueError, r"level = 'atomic': choose one of \('pendulum',\)"),
+    ({"level": "atomic"}, ValueError, r"level = 'atomic': choose one of \('pendulum', 'contact'"),
     ({"method": "magic"}, ValueError, "method = 'magic': choose one of"),
     ({"integrator": "euler"}, ValueError, "integrator = 'euler': choose one of.*newmark"),
     ({"dt": 0.0}, ValueError, r"dt = 0 \[s\] must be positive"),
