@@ -1,0 +1,272 @@
+"""The sliders as bodies: mass, inertia and contact points from a bearing's geometry."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import dblquad, quad
+
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.contact_data import as_rows, contact_arrays
+from lir_element.sliders import (
+    half_slider,
+    initial_touches,
+    lower_height,
+    point_records,
+    ring_points,
+    slider_record,
+)
+
+OPTIONS: dict[str, Any] = {
+    "radius": (0.75, 1.1),
+    "slider_height": 0.11,
+    "slider_radius": 0.08,
+    "friction": CoulombFriction(0.05),
+    "interface_friction": 0.15,
+    "rims": (0.07, 0.11),
+}
+QUADRATURE = {"rtol": 1e-9, "atol": 0.0}  # scipy's own error lies near 1e-13
+
+
+def bearing(**changes: object) -> LIRBearing:
+    return LIRBearing(**(OPTIONS | changes))
+
+
+# ------------------------------------------------------------------------------- mass, inertia
+
+
+def test_flat_half_is_a_cylinder() -> None:
+    """Sphere of 1e5 m: cap of a^2 / 2R = 3e-8 m, 1e-6 of the height."""
+    a, h, rho = 0.08, 0.05, 7850.0
+    mass, centre, (across, along) = half_slider(a, 1e5, h, rho)
+    expected = rho * math.pi * a * a * h
+    assert_allclose(mass, expected, rtol=1e-6, atol=0.0)
+    assert_allclose(centre, 0.5 * h, rtol=1e-6, atol=0.0)
+    assert_allclose(along, 0.5 * expected * a * a, rtol=1e-6, atol=0.0)
+    assert_allclose(across, expected * (a * a / 4.0 + h * h / 12.0), rtol=1e-6, atol=0.0)
+
+
+@pytest.mark.parametrize("shape", [(0.08, 0.75, 0.05), (0.2, 0.25, 0.16), (0.05, 0.6, 0.12)])
+def test_half_against_integrals_over_its_slices(shape: tuple[float, float, float]) -> None:
+    """Discs at the height z above the vertex: sqrt(2 R z - z^2) in the cap, then the full radius.
+
+    The kernel of this integral (over z) is not that of the program (over the radius).
+    """
+    a, sphere, h = shape
+    rho = 7850.0
+    cap = sphere - math.sqrt(sphere**2 - a**2)
+
+    def square(z: float) -> float:
+        return min(2.0 * sphere * z - z * z, a * a)
+
+    def integral(power: int, moment: int) -> float:
+        return sum(
+            quad(lambda z: math.pi * rho * square(z) ** power * z**moment, *ends, epsrel=1e-12)[0]
+            for ends in ((0.0, cap), (cap, h))
+        )
+
+    mass, centre, (across, along) = half_slider(a, sphere, h, rho)
+    assert_allclose(mass, integral(1, 0), **QUADRATURE)
+    assert_allclose(centre, integral(1, 1) / mass, **QUADRATURE)
+    assert_allclose(along, 0.5 * integral(2, 0), **QUADRATURE)
+    about_vertex = 0.25 * integral(2, 0) + integral(1, 2)
+    assert_allclose(across, about_vertex - mass * centre**2, **QUADRATURE)
+
+
+def test_cap_alone_against_its_closed_form() -> None:
+    """A spherical cap of height h (nothing above its edge): volume pi h^2 (3 R - h) / 3."""
+    sphere, h = 0.25, 0.09
+    a = math.sqrt(2.0 * sphere * h - h * h)
+    mass, centre, (_, along) = half_slider(a, sphere, h, 1.0)
+    assert_allclose(mass, math.pi * h * h * (3.0 * sphere - h) / 3.0, rtol=1e-9, atol=0.0)
+    from_centre = 3.0 * (2.0 * sphere - h) ** 2 / (4.0 * (3.0 * sphere - h))
+    assert_allclose(centre, sphere - from_centre, rtol=1e-9, atol=0.0)
+    expected = dblquad(
+        lambda z, r: 2.0 * math.pi * r**3, 0.0, a, lambda r: sphere - math.sqrt(sphere**2 - r * r),
+        h, epsrel=1e-11,
+    )[0]  # fmt: skip
+    assert_allclose(along, expected, rtol=1e-8, atol=0.0)
+
+
+def test_record_of_the_sliders() -> None:
+    """Places: spheres' vertices on the plates, both planes at one height, nodes by thickness."""
+    b = bearing(plate_thickness=(0.03, 0.05), slider_density=5000.0)
+    c = slider_record(b, gravity=9.0)
+    first = b.radii[0]
+    place = c["place"][0, :, 2] + first  # above the bottom vertex
+    assert_allclose(place[[0, 3]], [-0.03, 0.11 + 0.05], rtol=1e-14, atol=0.0)
+    assert_allclose(place[1:3] + c["vertex"][0], [0.0, 0.11], rtol=0.0, atol=1e-15)
+    plane = place[1:3] + c["plane"][0]
+    assert_allclose(plane, lower_height(b), rtol=1e-14, atol=0.0)
+    edges = [r - math.sqrt(r * r - 0.08**2) for r in b.radii]
+    # both edges are equally high
+    assert_allclose(plane[0] - edges[0], 0.11 - edges[1] - plane[0], rtol=1e-12, atol=0.0)
+    for k, (sphere, height) in enumerate(zip(b.radii, (plane[0], 0.11 - plane[0]), strict=True)):
+        mass, centre, (across, along) = half_slider(0.08, sphere, height, 5000.0)
+        assert_allclose(c["mass"][0, k], mass, rtol=1e-14, atol=0.0)
+        assert_allclose(c["inertia"][0, k], [across, across, along], rtol=1e-14, atol=0.0)
+        from_vertex = abs(c["vertex"][0, k])
+        assert_allclose(from_vertex, centre, rtol=1e-12, atol=0.0)
+    # three interfaces in series have the bearing's own stiffness and damping
+    o = b.resolved()
+    assert_allclose(c["stiffness"][0] / 3.0, o["axial_stiffness"], rtol=1e-14, atol=0.0)
+    assert_allclose(c["damping"][0] / 3.0, o["axial_damping"], rtol=1e-14, atol=0.0)
+    assert c["gravity"][0] == 9.0
+    assert c["radius"][0] == 0.08
+
+
+def test_given_mass_and_inertia() -> None:
+    plain = slider_record(bearing())
+    by_mass = slider_record(bearing(slider_mass=(3.0, 5.0)))
+    assert_allclose(by_mass["mass"][0], [3.0, 5.0], rtol=1e-15, atol=0.0)
+    ratio = np.array([3.0, 5.0]) / plain["mass"][0]
+    expected = plain["inertia"][0] * ratio[:, None]
+    assert_allclose(by_mass["inertia"][0], expected, rtol=1e-14, atol=0.0)
+    assert_allclose(by_mass["place"], plain["place"], rtol=0.0, atol=0.0)
+    both = slider_record(bearing(slider_mass=4.0, slider_inertia=((0.1, 0.2), (0.3, 0.4))))
+    assert_allclose(both["mass"][0], [4.0, 4.0], rtol=1e-15, atol=0.0)
+    assert_allclose(both["inertia"][0], [[0.1, 0.1, 0.2], [0.3, 0.3, 0.4]], rtol=0.0, atol=0.0)
+    twice = slider_record(bearing(slider_density=2.0 * 7850.0))
+    assert_allclose(twice["mass"], 2.0 * plain["mass"], rtol=1e-14, atol=0.0)
+
+
+# ------------------------------------------------------------------------------- contact points
+
+
+@pytest.mark.parametrize("count", [4, 5, 6, 7, 8, 10, 12, 16])
+def test_points_of_an_interface(count: int) -> None:
+    """A full disc under uniform pressure: int r dA = 2/3 a A, int x^2 dA = a^2 / 4 A."""
+    a = 0.08
+    plan, share = ring_points(count, a)
+    assert plan.shape == (count, 2)
+    assert_allclose(share.sum(), 1.0, rtol=1e-14, atol=0.0)
+    assert (share > 0.0).all()
+    assert_allclose(share @ plan, 0.0, rtol=0.0, atol=1e-16)
+    assert_allclose(np.linalg.norm(plan, axis=1).max(), a, rtol=1e-14, atol=0.0)
+    second = np.einsum("k,ka,kb->ab", share, plan, plan)
+    lever = share @ np.linalg.norm(plan, axis=1)
+    # one ring on the edge: a^2 / 2 an axis, lever a
+    ring = count < 8
+    expected = a * a * (0.5 if ring else 0.25) * np.eye(2)
+    assert_allclose(second, expected, rtol=0.0, atol=1e-16)
+    assert_allclose(lever, a if ring else 2.0 / 3.0 * a, rtol=1e-14, atol=0.0)
+    if count % 4 == 0:  # also symmetric about the centre
+        for point in plan:
+            assert np.linalg.norm(plan + point, axis=1).min() < 1e-15
+    angles = np.sort(np.arctan2(plan[:, 1], plan[:, 0]) % (2.0 * math.pi))
+    assert_allclose(np.diff(angles), 2.0 * math.pi / count, rtol=1e-12, atol=0.0)
+    pairs = np.linalg.norm(plan[:, None] - plan[None], axis=2) + np.eye(count)
+    assert pairs.min() > 0.2 * a  # all distinct
+
+
+@pytest.mark.parametrize("count", [4, 7, 8, 12])
+def test_points_lie_on_the_surfaces(count: int) -> None:
+    """On the spheres of both plates, and on the plane, of the undeformed bearing."""
+    b = bearing(contact_points=count, plate_thickness=(0.02, 0.03))
+    points, c = point_records(b)[0], slider_record(b)[0]
+    assert len(points) == 3 * count
+    for pair, body in enumerate((1, 2, 2)):
+        chosen = points[points["pair"] == pair]
+        assert len(chosen) == count
+        assert_allclose(chosen["share"].sum(), 1.0, rtol=1e-14, atol=0.0)
+        place = chosen["arm"] + c["place"][body]  # from the bottom sphere's centre
+        if pair == 0:
+            assert_allclose(np.linalg.norm(place, axis=1), b.radii[0], rtol=1e-14, atol=0.0)
+            assert (place[:, 2] < 0.0).all()
+        elif pair == 2:
+            place[:, 2] += b.effective_radius
+            assert_allclose(np.linalg.norm(place, axis=1), b.radii[1], rtol=1e-14, atol=0.0)
+            assert (place[:, 2] > 0.0).all()
+        else:
+            assert_allclose(place[:, 2], c["place"][1, 2] + c["plane"][0], rtol=0.0, atol=1e-15)
+    touches = initial_touches(b, point_records(b))[0]
+    spots = touches["spot"]
+    assert_allclose(np.linalg.norm(spots[points["pair"] != 1], axis=1), 1.0, rtol=1e-14, atol=0.0)
+    assert (touches["closure"] == 0.0).all()
+    assert (touches["hysteresis"] == 0.0).all()
+
+
+def test_bundle_of_several_bearings() -> None:
+    """Chosen ones in order, padded with points that have no share; words share the memory."""
+    few, many, other = bearing(contact_points=4), bearing(contact_points=12), bearing()
+    bundle = contact_arrays([few, other, many], [True, False, True], 9.81)
+    assert bundle.place.tolist() == [0, -1, 1]
+    assert bundle.points.shape == (2, 36)
+    assert_allclose(bundle.points["share"][0, 12:], 0.0, rtol=0.0, atol=0.0)
+    assert_allclose(bundle.points["share"].sum(axis=1), [3.0, 3.0], rtol=1e-14, atol=0.0)
+    assert (bundle.points["arm"][0, 12:] == bundle.points["arm"][0, 0]).all()
+    assert (bundle.touch_old["spot"][0, 12:] == bundle.touch_old["spot"][0, 0]).all()
+    assert (bundle.sliders["gravity"] == 9.81).all()
+    bundle.bodies_old["place"][1, 0, 2] = 0.125
+    assert (as_rows(bundle.bodies_old) == bundle.bodies_old_words).all()
+    assert bundle.bodies_old_words[1].view(np.float64)[2] == 0.125
+
+
+# ------------------------------------------------------------------------------- what is refused
+
+
+def refused(error: type[Exception], *words: str, **changes: object) -> None:
+    with pytest.raises(error) as caught:
+        bearing(**changes)
+    for word in words:
+        assert word in str(caught.value), f"{word!r} is not in {caught.value}"
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
+def test_masses_and_inertias_are_positive(value: float) -> None:
+    for name, unit in (("slider_density", "kg/m3"), ("slider_mass", "kg")):
+        refused(ValueError, f"{name} = {value:g}", unit, "must be positive", **{name: value})
+    for place in range(2):
+        pair = [3.0, 3.0]
+        pair[place] = value
+        refused(ValueError, f"slider_mass = {value:g}", "positive", slider_mass=tuple(pair))
+        for inner in range(2):
+            inertia = [[0.1, 0.1], [0.1, 0.1]]
+            inertia[place][inner] = value
+            refused(ValueError, f"slider_inertia = {value:g}", "kg m2", slider_inertia=inertia)
+
+
+@pytest.mark.parametrize("value", ["7850", None, True, 1j])
+def test_density_is_a_number(value: object) -> None:
+    refused(TypeError, "slider_density", f"{value!r} is not a number", slider_density=value)
+
+
+@pytest.mark.parametrize(
+    "value", [(), ((0.1, 0.2),), ((0.1, 0.2, 0.3), (0.1, 0.2, 0.3)), ((0.1,), (0.2,))]
+)
+def test_inertia_is_two_pairs(value: object) -> None:
+    refused(ValueError, "slider_inertia has shape", "two pairs", "kg m2", slider_inertia=value)
+
+
+@pytest.mark.parametrize("value", [0.1, (0.1, 0.2), "none", [[0.1, "x"], [0.1, 0.1]]])
+def test_inertia_of_the_wrong_kind_is_named(value: object) -> None:
+    with pytest.raises((TypeError, ValueError), match="slider_inertia"):
+        bearing(slider_inertia=value)
+
+
+@pytest.mark.parametrize("count", [0, 2])
+def test_mass_has_two_entries(count: int) -> None:
+    value = (3.0,) * (count + 1)
+    refused(ValueError, f"slider_mass has {count + 1} entries", slider_mass=value)
+
+
+@pytest.mark.parametrize("count", [3, 0, -8, 9, 11, 4.5, True])
+def test_number_of_points(count: object) -> None:
+    refused(ValueError, f"contact_points = {count!r}", "4 to 7", "even", contact_points=count)
+
+
+@pytest.mark.parametrize("count", [math.nan, math.inf, "8", None, (8, 8)])
+def test_number_of_points_of_the_wrong_kind_is_named(count: object) -> None:
+    with pytest.raises((TypeError, ValueError), match="contact_points"):
+        bearing(contact_points=count)
+
+
+def test_options_survive_as_dcfp() -> None:
+    b = bearing(contact_points=12, slider_mass=3.0, slider_inertia=[[0.1, 0.2], [0.1, 0.2]])
+    other = b.as_dcfp()
+    assert other.contact_points == 12
+    assert other.slider_mass == 3.0
+    assert b.slider_inertia == ((0.1, 0.2), (0.1, 0.2))
+    assert hash(b) != hash(other)
