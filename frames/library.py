@@ -75,7 +75,7 @@ def lumped_mass(
         frame.add_mass("mass", checked)
     else:
         moments = [positive(value, "lumped_mass: inertia [kg m2]") for value in inertia]
-        frame.add_mass("mass", [checked] * 3 + moments)
+        frame.add_mass("mass", checked, moments)
     frame.add_bearing("bearing", "ground", "mass", bearing)
     return frame
 

@@ -130,7 +130,7 @@ def gravity(
     )
 
 
-def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
+def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
     """Look up the level of each bearing.
 
     Parameters
@@ -149,6 +149,8 @@ def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[st
     ------
     ValueError
         If a level or the name of a bearing is unknown.
+    TypeError
+        If `level` is neither a name nor a mapping.
     """
     if isinstance(level, str) and level not in LEVELS:
         msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
@@ -216,9 +218,19 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
 
 
 def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
-    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways.
+    """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
 
-    Those named in `with_points` have contact points, which resist the rotation of their plates.
+    Parameters
+    ----------
+    system : System
+        The frame.
+    with_points : collection of str
+        Bearings with contact points, which resist the rotation of their plates.
+
+    Returns
+    -------
+    csr_array, (n_free, n_free)
+        Their stiffness.
     """
     values = np.zeros((len(system.bearings), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]

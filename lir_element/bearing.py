@@ -130,10 +130,11 @@ class LIRBearing:
     def __post_init__(self) -> None:
         for name in ("radius", "friction", "plate_thickness", "rims", "slider_mass"):
             object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
-        if isinstance(self.slider_inertia, (tuple, list, np.ndarray)):
+        inertia: object = self.slider_inertia
+        if isinstance(inertia, (tuple, list, np.ndarray)):
             pairs = tuple(
                 tuple(map(float, pair)) if isinstance(pair, (tuple, list, np.ndarray)) else pair
-                for pair in self.slider_inertia
+                for pair in inertia
             )
             object.__setattr__(self, "slider_inertia", pairs)
         check_bearing(self)

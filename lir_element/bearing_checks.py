@@ -70,7 +70,7 @@ def _check_sliders(bearing: LIRBearing) -> None:
     for mass in as_pair("slider_mass", bearing.slider_mass):
         if mass is not None:
             require_positive("slider_mass", mass, "kg")
-    inertia = bearing.slider_inertia
+    inertia: object = bearing.slider_inertia
     if inertia is not None:
         pairs = inertia if isinstance(inertia, tuple) else ()
         if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
@@ -79,13 +79,14 @@ def _check_sliders(bearing: LIRBearing) -> None:
                 "the bottom and of the top slider"
             )
             raise ValueError(msg)
-        for value in (number for pair in inertia for number in pair):
+        for value in (number for pair in pairs for number in pair):
             require_positive("slider_inertia", value, "kg m2")
-    count = bearing.contact_points
-    whole = isinstance(count, (int, np.integer)) and not isinstance(count, (bool, np.bool_))
-    if not whole or count < 4 or (count >= 8 and count % 2):
+    given: object = bearing.contact_points
+    whole = isinstance(given, (int, np.integer)) and not isinstance(given, (bool, np.bool_))
+    count = int(bearing.contact_points) if whole else 0
+    if count < 4 or (count >= 8 and count % 2):
         msg = (
-            f"contact_points = {count!r}: give a whole number, 4 to 7 (one ring on the slider's "
+            f"contact_points = {given!r}: give a whole number, 4 to 7 (one ring on the slider's "
             "edge) or an even one from 8 on (two rings, which act as a full disc)"
         )
         raise ValueError(msg)
