@@ -213,8 +213,8 @@ def _remedy(system: System, node: str, dof: str) -> str:
     ends = {system.node_names[end] for _, i, j, _ in system.bearings for end in (i, j)}
     if node in ends and dof.startswith("r"):
         advice += (
-            "; a bearing does not restrain the rotation of its plates: join the nodes above the "
-            "bearings by base beams"
+            "; at this level a bearing does not restrain the rotation of its plates: join the "
+            "nodes above the bearings by base beams"
         )
     return advice
 

@@ -16,6 +16,7 @@ from frames.kernel_data import Setup, output_arrays
 from frames.results import build_dataset, peak_velocity
 from frames.rigid import LARGEST_STEP, Outcome, rigid_time_history
 from frames.scene import exact_features, plane_coupling
+from frames.shaking import seen_by_steps
 from frames.static import force_tolerance, gravity
 from lir_element.element import ALL_LEVELS, limit_detail
 from lir_element.errors import RunStatus
@@ -311,13 +312,13 @@ def _march(
 ) -> tuple[int, int]:
     # Run the compiled loop in chunks; returns the status code and the base steps completed.
     run, every, progress = state.run, options.record_every, options.progress
-    components = np.ascontiguousarray(motion.components)
+    components, spacing = seen_by_steps(motion, settings.dt)
     record(run, state.contacts, out, 0)
     chunk = steps if progress is None else max(1, -(-steps // _CHUNKS))
     for first in range(0, steps, chunk):
         last = min(first + chunk, steps)
         code = advance(
-            state.model, run, state.contacts, settings, components, float(motion.dt), out, first,
+            state.model, run, state.contacts, settings, components, spacing, out, first,
             last, every,
         )  # fmt: skip
         if code != int(RunStatus.OK):

@@ -133,7 +133,7 @@ class LIRBearing:
         inertia: object = self.slider_inertia
         if isinstance(inertia, (tuple, list, np.ndarray)):
             pairs = tuple(
-                tuple(map(float, pair)) if isinstance(pair, (tuple, list, np.ndarray)) else pair
+                tuple(pair) if isinstance(pair, (tuple, list, np.ndarray)) else pair
                 for pair in inertia
             )
             object.__setattr__(self, "slider_inertia", pairs)

@@ -36,11 +36,12 @@ _NOT_FINITE = int(RunStatus.NOT_FINITE)
 _NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _MAX_ITERATIONS = 40
+_PATIENCE = 10  # iterations in which the residual must halve
 _TOLERANCE = 1e-10  # of the normal forces
 _HOLD = 1e-10  # of the contact stiffness, in static states
 _ROUND_OFF = 4e-16  # of lengths
 _LARGEST_TURN = 0.1  # rad, of a slider in one iteration
-_SMALLEST_COSINE = 0.3  # of a slider's tilt
+SMALLEST_COSINE = 0.3  # of a slider's tilt
 
 
 @kernel
@@ -264,9 +265,14 @@ def settle(
 ) -> int:  # fmt: skip
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
     size = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+    mark = size
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return -1
+        if count > 0 and count % _PATIENCE == 0:  # a smaller step will do better
+            if size > 0.5 * mark:
+                return -1
+            mark = size
         if size <= tolerance(p, c, touch_new, dt):
             return count
         set_system(c, old, new, w, dt)
@@ -332,7 +338,7 @@ def contact_trial(
     new.time, new.step = time, dt
     new.iterations = count
     status = limit_status(p, new)
-    if min(w.q[1][2, 2], w.q[2][2, 2]) < _SMALLEST_COSINE:
+    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
         status = _SPHERE_EXCEEDED
     if count < 0:
         status = _NO_EQUILIBRIUM

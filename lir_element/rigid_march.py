@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.condensed import SMALLEST_COSINE
 from lir_element.contact_pairs import place_bodies, press, turn_between
 from lir_element.contact_state import contact_accumulate, fill_state
 from lir_element.errors import RunStatus
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 
 
 @kernel
@@ -105,6 +107,8 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
     e_new[0], e_new[1] = e_old[0] + supplied, e_old[1] + lifted
     e_new[3] = e_old[3] + supplied - lifted - bearing - (e_new[2] - e_old[2])
     new.status = limit_status(run.props[0], new)
+    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
+        new.status = _SPHERE_EXCEEDED
     for k in range(12):
         if not math.isfinite(new.force[k]):
             new.status = _NOT_FINITE

@@ -16,7 +16,7 @@ import math
 
 from lir_element._jit import kernel
 
-_BEND = 0.6  # rad a step, beyond which a path is too coarse to tell where it is bound for
+_BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
 
 
 @kernel
@@ -96,13 +96,13 @@ def friction_map(
     if share == 0.0 or slip == 0.0 or not dot > 0.0:
         return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
     angle = math.atan2(cross, dot)
-    q = (angle / _BEND) ** 4
+    q = (angle / _BEND) ** 2
     if not q < 1.0:
         return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part
-    by_angle = share * part * (1.0 - q) * (1.0 - 9.0 * q) / square
+    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
     by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2

@@ -16,13 +16,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames import GroundMotion, energy_error, lumped_mass, time_history
+from frames.plot_style import PALETTE, caption, grid_of, new_figure
 from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
 from validation.page import Check, Claim, Page, below, run, table
+from validation.page import figure as reference
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     import xarray as xr
+    from matplotlib.figure import Figure
 
 CLAIM = Claim(
     "convergence",
@@ -110,6 +113,30 @@ def spread(rows: list[Row]) -> float:
     return 100.0 * (max(peaks) - min(peaks)) / min(peaks)
 
 
+def draw(steps: list[Row], stiffness: list[Row], points: list[Row]) -> Figure:
+    """Draw the peak displacement over what is refined."""
+    drawn = new_figure(2.6)
+    panels = grid_of(drawn, 1, 3)[0]
+    implicit, exact = steps[: len(TOLERANCES)], steps[-1]
+    for panel, values, rows, name in (
+        (panels[0], TOLERANCES, implicit, "tolerance of a step [-]"),
+        (panels[1], STIFFNESSES, stiffness, "contact stiffness / default [-]"),
+        (panels[2], POINTS, points, "contact points an interface"),
+    ):
+        panel.axhspan(1e3 * exact.peak * 0.999, 1e3 * exact.peak * 1.001, color="0.93", zorder=0)
+        panel.axhline(1e3 * exact.peak, color=PALETTE[1], linewidth=0.9)
+        panel.semilogx(values, [1e3 * row.peak for row in rows], color=PALETTE[0], marker="o",
+                       markersize=4)  # fmt: skip
+        panel.set_ylim(1e3 * exact.peak * 0.997, 1e3 * exact.peak * 1.003)
+        caption(panel, x=name)
+    caption(panels[0], y="peak displacement [mm]")
+    panels[0].invert_xaxis()
+    panels[2].set_xticks(POINTS, labels=[str(count) for count in POINTS])
+    panels[2].minorticks_off()
+    drawn.suptitle("Points: implicit; line: explicit; band: ± 0.1 % of it", fontsize=9)
+    return drawn
+
+
 def page(folder: Path | None) -> Page:
     """Make the page."""
     if folder is None:
@@ -138,6 +165,7 @@ def page(folder: Path | None) -> Page:
         f"Newhall 360, first {DURATION:g} s; the peak lies at 4.3 s. All rows but those of the "
         "first table have the default tolerance of 1e-8. 'numerical' is the work that the time "
         "integration leaves over, the ledger what no term accounts for.",
+        reference(CLAIM, "peaks", "Peak displacement over step, contact stiffness and points"),
         "## Step\n\n" + table(HEAD, [row.cells() for row in steps]),
         "Each implicit step is taken once whole and once in two halves; the tolerance bounds the "
         "difference, over the effective radius. The explicit method (semi-implicit Euler) shares "
@@ -150,7 +178,7 @@ def page(folder: Path | None) -> Page:
         "Points an interface: 4 and 6 on one ring at the slider's edge, from 8 on two rings, which "
         "have the area, torque and rocking stiffness of a full disc.",
     ]
-    return Page(CLAIM, result, checks, parts, {})
+    return Page(CLAIM, result, checks, parts, {"peaks": draw(steps, stiffness, points)})
 
 
 if __name__ == "__main__":

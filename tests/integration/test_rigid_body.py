@@ -51,7 +51,7 @@ def rigid(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
 def test_gravity_carries_the_sliders(masses: tuple[float, float] | None) -> None:
     """On the top plate the weight W of the mass; under the bottom one W and both sliders."""
     device = bearing(slider_mass=masses)
-    state = gravity(lumped_mass(device, MASS), "contact")
+    state = gravity(lumped_mass(device, MASS), level="contact")
     force = state.run.old["force"][0]
     own = slider_record(device)["mass"][0].sum() * G
     assert_allclose(force[8], -MASS * G, rtol=1e-8, atol=0.0)
@@ -65,7 +65,7 @@ def test_gravity_carries_the_sliders(masses: tuple[float, float] | None) -> None
 
 def test_gravity_is_the_same_at_both_levels() -> None:
     model = lumped_mass(bearing(), MASS)
-    one, two = gravity(model), gravity(model, {"bearing": "contact"})
+    one, two = gravity(model), gravity(model, level={"bearing": "contact"})
     assert one.contacts is None
     assert two.contacts is not None
     # the axis' contact is shared by points inclined by up to a / R
@@ -252,7 +252,7 @@ def tilting(inertia: float, push: np.ndarray, dt: float) -> tuple[Any, Any, Any,
 
     `push` (n,) acts on its node along x [N], a sample every `dt`.
     """
-    state = gravity(lumped_mass(bearing(), MASS), "contact")
+    state = gravity(lumped_mass(bearing(), MASS), level="contact")
     assert state.contacts is not None
     free = np.array([1, 1, 1, 1, 1, 0])
     run = rigid_run(
@@ -297,7 +297,7 @@ def test_plate_that_may_tilt() -> None:
 
 def test_spinning_plate_in_flight() -> None:
     """Lifted off by a push from below it turns freely: momentum and spin stay what they are."""
-    state = gravity(lumped_mass(bearing(), MASS), "contact")
+    state = gravity(lumped_mass(bearing(), MASS), level="contact")
     assert state.contacts is not None
     inertia = np.array([10.0, 20.0, 26.0])
     run = rigid_run(
