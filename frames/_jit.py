@@ -8,3 +8,6 @@ import lir_element
 from lir_element._jit import kernels_of
 
 kernel = kernels_of(Path(lir_element.__file__).parent, Path(__file__).parent)
+
+inlined = kernels_of(Path(lir_element.__file__).parent, Path(__file__).parent, inline=True)
+"""The same for kernels that become part of their callers (see `kernels_of`)."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import kernel
+from frames._jit import inlined, kernel
 from frames.kernel_data import MAX_LEVEL
 from frames.ledger import add_bearing_energy, add_energy
 from frames.stepping import commit_bearings, gather, newton
@@ -37,7 +37,7 @@ def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
         out[a] += factor * total
 
 
-@kernel
+@inlined
 def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
     """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
     c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
@@ -70,7 +70,7 @@ def reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: f
     return out
 
 
-@kernel
+@inlined
 def set_load(
     model: Model,
     run: Run,
@@ -118,7 +118,7 @@ def set_load(
     times(model.mass_be, run.h_e, -c_m, run.rhs_b)
 
 
-@kernel
+@inlined
 def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     beta, gamma = settings.beta, settings.gamma
@@ -141,7 +141,7 @@ def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
         run.v_b_new[a] = run.v_b[a] + dt * ((1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a])
 
 
-@kernel
+@inlined
 def try_step(
     model: Model,
     run: Run,
@@ -168,7 +168,7 @@ def try_step(
     return _OK
 
 
-@kernel
+@inlined
 def estimated_error(model: Model, run: Run, dt: float) -> float:
     """Return the estimated error of the step in the bearings' horizontal displacement."""
     for a in range(run.b.shape[0]):
@@ -180,7 +180,7 @@ def estimated_error(model: Model, run: Run, dt: float) -> float:
     return dt * dt / 12.0 * largest
 
 
-@kernel
+@inlined
 def is_rough(model: Model, run: Run, contacts: Contacts | None, settings: Setup, dt: float) -> bool:
     """Return whether the step deserves to be halved, though it converged.
 
@@ -196,7 +196,7 @@ def is_rough(model: Model, run: Run, contacts: Contacts | None, settings: Setup,
     return estimated_error(model, run, dt) > settings.error_tolerance
 
 
-@kernel
+@inlined
 def limits(run: Run) -> int:
     """Return the status of the bearings' limits in the trial state."""
     for k in range(run.new.shape[0]):
@@ -206,7 +206,7 @@ def limits(run: Run) -> int:
     return _OK
 
 
-@kernel
+@inlined
 def accept_step(
     model: Model, run: Run, contacts: Contacts | None, motion: Floats, motion_dt: float,
     time: float, dt: float,
@@ -224,7 +224,7 @@ def accept_step(
     run.counters[0] += 1
 
 
-@kernel
+@inlined
 def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None:
     """Copy the committed state into the output arrays."""
     out.time[place] = run.clock[0]

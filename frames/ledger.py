@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import kernel
+from frames._jit import inlined, kernel
 from lir_element.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@kernel
+@inlined
 def quadratic(mass: Floats, coupling: Floats, x: Floats, y: Floats, unit: float) -> float:
     """Return ``x' mass x + 2 x' coupling y + unit y' y`` halved."""
     total = 0.0
@@ -32,7 +32,7 @@ def quadratic(mass: Floats, coupling: Floats, x: Floats, y: Floats, unit: float)
     return 0.5 * total
 
 
-@kernel
+@inlined
 def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
     """Return the strain energy of the structure, geometric part included."""
     total = 0.0
@@ -46,7 +46,7 @@ def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
     return 0.5 * total
 
 
-@kernel
+@inlined
 def add_energy(
     model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
 ) -> None:
@@ -86,7 +86,7 @@ def add_energy(
     energy[4] += damped
 
 
-@kernel
+@inlined
 def add_bearing_energy(run: Run) -> None:
     """Set the bearings' terms of the energy from their accumulated works."""
     for term in range(5, 12):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import kernel
+from frames._jit import inlined, kernel
 from lir_element.errors import RunStatus
 from lir_element.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.pendulum_trial import has_no_state
@@ -25,7 +25,7 @@ _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 _SINGULAR = int(RunStatus.SINGULAR)
 
 
-@kernel
+@inlined
 def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
     """Set `out` (12,) to the displacements (or velocities) of bearing `k`'s nodes."""
     for row in range(12):
@@ -35,7 +35,7 @@ def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
         out[row] = total
 
 
-@kernel
+@inlined
 def bearing_forces(
     model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats, time: float
 ) -> int:
@@ -62,7 +62,7 @@ def bearing_forces(
     return worst
 
 
-@kernel
+@inlined
 def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
     """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
     for k in range(model.props.shape[0]):
@@ -121,7 +121,7 @@ def norm(x: Floats) -> float:
     return largest
 
 
-@kernel
+@inlined
 def set_residual(
     model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, time: float,
     share: float,
@@ -147,7 +147,7 @@ def set_residual(
     return norm(run.residual)
 
 
-@kernel
+@inlined
 def newton(
     model: Model,
     run: Run,
@@ -230,7 +230,7 @@ def solve_gravity(
     return _OK
 
 
-@kernel
+@inlined
 def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):

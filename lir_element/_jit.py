@@ -45,15 +45,21 @@ def cache_folder(*folders: Path) -> Path:
     return Path(base) / source_hash(*folders)
 
 
-def kernels_of(*folders: Path) -> KernelDecorator:
-    """Return a decorator that compiles kernels of the packages in `folders`."""
+def kernels_of(*folders: Path, inline: bool = False) -> KernelDecorator:
+    """Return a decorator that compiles kernels of the packages in `folders`.
+
+    With `inline` a kernel becomes part of those that call it: for kernels that pass bundles of many
+    arrays on, whose every call would otherwise cost as much as a small kernel's work.
+    """
     target = str(cache_folder(*folders))
 
     def decorate(function: F) -> F:
         kept = config.CACHE_DIR
         config.CACHE_DIR = target
         try:
-            compiled: F = numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+            compiled: F = numba.njit(
+                cache=True, error_model="numpy", nogil=True, forceinline=inline
+            )(function)
         finally:
             config.CACHE_DIR = kept
         return compiled
