@@ -269,7 +269,7 @@ def settle(
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return -1
-        if count > 0 and count % _PATIENCE == 0:  # a smaller step will do better
+        if dt > 0.0 and count > 0 and count % _PATIENCE == 0:  # a smaller step does better
             if size > 0.5 * mark:
                 return -1
             mark = size

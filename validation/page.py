@@ -222,8 +222,8 @@ def index(folder: Path = FOLDER) -> str:
         "this repository.",
         head + "\n" + "\n".join(rows),
         "Besides: [speed_error.md](speed_error.md), error over cost of every level and step in "
-        "nine scenes (`python -m validation.speed_error`), and [hard_cases.md](hard_cases.md), what is "
-        "hard to compute (`python -m validation.hard_cases`).",
+        "nine scenes (`python -m validation.speed_error`), and [hard_cases.md](hard_cases.md), "
+        "what is hard to compute (`python -m validation.hard_cases`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "

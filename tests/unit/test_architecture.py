@@ -55,7 +55,9 @@ def functions(tree: ast.AST) -> list[ast.FunctionDef]:
 
 
 def is_kernel(function: ast.FunctionDef) -> bool:
-    return any(isinstance(d, ast.Name) and d.id == "kernel" for d in function.decorator_list)
+    return any(
+        isinstance(d, ast.Name) and d.id in {"kernel", "inlined"} for d in function.decorator_list
+    )
 
 
 def test_there_is_something_to_check() -> None:

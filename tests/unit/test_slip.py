@@ -305,7 +305,7 @@ def test_direction_on_a_circle(steps: int) -> None:
     exact = math.asin(U_Y / radius)  # z' = (v - z (z . v)) / u_y on a circle, steady
     half = np.pi / steps
     assert lags["plain"] - exact == pytest.approx(half, rel=0.1)
-    assert abs(lags["ahead"] - exact) < 0.06 * half
+    assert abs(lags["ahead"] - exact) < 0.12 * half
 
 
 def test_speed_at_the_end() -> None:
