@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import inlined
 from lir_element.sampling import ground_acceleration
 
 if TYPE_CHECKING:

@@ -46,10 +46,20 @@ def cache_folder(*folders: Path) -> Path:
 
 
 def kernels_of(*folders: Path, inline: bool = False) -> KernelDecorator:
-    """Return a decorator that compiles kernels of the packages in `folders`.
+    """Make a decorator that compiles kernels of the packages in `folders`.
 
-    With `inline` a kernel becomes part of those that call it: for kernels that pass bundles of many
-    arrays on, whose every call would otherwise cost as much as a small kernel's work.
+    Parameters
+    ----------
+    *folders : Path
+        Packages whose sources the cache depends on.
+    inline : bool
+        Whether a kernel becomes part of those that call it: for kernels that pass bundles of many
+        arrays on, whose every call would otherwise cost as much as a small kernel's work.
+
+    Returns
+    -------
+    KernelDecorator
+        The decorator.
     """
     target = str(cache_folder(*folders))
 
