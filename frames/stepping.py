@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined, kernel
 from lir_element.errors import RunStatus
 from lir_element.levels import bearing_commit, bearing_tangent, bearing_trial
+from lir_element.linear import solve_many
 from lir_element.pendulum_trial import has_no_state
 
 if TYPE_CHECKING:
@@ -74,40 +75,6 @@ def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: 
                     value = factor * model.values[i] * element[row, col]
                     for j in range(model.start[k, col], model.start[k, col + 1]):
                         run.tangent[model.columns[i], model.columns[j]] += value * model.values[j]
-
-
-@kernel
-def solve_in_place(a: Floats, x: Floats) -> bool:
-    """Solve ``a x = rhs`` (rhs in `x`) by Gaussian elimination; returns False if singular.
-
-    Rows are pivoted; `a` is overwritten.
-    """
-    n = x.shape[0]
-    for col in range(n):
-        pivot = col
-        largest = abs(a[col, col])
-        for row in range(col + 1, n):
-            if abs(a[row, col]) > largest:
-                pivot, largest = row, abs(a[row, col])
-        if not largest > 0.0:
-            return False
-        if pivot != col:
-            for k in range(col, n):
-                a[col, k], a[pivot, k] = a[pivot, k], a[col, k]
-            x[col], x[pivot] = x[pivot], x[col]
-        inv = 1.0 / a[col, col]
-        for row in range(col + 1, n):
-            factor = a[row, col] * inv
-            if factor != 0.0:
-                for k in range(col + 1, n):
-                    a[row, k] -= factor * a[col, k]
-                x[row] -= factor * x[col]
-    for row in range(n - 1, -1, -1):
-        total = x[row]
-        for k in range(row + 1, n):
-            total -= a[row, k] * x[k]
-        x[row] = total / a[row, row]
-    return True
 
 
 @kernel
@@ -179,7 +146,7 @@ def newton(
             for c in range(n_b):
                 run.tangent[a, c] = linear[a, c]
         bearing_tangents(model, run, contacts, share)
-        if not solve_in_place(run.tangent, run.h_b):
+        if not solve_many(run.tangent, run.h_b.reshape((n_b, 1)), n_b, 1):
             return _SINGULAR
         factor = 1.0
         for attempt in range(6):
