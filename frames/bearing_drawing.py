@@ -66,6 +66,8 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
         end = int(np.argmax(slip)) if slip.max() > 1e-3 else int(np.argmax(size))
         start = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
         rise = start
+        while rise > 0 and size[rise - 1] > size[rise]:  # already on the way back: to the turn
+            rise -= 1
         while rise > 0 and size[rise - 1] <= size[rise]:  # back to the first touch of this way out
             rise -= 1
             start = rise if force[rise] > 0.0 else start
@@ -163,7 +165,7 @@ def bearing_sections(
         for body, label in zip(BODIES, names, strict=False)
     ]  # fmt: skip
     angle = math.degrees(math.atan2(plane[1], plane[0])) % 360.0
-    heading = f"{name}, to scale: vertical section at {angle:.0f}° from x"
+    heading = f"{name}, to scale: vertical section at {round(angle) % 360}° from x"
     add_legend(figure, handles, title=heading)
     return figure
 

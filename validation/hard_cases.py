@@ -79,6 +79,7 @@ def outcome(case: str, level: str, dt: float, data: xr.Dataset) -> Outcome:
     finite = all(
         np.isfinite(values.to_numpy()).all()
         for name, values in data.items()
+        if "time" in values.dims or "step" in values.dims  # a device without a rim has one at inf
         if not str(name).startswith("body")
     )
     axial = data["axial_force"].to_numpy()
