@@ -239,7 +239,6 @@ SCRATCH_FIELDS = (
     Field("try_shift", "m", "", "the same before a step of Newton's method", (9,)),
     Field("try_place", "m", "", "places before a step", (3, 3)),
     Field("try_turn", "-", "", "rotations before a step", (3, 4)),
-    Field("quaternion", "-", "", "spare", (4,)),
     Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", (3, 3)),
     Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", (3, 3)),
     Field("spare_matrix", "", "", "spare", (3, 3)),

@@ -12,9 +12,10 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.condensed import momentum, tolerance
+from lir_element.condensed import tolerance
 from lir_element.contact_pairs import OWN, matrix_of, place_bodies, press, turn_between, turn_by
 from lir_element.linear import solve_many
+from lir_element.slider_motion import momentum
 
 if TYPE_CHECKING:
     from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders, Words
@@ -23,20 +24,6 @@ if TYPE_CHECKING:
 _MAX_ITERATIONS = 25
 _LARGEST_TURN = 0.1  # rad, of a body in one iteration
 _ROUND_OFF = 4e-16  # of lengths and turns
-
-
-@kernel
-def copy_bodies(source: Bodies, target: Bodies) -> None:
-    """Copy the motion of all bodies (not their forces)."""
-    for k in range(3):
-        for a in range(3):
-            target.place[k, a] = source.place[k, a]
-            target.velocity[k, a] = source.velocity[k, a]
-            target.spin[k, a] = source.spin[k, a]
-            target.acceleration[k, a] = source.acceleration[k, a]
-            target.spin_rate[k, a] = source.spin_rate[k, a]
-        for a in range(4):
-            target.turn[k, a] = source.turn[k, a]
 
 
 @kernel

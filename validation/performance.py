@@ -24,12 +24,11 @@ import numpy as np
 from frames import GroundMotion, gravity, lumped_mass, moment_frame, time_history
 from frames._jit import kernel
 from lir_element import LIRBearing
-from lir_element.contact_data import as_rows
-from lir_element.element import initial_state
+from lir_element.bearing import STANDARD_GRAVITY
+from lir_element.contact_data import Contacts, as_rows, contact_arrays
+from lir_element.element import Level, initial_state
 from lir_element.layout import WORK, Floats, Records, Words
-from lir_element.pendulum_nodes import fill_tangent
-from lir_element.pendulum_trial import copy_words, trial
-from lir_element.pendulum_work import accumulate
+from lir_element.levels import bearing_commit, bearing_tangent, bearing_trial
 from validation.cases import example_bearing
 
 REPEATS = 9
@@ -49,19 +48,19 @@ HISTORY = START + (
 
 @kernel
 def repeat_element(
-    props: Records, states: Records, words: Words, work: Records, path: Floats, dt: float,
-    with_tangent: bool, k: Floats, zero: Floats, axes: Floats,
+    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
+    contacts: Contacts | None, path: Floats, dt: float, with_tangent: bool, k: Floats,
+    zero: Floats, axes: Floats,
 ) -> int:  # fmt: skip
     """Run trial (, tangent) and commit along `path` (n, 12); returns the iterations inside."""
     v = np.zeros(12)
     total = 0
     for step in range(path.shape[0]):
-        trial(props[0], states[0], states[1], work[0], path[step], v, (step + 1) * dt, zero)
+        bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt, zero)
         if with_tangent:
-            fill_tangent(props[0], work[0], states[1].force, k, zero, axes)
-        accumulate(props[0], states[0], states[1])
-        copy_words(words[1], words[0])
-        total += states[0].iterations
+            bearing_tangent(props, new, work, contacts, 0, k, zero, axes)
+        bearing_commit(props, old, new, old_words, new_words, contacts, 0)
+        total += old[0].iterations
     return total
 
 
@@ -79,18 +78,21 @@ def element_path(bearing: LIRBearing, count: int, reach: float) -> Floats:
 
 
 def element_microseconds(
-    bearing: LIRBearing, reach: float, *, tangent: bool
+    bearing: LIRBearing, reach: float, level: Level, *, tangent: bool
 ) -> tuple[float, float]:
     """Return microseconds and inner iterations a state determination, medians."""
-    path = element_path(bearing, 20000, reach)
+    path = element_path(bearing, 20000 if level == "pendulum" else 4000, reach)
     props = bearing.to_record()
     times, iterations = [], 0
     for _ in range(REPEATS):
-        states = np.concatenate([initial_state(props), initial_state(props)])
+        old, new = initial_state(props), initial_state(props)
+        contacts = None
+        if level == "contact":
+            contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
         began = time.perf_counter()
         iterations = repeat_element(
-            props, states, as_rows(states), np.zeros(1, dtype=WORK), path, 0.001, tangent,
-            np.zeros((12, 12)), np.zeros(3), np.eye(3),
+            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
+            0.001, tangent, np.zeros((12, 12)), np.zeros(3), np.eye(3),
         )  # fmt: skip
         times.append((time.perf_counter() - began) / len(path) * 1e6)
     return statistics.median(times[1:]), iterations / len(path)
@@ -143,15 +145,22 @@ def compile_rows() -> list[str]:
 def element_rows() -> list[str]:
     """Measure the element's state determination."""
     rows = []
-    for name, bearing, reach in (
-        ("LIR-DCFP, sliding", example_bearing(), 0.2),
-        ("LIR-DCFP, rim contact and interface slip", example_bearing(slip_capacity=1.0), 0.3),
-        ("LIR-DCFP, Bouc-Wen friction, sliding", example_bearing(friction_law="bouc-wen"), 0.2),
-        ("DCFP, sliding", example_bearing().as_dcfp(), 0.2),
-    ):
-        with_tangent, iterations = element_microseconds(bearing, reach, tangent=True)
-        alone, _ = element_microseconds(bearing, reach, tangent=False)
-        rows.append(f"| {name} | {alone:.2f} | {with_tangent:.2f} | {iterations:.1f} |")
+    example = example_bearing(slip_capacity=1.0)
+    cases: list[tuple[str, LIRBearing, float, Level]] = [
+        ("LIR-DCFP, sliding", example_bearing(), 0.2, "pendulum"),
+        ("LIR-DCFP, rim contact and interface slip", example, 0.3, "pendulum"),
+        ("LIR-DCFP, Bouc-Wen friction, sliding", example_bearing(friction_law="bouc-wen"), 0.2,
+         "pendulum"),
+        ("DCFP, sliding", example_bearing().as_dcfp(), 0.2, "pendulum"),
+        ("LIR-DCFP, sliding", example_bearing(), 0.2, "contact"),
+        ("the same, 4 contact points an interface", example_bearing(contact_points=4), 0.2,
+         "contact"),
+        ("LIR-DCFP, rim contact and interface slip", example, 0.3, "contact"),
+    ]  # fmt: skip
+    for name, bearing, reach, level in cases:
+        with_tangent, iterations = element_microseconds(bearing, reach, level, tangent=True)
+        alone, _ = element_microseconds(bearing, reach, level, tangent=False)
+        rows.append(f"| {level} | {name} | {alone:.2f} | {with_tangent:.2f} | {iterations:.1f} |")
     return rows
 
 
@@ -186,11 +195,11 @@ def write() -> str:
         "",
         "## Element",
         "",
-        "Microseconds a state determination at the level 'pendulum' (20 000 steps along an orbit "
-        "with tilting plates; commit and energies included).",
+        "Microseconds a state determination (20 000 steps along an orbit with tilting plates, at "
+        "the level 'contact' 4000; commit and energies included).",
         "",
-        "| case | force only | with the 12 x 12 tangent | iterations inside |",
-        "|---|---|---|---|",
+        "| level | case | force only | with the 12 x 12 tangent | iterations inside |",
+        "|---|---|---|---|---|",
         *element_rows(),
         "",
         "## Time history",

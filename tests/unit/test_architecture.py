@@ -25,7 +25,7 @@ KERNEL_MODULES = {
         "condensed", "contact", "contact_pairs", "contact_state", "cyclic_kernel", "levels",
         "linear", "pendulum", "pendulum_axial", "pendulum_nodes", "pendulum_solve",
         "pendulum_tangent", "pendulum_trial", "pendulum_work", "rigid_body", "rigid_march",
-        "rotation", "sampling", "slip",
+        "rotation", "sampling", "slider_motion", "slip",
     ],
 }  # fmt: skip
 
