@@ -215,7 +215,7 @@ def _uplift(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
-    shift = float(np.linalg.norm(centre_shift(data), axis=-1).max())
+    shift = float(np.max(np.linalg.norm(centre_shift(data), axis=-1)))
     moves = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
     largest = float(np.linalg.norm(moves, axis=-1).max())
     share = shift / largest if largest > 0.0 else 0.0

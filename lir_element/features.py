@@ -170,7 +170,7 @@ def apply(features: Features, props: Records, static_load: ArrayLike | None = No
         load = np.broadcast_to(np.asarray(static_load, dtype=np.float64), out.shape)
         if not (load > 0.0).all():
             msg = (
-                f"static load {load.min():g} N: without vertical coupling every bearing needs "
+                f"static load {np.min(load):g} N: without vertical coupling every bearing needs "
                 "compression under permanent loads; keep vertical_coupling=True"
             )
             raise ValueError(msg)

@@ -47,7 +47,7 @@ def drive_path(
     -----
     The rig's plate weighs what it carries: axial load over standard gravity.
     """
-    mass = loads.max() / STANDARD_GRAVITY
+    mass = np.max(loads) / STANDARD_GRAVITY
     run = rigid_run(
         props, contacts, state, np.full(3, mass), np.zeros(3), np.array([0, 0, 1, 0, 0, 0]),
         driven=True,
