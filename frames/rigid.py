@@ -18,7 +18,15 @@ from lir_element.contact_data import as_rows
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES
-from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, stable_step, state_words
+from lir_element.rigid_data import (
+    DEFAULT_TOLERANCE,
+    FIRST_STEP,
+    RigidInput,
+    rigid_run,
+    rigid_setup,
+    stable_step,
+    state_words,
+)
 from lir_element.rigid_march import march, start
 
 if TYPE_CHECKING:
@@ -33,16 +41,12 @@ if TYPE_CHECKING:
     from lir_element.layout import Records
     from lir_element.rigid_data import RigidRun, RigidSetup
 
-DEFAULT_TOLERANCE = 1e-8
-"""Error of a step over the effective radius."""
-
 LARGEST_STEP = 0.005
 """Largest time between outputs that the program chooses [s]."""
 
 Outcome: TypeAlias = tuple[RunStatus, float, str, str]
 """Status, time [s], place and detail."""
 
-_FIRST_STEP = 1e-4  # s
 _CHUNKS = 50
 _TERMS = {"input": 0, "gravity": 1, "kinetic": 2, "numerical": 3}
 _WORKS = {
@@ -110,7 +114,7 @@ def rigid_time_history(
     chosen = DEFAULT_TOLERANCE if tolerance is None else tolerance
     length_scale = state.system.bearings[0][3].effective_radius
     setup = rigid_setup(length_scale, interval / record_every, tolerance=chosen, explicit=explicit)
-    run.clock[1] = min(_FIRST_STEP, interval)
+    run.clock[1] = min(FIRST_STEP, interval)
     prepared = perf_counter()
     code = _march(run, given, setup, progress)
     finished = perf_counter()

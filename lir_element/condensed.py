@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.contact_pairs import OWN, matrix_of, place_bodies, press, turn_by
-from lir_element.contact_state import fill_state
+from lir_element.contact_state import bodies_status, fill_state
 from lir_element.errors import RunStatus
 from lir_element.linear import solve_many
 from lir_element.pendulum_nodes import apply_spin
-from lir_element.pendulum_trial import has_no_state, limit_status, trial
+from lir_element.pendulum_trial import has_no_state, trial
 from lir_element.rotation import rotate
 from lir_element.slider_motion import add_gyration, own_forces
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
         Sliders,
         State,
         Work,
-    )  # fmt: skip
+    )
 
 _OK = int(RunStatus.OK)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
@@ -40,9 +40,8 @@ _MAX_ITERATIONS = 40
 _PATIENCE = 10  # iterations in which the residual must halve
 _TOLERANCE = 1e-10  # of the normal forces
 _HOLD = 1e-10  # of the contact stiffness, in static states
-_ROUND_OFF = 4e-16  # of lengths
-_LARGEST_TURN = 0.1  # rad, of a slider in one iteration
-SMALLEST_COSINE = 0.3  # of a slider's tilt
+ROUND_OFF = 4e-16  # of lengths and turns
+LARGEST_TURN = 0.1  # rad, of a body in one iteration
 
 
 @kernel
@@ -139,7 +138,7 @@ def tolerance(p: Props, c: Sliders, touch: Records, dt: float) -> float:
         stiff += total * p.interface_friction / p.interface_yield
     if dt > 0.0:
         stiff += c.damping / dt + (c.mass[0] + c.mass[1]) / (dt * dt)
-    return _TOLERANCE * total + _ROUND_OFF * stiff * (p.radius[0] + p.radius[1])
+    return _TOLERANCE * total + ROUND_OFF * stiff * (p.radius[0] + p.radius[1])
 
 
 @kernel
@@ -202,7 +201,7 @@ def settle(
                 w.try_turn[k, a] = new.turn[k, a]
         for row in range(12):
             w.step[row] = w.right[row, 0]
-        factor = min(1.0, _LARGEST_TURN / largest) if largest > 0.0 else 1.0
+        factor = min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
         best, kept = math.inf, factor
         for _ in range(5):
             move_sliders(new, w, factor)
@@ -250,14 +249,9 @@ def contact_trial(
     fill_state(p, c, points, old, new, b_new, touch_new, w, u)
     new.time, new.step = time, dt
     new.iterations = count
-    status = limit_status(p, new)
-    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
-        status = _SPHERE_EXCEEDED
-    if count < 0:
+    status = bodies_status(p, w, new)
+    if count < 0 and status != _NOT_FINITE:
         status = _NO_EQUILIBRIUM
-    for k in range(12):
-        if not math.isfinite(new.force[k]):
-            status = _NOT_FINITE
     new.status = status
     return status
 

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.contact import set_tangents
 from lir_element.contact_pairs import (
     HIGH,
     LOW_BOTTOM,
@@ -16,8 +17,9 @@ from lir_element.contact_pairs import (
     RIM_TOP,
     locate,
     turn_between,
-)  # fmt: skip
-from lir_element.pendulum_trial import keep_works
+)
+from lir_element.errors import RunStatus
+from lir_element.pendulum_trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
 from lir_element.pendulum_work import dissipated
 
 if TYPE_CHECKING:
@@ -29,7 +31,10 @@ if TYPE_CHECKING:
         Scratch,
         Sliders,
         State,
-    )  # fmt: skip
+    )
+
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 
 
 @kernel
@@ -50,6 +55,16 @@ def fill_state(
     new.twist_hysteresis, new.slid_twist = 0.0, 0.0
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
+
+
+@kernel
+def bodies_status(p: Props, w: Scratch, new: State) -> int:
+    """Return whether a state made of bodies is finite and within the bearing's limits."""
+    if not is_finite(new.force):
+        return _NOT_FINITE
+    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
+        return _SPHERE_EXCEEDED
+    return limit_status(p, new)
 
 
 @kernel
@@ -80,11 +95,8 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
     for a in range(3):
         s[a] -= along * n[a, 2]
         new.slip_total[a] = s[a]
-    q, x, y, z = w.q[0], new.axis[0], new.axis[1], new.axis[2]
-    k = 1.0 / (1.0 + z)
-    t_1, t_2 = w.tangent_1, w.tangent_2
-    t_1[0], t_1[1], t_1[2] = 1.0 - k * x * x, -k * x * y, -x
-    t_2[0], t_2[1], t_2[2] = -k * x * y, 1.0 - k * y * y, -y
+    set_tangents(w, new.axis[0], new.axis[1], new.axis[2])
+    q, t_1, t_2 = w.q[0], w.tangent_1, w.tangent_2
     new.slip[0], new.slip[1] = 0.0, 0.0
     for a in range(3):
         own = q[0, a] * s[0] + q[1, a] * s[1] + q[2, a] * s[2]

@@ -26,16 +26,15 @@ def bearing_trial(
     u: Floats, v: Floats, time: float, zero: Floats,
 ) -> int:  # fmt: skip
     """Determine the state of bearing `k`; returns a RunStatus code."""
-    if contacts is None:
-        return trial(props[k], old[k], new[k], work[k], u, v, time, zero)
-    at = contacts.place[k]
-    if at < 0:
-        return trial(props[k], old[k], new[k], work[k], u, v, time, zero)
-    return contact_trial(
-        props[k], contacts.sliders[at], contacts.points[at], old[k], new[k],
-        contacts.bodies_old[at], contacts.bodies_new[at], contacts.touch_old[at],
-        contacts.touch_new[at], work[k], contacts.scratch[at], u, v, time, zero,
-    )  # fmt: skip
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            return contact_trial(
+                props[k], contacts.sliders[at], contacts.points[at], old[k], new[k],
+                contacts.bodies_old[at], contacts.bodies_new[at], contacts.touch_old[at],
+                contacts.touch_new[at], work[k], contacts.scratch[at], u, v, time, zero,
+            )  # fmt: skip
+    return trial(props[k], old[k], new[k], work[k], u, v, time, zero)
 
 
 @kernel
@@ -44,17 +43,15 @@ def bearing_tangent(
     tangent: Floats, zero: Floats, axes: Floats,
 ) -> None:  # fmt: skip
     """Fill the tangent (12, 12) of bearing `k`'s last trial."""
-    if contacts is None:
-        fill_tangent(props[k], work[k], new[k].force, tangent, zero, axes)
-        return
-    at = contacts.place[k]
-    if at < 0:
-        fill_tangent(props[k], work[k], new[k].force, tangent, zero, axes)
-        return
-    contact_tangent(
-        contacts.sliders[at], contacts.bodies_old[at], contacts.bodies_new[at],
-        contacts.scratch[at], work[k].dt, tangent,
-    )  # fmt: skip
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            contact_tangent(
+                contacts.sliders[at], contacts.bodies_old[at], contacts.bodies_new[at],
+                contacts.scratch[at], work[k].dt, tangent,
+            )  # fmt: skip
+            return
+    fill_tangent(props[k], work[k], new[k].force, tangent, zero, axes)
 
 
 @kernel
@@ -63,21 +60,19 @@ def bearing_commit(
     contacts: Contacts | None, k: int,
 ) -> None:  # fmt: skip
     """Accept the trial state of bearing `k`."""
-    if contacts is None:
-        accumulate(props[k], old[k], new[k])
-        copy_words(new_words[k], old_words[k])
-        return
-    at = contacts.place[k]
-    if at < 0:
-        accumulate(props[k], old[k], new[k])
-    else:
-        contact_accumulate(
-            props[k], contacts.points[at], old[k], new[k], contacts.bodies_old[at],
-            contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
-            contacts.scratch[at].moves, 2,
-        )  # fmt: skip
-        copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
-        copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            contact_accumulate(
+                props[k], contacts.points[at], old[k], new[k], contacts.bodies_old[at],
+                contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
+                contacts.scratch[at].moves, 2,
+            )  # fmt: skip
+            copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
+            copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
+            copy_words(new_words[k], old_words[k])
+            return
+    accumulate(props[k], old[k], new[k])
     copy_words(new_words[k], old_words[k])
 
 
@@ -86,15 +81,14 @@ def bearing_defect(
     props: Records, old: Records, new: Records, contacts: Contacts | None, k: int
 ) -> float:
     """Return the energy that bearing `k`'s contacts make or lose in the step by its size."""
-    if contacts is None:
-        return contact_defect(props[k], old[k], new[k])
-    at = contacts.place[k]
-    if at < 0:
-        return contact_defect(props[k], old[k], new[k])
-    return points_defect(
-        props[k], contacts.bodies_old[at], contacts.bodies_new[at], contacts.touch_old[at],
-        contacts.touch_new[at],
-    )  # fmt: skip
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            return points_defect(
+                props[k], contacts.bodies_old[at], contacts.bodies_new[at],
+                contacts.touch_old[at], contacts.touch_new[at],
+            )  # fmt: skip
+    return contact_defect(props[k], old[k], new[k])
 
 
 @kernel

@@ -25,7 +25,7 @@ _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
-_SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
+SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 
 
 @kernel
@@ -143,6 +143,15 @@ def limit_status(p: Props, new: State) -> int:
 
 
 @kernel
+def is_finite(x: Floats) -> bool:
+    """Return whether all entries are finite."""
+    finite = True
+    for k in range(x.shape[0]):
+        finite = finite and math.isfinite(x[k])
+    return finite
+
+
+@kernel
 def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
     """Return whether the slip passed ``L mu_h + mu_1 R_1 + mu_2 R_2``, where equilibrium ends.
 
@@ -178,7 +187,7 @@ def trial(
         static_speeds(p, w, v)
     place_plates(p, w, u)
     size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
-    if not -w.c[2] > _SMALLEST_COSINE * size:
+    if not -w.c[2] > SMALLEST_COSINE * size:
         return _SPHERE_EXCEEDED
     for a in range(3):
         w.old_top[a] = (
@@ -199,9 +208,8 @@ def trial(
         status = _SLIP_UNSTABLE
     elif count < 0:
         status = _NO_EQUILIBRIUM
-    for k in range(12):
-        if not math.isfinite(new.force[k]):
-            status = _NOT_FINITE
+    if not is_finite(new.force):
+        status = _NOT_FINITE
     new.status = status
     return status
 

@@ -12,7 +12,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.condensed import tolerance
+from lir_element.condensed import LARGEST_TURN, ROUND_OFF, tolerance
 from lir_element.contact_pairs import OWN, matrix_of, place_bodies, press, turn_between, turn_by
 from lir_element.linear import solve_many
 from lir_element.slider_motion import momentum
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from lir_element.rigid_data import RigidSetup
 
 _MAX_ITERATIONS = 25
-_LARGEST_TURN = 0.1  # rad, of a body in one iteration
-_ROUND_OFF = 4e-16  # of lengths and turns
 
 
 @kernel
@@ -97,11 +95,11 @@ def set_own_forces(
 def residual_of(
     p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
     old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
-    setup: RigidSetup, dt: float, ground: Floats, derive: bool,
+    setup: RigidSetup, dt: float, ground: Floats,
 ) -> float:  # fmt: skip
     """Set all forces at the new places and return the size of the residual of the free DOFs."""
     place_bodies(c, w, new, 1, 4)
-    press(p, c, points, old, new, touch_old, touch_new, w, dt, 0.0, 0.0, derive)
+    press(p, c, points, old, new, touch_old, touch_new, w, dt, 0.0, 0.0, True)
     set_rates(old, new, w, setup, dt)
     set_own_forces(c, mass, inertia, old, new, w, setup, ground)
     total = 0.0
@@ -184,7 +182,7 @@ def small_enough(
     for a in range(3):
         if free[15 + a] != 0:
             own = max(own, inertia[2, a] / c.radius)
-    return tolerance(p, c, touch, dt) + _ROUND_OFF * (mass[2, 2] + 4.0 * own) / (dt * dt)
+    return tolerance(p, c, touch, dt) + ROUND_OFF * (mass[2, 2] + 4.0 * own) / (dt * dt)
 
 
 @kernel
@@ -197,7 +195,6 @@ def implicit_step(
     predict(old, new, free, w, dt, drive, driven)
     size = residual_of(
         p, c, points, mass, inertia, free, old, new, touch_old, touch_new, w, setup, dt, ground,
-        True,
     )  # fmt: skip
     for _ in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
@@ -218,13 +215,13 @@ def implicit_step(
                 w.try_turn[k, a] = new.turn[k, a]
         for row in range(18):
             w.step[row] = w.right[row, 0]
-        factor = min(1.0, _LARGEST_TURN / largest) if largest > 0.0 else 1.0
+        factor = min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
         before = size
         for _attempt in range(4):
             move_bodies(old, new, w, factor)
             size = residual_of(
                 p, c, points, mass, inertia, free, old, new, touch_old, touch_new, w, setup, dt,
-                ground, True,
+                ground,
             )  # fmt: skip
             if size < before or size <= small_enough(p, c, mass, inertia, free, touch_new, dt):
                 break
@@ -236,9 +233,9 @@ def implicit_step(
 def explicit_step(
     p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
     old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
-    setup: RigidSetup, dt: float, ground: Floats, drive: Floats, driven: bool,
-) -> bool:  # fmt: skip
-    """Take one explicit step (semi-implicit Euler) from the forces of `old`; always True.
+    dt: float, ground: Floats, drive: Floats, driven: bool,
+) -> None:  # fmt: skip
+    """Take one explicit step (semi-implicit Euler) from the forces of `old`.
 
     ``old.acceleration`` and ``old.spin_rate`` are those of the forces at `old`.
     """
@@ -254,7 +251,6 @@ def explicit_step(
     place_bodies(c, w, new, 1, 4)
     press(p, c, points, old, new, touch_old, touch_new, w, dt, 0.0, 0.0, False)
     set_accelerations(c, mass, inertia, free, new, w, ground)
-    return True
 
 
 @kernel

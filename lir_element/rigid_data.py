@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from lir_element.contact_data import Contacts
     from lir_element.layout import Floats, Records, Words
 
+DEFAULT_TOLERANCE = 1e-8
+"""Error of a step over the effective radius."""
+
+FIRST_STEP = 1e-4
+"""Step that a run is started with [s]."""
+
 
 class RigidSetup(NamedTuple):
     """Constants of the time integration."""
@@ -162,9 +168,13 @@ def stable_step(sliders: Records, props: Records, load: float) -> float:
 
 
 def rigid_setup(
-    length: float, largest: float, *, tolerance: float = 1e-8, spectral_radius: float = 0.0,
+    length: float,
+    largest: float,
+    *,
+    tolerance: float = DEFAULT_TOLERANCE,
+    spectral_radius: float = 0.0,
     explicit: float = 0.0,
-) -> RigidSetup:  # fmt: skip
+) -> RigidSetup:
     """Return the constants of the time integration.
 
     Parameters

@@ -10,11 +10,10 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.condensed import SMALLEST_COSINE
 from lir_element.contact_pairs import place_bodies, press, turn_between
-from lir_element.contact_state import contact_accumulate, fill_state
+from lir_element.contact_state import bodies_status, contact_accumulate, fill_state
 from lir_element.errors import RunStatus
-from lir_element.pendulum_trial import copy_words, limit_status
+from lir_element.pendulum_trial import copy_words
 from lir_element.rigid_body import explicit_step, implicit_step, set_accelerations
 from lir_element.sampling import ground_acceleration
 
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
-_NOT_FINITE = int(RunStatus.NOT_FINITE)
-_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 
 
 @kernel
@@ -106,12 +103,7 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
     e_new[2] = kinetic_energy(run, after)
     e_new[0], e_new[1] = e_old[0] + supplied, e_old[1] + lifted
     e_new[3] = e_old[3] + supplied - lifted - bearing - (e_new[2] - e_old[2])
-    new.status = limit_status(run.props[0], new)
-    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
-        new.status = _SPHERE_EXCEEDED
-    for k in range(12):
-        if not math.isfinite(new.force[k]):
-            new.status = _NOT_FINITE
+    new.status = bodies_status(run.props[0], w, new)
     return new.status
 
 
@@ -206,7 +198,7 @@ def explicit_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int)
         explicit_step(
             run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
             run.bodies[now], run.bodies[then], run.touches[now], run.touches[then],
-            run.scratch[0], setup, dt, run.ground, run.drive, run.driven,
+            run.scratch[0], dt, run.ground, run.drive, run.driven,
         )  # fmt: skip
         code = take_up(run, now, then, now, then)
         if code != _OK:

@@ -9,15 +9,12 @@ import numpy as np
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.contact_data import as_rows
 from lir_element.layout import BODIES
-from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, state_words
+from lir_element.rigid_data import FIRST_STEP, RigidInput, rigid_run, rigid_setup, state_words
 from lir_element.rigid_march import march, start
 
 if TYPE_CHECKING:
     from lir_element.contact_data import Contacts
     from lir_element.layout import Floats, Records
-
-_TOLERANCE = 1e-8
-_FIRST_STEP = 1e-4  # s
 
 
 def drive_path(
@@ -66,8 +63,8 @@ def drive_path(
     )  # fmt: skip
     length = float(props["length"][0])
     largest = 0.2 * float(props["yield_displacement"].min()) / velocity
-    setup = rigid_setup(length, largest, tolerance=_TOLERANCE)
-    run.clock[1] = min(_FIRST_STEP, largest)
+    setup = rigid_setup(length, largest)
+    run.clock[1] = min(FIRST_STEP, largest)
     start(run, given)
     code = march(run, given, setup, 1, count)
     reached = int(run.counters[3]) - 1
