@@ -1,0 +1,54 @@
+"""Find openseespy, whichever of its builds is installed."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import importlib.util
+import sys
+from pathlib import Path
+from typing import Any
+
+_NAME = "openseespy.opensees"
+
+
+def opensees() -> Any:
+    """Import the commands of OpenSeesPy.
+
+    Returns
+    -------
+    module
+        `openseespy.opensees`. Its model is one for the whole process.
+
+    Raises
+    ------
+    ImportError
+        If openseespy is not installed, or its library cannot be loaded.
+
+    Notes
+    -----
+    The build for Python 3.11 (3.7.1) does not find the BLAS library that it brings along unless
+    that is loaded before; this is done here, so that call this before a script's own
+    ``import openseespy.opensees``.
+    """
+    if _NAME in sys.modules:
+        return sys.modules[_NAME]
+    if importlib.util.find_spec("openseespy") is None:
+        msg = 'openseespy is not installed: pip install "lir-dcfp[opensees]"'
+        raise ImportError(msg)
+    _load_bundled_libraries()
+    try:
+        return importlib.import_module(_NAME)
+    except (ImportError, RuntimeError) as cause:
+        version = ".".join(map(str, sys.version_info[:3]))
+        msg = f"openseespy cannot be loaded by Python {version} ({cause}): reinstall it by pip"
+        raise ImportError(msg) from cause
+
+
+def _load_bundled_libraries() -> None:
+    spec = importlib.util.find_spec("openseespylinux")
+    if spec is None or spec.origin is None:  # Windows and macOS find theirs
+        return
+    blas = Path(spec.origin).parent / "lib" / "libblas.so.3"
+    if blas.exists():
+        ctypes.CDLL(str(blas), mode=ctypes.RTLD_GLOBAL)
