@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numba
 from numba.core import config
@@ -73,6 +73,33 @@ def kernels_of(*folders: Path, inline: bool = False) -> KernelDecorator:
         finally:
             config.CACHE_DIR = kept
         return compiled
+
+    return decorate
+
+
+def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Make a decorator that compiles a function with the calling convention of C.
+
+    Parameters
+    ----------
+    signature : str
+        Types of the result and of the arguments, such as "int32(int64)".
+
+    Returns
+    -------
+    callable
+        The decorator; what it returns has the function's `address`. It compiles at once (or takes
+        the code from the cache).
+    """
+    target = str(cache_folder(Path(__file__).parent))
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        kept = config.CACHE_DIR
+        config.CACHE_DIR = target
+        try:
+            return numba.cfunc(signature, cache=True, error_model="numpy")(function)
+        finally:
+            config.CACHE_DIR = kept
 
     return decorate
 

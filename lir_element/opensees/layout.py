@@ -1,0 +1,121 @@
+"""The block of a bearing that stands in an OpenSees model, as compiled callbacks read it.
+
+Addresses are those of arrays and objects that Python owns (`hosted.Hosted` keeps them), or of
+functions of the OpenSees library.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from lir_element.layout import BODIES, STATE, Field, dtype_of
+
+_ADDRESS = "i8"
+
+MOST_DOFS = 12
+"""Degrees of freedom of two nodes in a three-dimensional model."""
+
+SHARED_FIELDS = (
+    Field("dofs", "-", "", "degrees of freedom of both nodes in the model: 12 or 6", (), "i8"),
+    Field("start", "-", "", "first entry of each row of the map to bearing axes", (13,), "i8"),
+    Field("columns", "-", "", "the entries' columns", (36,), "i8"),
+    Field("values", "", "", "their values: direction cosines, times the unit of length", (36,)),
+    Field("force_factor", "", "", "forces in bearing axes to those of the model"),
+    Field("time", "s", "t", "the model's time at the last trial"),
+    Field("committed_time", "s", "t", "the model's time at the last commit"),
+    Field("last_status", "-", "", "RunStatus code of the last trial", (), "i8"),
+    Field("refused", "-", "", "RunStatus code told to the user since the last commit", (), "i8"),
+    Field("has_tangent", "-", "", "0 to be made from the trial, 1 there, 2 from the commit", (), "i8"),
+    Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
+    Field("trials", "-", "", "trials since the start", (), "i8"),
+    Field("commits", "-", "", "commits since the start", (), "i8"),
+    Field("at", "", "", "spare: zero vector", (3,)),
+    Field("axes", "", "", "unit vectors", (3, 3)),
+    Field("u", "m, rad", "", "displacements in bearing axes", (12,)),
+    Field("v", "m/s, rad/s", "", "velocities in bearing axes", (12,)),
+    Field("element", "N/m", "", "tangent in bearing axes", (12, 12)),
+    Field("host_u", "", "", "displacements in the model's DOFs and units", (MOST_DOFS,)),
+    Field("host_v", "", "", "velocities", (MOST_DOFS,)),
+    Field("force", "", "", "resisting forces in the model's DOFs and units", (MOST_DOFS,)),
+    Field("tangent", "", "", "tangent by columns", (MOST_DOFS * MOST_DOFS,)),
+    Field("initial", "", "", "stiffness at rest under the design load, by columns", (144,)),
+    Field("props", "", "", "address of the properties", (), _ADDRESS),
+    Field("old", "", "", "address of the committed state", (), _ADDRESS),
+    Field("new", "", "", "address of the trial state", (), _ADDRESS),
+    Field("first", "", "", "address of the state at the start", (), _ADDRESS),
+    Field("work", "", "", "address of the scratch", (), _ADDRESS),
+    Field("point_count", "-", "", "contact points of all interfaces", (), "i8"),
+    Field("place", "", "", "address of `Contacts.place`, and so on", (), _ADDRESS),
+    Field("sliders", "", "", "", (), _ADDRESS),
+    Field("points", "", "", "", (), _ADDRESS),
+    Field("bodies_old", "", "", "", (), _ADDRESS),
+    Field("bodies_new", "", "", "", (), _ADDRESS),
+    Field("touch_old", "", "", "", (), _ADDRESS),
+    Field("touch_new", "", "", "", (), _ADDRESS),
+    Field("scratch", "", "", "", (), _ADDRESS),
+    Field("bodies_first", "", "", "bodies and contacts at the start", (), _ADDRESS),
+    Field("touch_first", "", "", "", (), _ADDRESS),
+    Field("record_every", "-", "", "commits between two that are recorded; 0: none", (), "i8"),
+    Field("record_left", "-", "", "commits until the next one", (), "i8"),
+    Field("record_count", "-", "", "recorded states", (), "i8"),
+    Field("record_room", "-", "", "states that the memory has room for", (), "i8"),
+    Field("record", "", "", "address of the recorded states", (), _ADDRESS),
+    Field("realloc", "", "", "address of the function that enlarges memory", (), _ADDRESS),
+)
+"""What both routes use."""
+
+FAST_FIELDS = (
+    Field("node_i", "", "", "address of the node below", (), _ADDRESS),
+    Field("node_j", "", "", "address of the node above", (), _ADDRESS),
+    Field("domain", "", "", "address of the domain", (), _ADDRESS),
+    Field("step_size", "", "", "address of the step since the domain's last commit", (), _ADDRESS),
+    Field("get_displacement", "", "", "Node::getTrialDisp", (), _ADDRESS),
+    Field("get_velocity", "", "", "Node::getTrialVel", (), _ADDRESS),
+    Field("get_time", "", "", "Domain::getCurrentTime", (), _ADDRESS),
+    Field("force_vector", "", "", "Vector over `force`", (), _ADDRESS),
+    Field("tangent_matrix", "", "", "Matrix over `tangent`", (), _ADDRESS),
+    Field("initial_matrix", "", "", "Matrix over `initial`", (), _ADDRESS),
+    Field("zero_matrix", "", "", "Matrix of zeros", (), _ADDRESS),
+    Field("alive", "-", "", "1 until OpenSees deletes the element", (), "i8"),
+    Field("host_table", "", "", "the host element's own virtual table", (), _ADDRESS),
+    Field("destroy", "", "", "the host element's destructor", (), _ADDRESS),
+    Field("destroy_free", "", "", "the destructor that also frees its memory", (), _ADDRESS),
+    Field("host_set_response", "", "", "GenericClient::setResponse", (), _ADDRESS),
+    Field("host_get_response", "", "", "GenericClient::getResponse", (), _ADDRESS),
+    Field("new_response", "", "", "constructor of ElementResponse", (), _ADDRESS),
+    Field("set_vector", "", "", "Information::setVector", (), _ADDRESS),
+    Field("allocate", "", "", "operator new", (), _ADDRESS),
+    Field("response_count", "-", "", "responses beside those of the host element", (), "i8"),
+    Field("responses", "", "", "address of the table of responses", (), _ADDRESS),
+    Field("write", "", "", "address of the function that writes to a file", (), _ADDRESS),
+    Field("messages", "", "", "addresses of the messages for each status", (16,), _ADDRESS),
+    Field("message_sizes", "", "", "their lengths", (16,), "i8"),
+)
+"""What the callbacks of the fast route use besides."""
+
+RESPONSE_FIELDS = (
+    Field("name", "-", "", "hash of its name", (), "i8"),
+    Field("source", "-", "", "first word in the committed state; -1: the deformation", (), "i8"),
+    Field("size", "-", "", "number of words", (), "i8"),
+    Field("integer", "-", "", "1 where they are integers", (), "i8"),
+    Field("vector", "", "", "address of the Vector over `values`", (), _ADDRESS),
+    Field("values", "", "", "what is handed over", (12,)),
+)
+
+HOST = dtype_of(SHARED_FIELDS + FAST_FIELDS)
+RESPONSE = dtype_of(RESPONSE_FIELDS)
+
+WORDS = np.dtype(np.int64)
+NUMBERS = np.dtype(np.float64)
+STATE_WORDS = STATE.itemsize // 8
+BODY_WORDS = BODIES.itemsize // 8
+RECORD_WORDS = 4 + STATE_WORDS + BODY_WORDS
+"""Words of a recorded state: time, relative velocity of node j, state, bodies."""
+
+Host: TypeAlias = Any
+"""One record of dtype HOST, as kernels see it."""
+
+Response: TypeAlias = Any
+"""One record of dtype RESPONSE."""

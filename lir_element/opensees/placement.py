@@ -1,0 +1,156 @@
+"""Where a bearing stands in an OpenSees model: checks at the door, and the map to its own axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from lir_element.validation import require_positive
+
+if TYPE_CHECKING:
+    from lir_element.bearing import LIRBearing
+    from lir_element.layout import Floats
+
+_TOLERANCE = 1e-3
+"""How far the nodes of a bearing may be from where they belong [m]."""
+_NDF = {2: 3, 3: 6}
+
+
+class Placement(NamedTuple):
+    """How the model's degrees of freedom lead to the bearing's own axes."""
+
+    nodes: tuple[int, int]
+    dofs: int
+    """Degrees of freedom of both nodes."""
+    matrix: Floats
+    """Displacements (12,) in bearing axes [m, rad] by those of the model, (12, dofs)."""
+    force_factor: float
+    """Forces of the model are ``force_factor * matrix.T @ force``."""
+
+
+def place(
+    ops: Any,
+    i: int,
+    j: int,
+    bearing: LIRBearing,
+    orient: Sequence[float] | None,
+    length_unit: float,
+    force_unit: float,
+) -> Placement:
+    """Check where a bearing is to stand, and return its map.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSeesPy with the current model.
+    i, j : int
+        Nodes below and above.
+    bearing : LIRBearing
+        The device.
+    orient : sequence of 3 or 6 floats or None
+        As for `bearing_element`.
+    length_unit, force_unit : float
+        Of the model [m], [N].
+
+    Returns
+    -------
+    Placement
+        The map.
+
+    Raises
+    ------
+    ValueError
+        If a node does not exist, has other degrees of freedom, or is not where it must be.
+    """
+    metre = require_positive("length_unit", length_unit, "m")
+    newton = require_positive("force_unit", force_unit, "N")
+    points = [_coordinates(ops, tag) for tag in _two_tags(i, j)]
+    ndm = len(points[0])
+    axes = bearing_axes(orient, ndm)
+    rise = metre * (points[1] - points[0])
+    _check_rise(i, j, rise, axes, bearing.height)
+    matrix = np.zeros((12, 12))
+    for block in range(4):
+        rows = slice(3 * block, 3 * block + 3)
+        matrix[rows, rows] = axes * (metre if block % 2 == 0 else 1.0)
+    if ndm == 2:  # ux, uy, rz of the plane
+        matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
+    return Placement((i, j), matrix.shape[1], matrix, 1.0 / (newton * metre))
+
+
+def bearing_axes(orient: Sequence[float] | None, ndm: int) -> Floats:
+    """Return the unit vectors of the bearing's x, y and z (from i up to j) as rows, (3, 3)."""
+    if orient is None:
+        given = np.array([0.0, 0.0, 1.0] if ndm == 3 else [0.0, 1.0, 0.0])
+    else:
+        given = np.asarray(orient, dtype=np.float64)
+    if given.shape not in {(3,), (6,)} or not np.isfinite(given).all():
+        msg = (
+            f"orient = {orient!r}: give the bearing's axis from node i to node j, 3 numbers, "
+            "or the axis and its horizontal x direction, 6 numbers"
+        )
+        raise ValueError(msg)
+    up = given[:3]
+    side = given[3:] if given.size == 6 else _any_side(up)
+    normal = np.cross(up, side)
+    if np.linalg.norm(normal) < 1e-6 * np.linalg.norm(up) * np.linalg.norm(side):
+        msg = f"orient = {orient!r}: its axis has no length, or its x direction is parallel to it"
+        raise ValueError(msg)
+    if ndm == 2 and (abs(up[2]) > 1e-12 or abs(normal[0]) + abs(normal[1]) > 1e-12):
+        msg = f"orient = {orient!r}: in a model of two dimensions both vectors lie in its plane"
+        raise ValueError(msg)
+    z, y = up / np.linalg.norm(up), normal / np.linalg.norm(normal)
+    return np.array([np.cross(y, z), y, z])
+
+
+def _any_side(up: Floats) -> Floats:
+    # Global x, or global z where the bearing's axis is nearly that: its x must be normal to it.
+    length = float(np.linalg.norm(up))
+    return np.array([0.0, 0.0, 1.0] if abs(up[0]) > 0.9 * length else [1.0, 0.0, 0.0])
+
+
+def _two_tags(i: int, j: int) -> tuple[int, int]:
+    for name, tag in (("i", i), ("j", j)):
+        if isinstance(tag, bool) or not isinstance(tag, (int, np.integer)):
+            msg = f"node {name} = {tag!r} is no tag: give an integer"
+            raise TypeError(msg)
+    if i == j:
+        msg = f"the bearing starts and ends at node {i}: give two different nodes"
+        raise ValueError(msg)
+    return int(i), int(j)
+
+
+def _coordinates(ops: Any, tag: int) -> Floats:
+    if tag not in ops.getNodeTags():
+        msg = f"node {tag} is not in the current OpenSees model: add it before the bearing"
+        raise ValueError(msg)
+    point = np.array(ops.nodeCoord(tag), dtype=np.float64)
+    ndf = len(ops.nodeDisp(tag))
+    if _NDF.get(len(point)) != ndf:
+        msg = (
+            f"node {tag} has {len(point)} coordinates and {ndf} degrees of freedom: a bearing "
+            "needs 3 and 6 (model -ndm 3 -ndf 6) or 2 and 3 (-ndm 2 -ndf 3)"
+        )
+        raise ValueError(msg)
+    return point
+
+
+def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> None:
+    full = np.zeros(3)
+    full[: len(rise)] = rise
+    x, y, z = axes @ full
+    if max(abs(x), abs(y)) > _TOLERANCE:
+        msg = (
+            f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "
+            f"most {_TOLERANCE:g} m is allowed: move it, or give the axis by orient=(x, y, z)"
+        )
+        raise ValueError(msg)
+    if min(abs(z), abs(z - height)) > _TOLERANCE:
+        msg = (
+            f"node {j} is {z:g} m above node {i}, it must be 0 m or the bearing's height "
+            f"{height:g} m (slider and plates) within {_TOLERANCE:g} m: move it, or give the "
+            "bearing another plate_thickness"
+        )
+        raise ValueError(msg)

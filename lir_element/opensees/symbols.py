@@ -1,0 +1,97 @@
+"""Addresses of what the fast route calls or replaces in the OpenSees library."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import sys
+from pathlib import Path
+
+_LIBRARIES = ("openseespylinux.opensees", "openseespymac.opensees")
+
+REPLACED = {
+    "update": "_ZN13GenericClient6updateEv",
+    "commit_state": "_ZN13GenericClient11commitStateEv",
+    "tangent_stiff": "_ZN13GenericClient15getTangentStiffEv",
+    "initial_stiff": "_ZN13GenericClient15getInitialStiffEv",
+    "resisting_force": "_ZN13GenericClient17getResistingForceEv",
+    "resisting_force_with_inertia": "_ZN13GenericClient27getResistingForceIncInertiaEv",
+    "damping": "_ZN13GenericClient7getDampEv",
+    "mass": "_ZN13GenericClient7getMassEv",
+    "revert_to_last_commit": "_ZN13GenericClient18revertToLastCommitEv",
+    "revert_to_start": "_ZN13GenericClient13revertToStartEv",
+    "set_response": "_ZN13GenericClient11setResponseEPPKciR10OPS_Stream",
+    "get_response": "_ZN13GenericClient11getResponseEiR11Information",
+    "destroy": "_ZN13GenericClientD1Ev",
+    "destroy_free": "_ZN13GenericClientD0Ev",
+}
+"""Virtual functions of the host element."""
+
+CALLED = {
+    "get_domain": "_Z14ops_getdomain_v",
+    "get_element": "_ZN6Domain10getElementEi",
+    "get_node": "_ZN6Domain7getNodeEi",
+    "get_displacement": "_ZN4Node12getTrialDispEv",
+    "get_velocity": "_ZN4Node11getTrialVelEv",
+    "get_time": "_ZNK6Domain14getCurrentTimeEv",
+    "step_size": "ops_Dt",
+    "new_vector": "_ZN6VectorC1EPdi",
+    "new_matrix": "_ZN6MatrixC1EPdii",
+    "new_response": "_ZN15ElementResponseC1EP7ElementiRK6Vector",
+    "set_vector": "_ZN11Information9setVectorERK6Vector",
+    "allocate": "_Znwm",
+    "table": "_ZTV13GenericClient",
+}
+"""What is called or read."""
+
+
+class NotPossibleError(RuntimeError):
+    """The fast route is not possible here; the message says why."""
+
+
+@functools.cache
+def library() -> ctypes.CDLL:
+    """Return the OpenSees library that openseespy has loaded.
+
+    Raises
+    ------
+    NotPossibleError
+        If this build's functions cannot be reached by their names.
+    """
+    return ctypes.CDLL(str(library_path()))
+
+
+def library_path() -> Path:
+    """Return the file of the OpenSees library that openseespy has loaded.
+
+    Raises
+    ------
+    NotPossibleError
+        If it is none of the builds that are known to export its functions.
+    """
+    for name in _LIBRARIES:
+        origin = getattr(sys.modules.get(name), "__file__", None)
+        if origin is not None:
+            return Path(origin)
+    msg = f"openseespy for {sys.platform} does not export the functions of its elements"
+    raise NotPossibleError(msg)
+
+
+@functools.cache
+def addresses() -> dict[str, int]:
+    """Return the addresses of all that `REPLACED` and `CALLED` name.
+
+    Raises
+    ------
+    NotPossibleError
+        If the library lacks one of them.
+    """
+    found = {}
+    for name, symbol in {**REPLACED, **CALLED}.items():
+        try:
+            function = getattr(library(), symbol)
+        except AttributeError as cause:
+            msg = f"the OpenSees library does not export {symbol}"
+            raise NotPossibleError(msg) from cause
+        found[name] = int(ctypes.cast(function, ctypes.c_void_p).value or 0)
+    return found
