@@ -26,6 +26,7 @@ CLAIMS = (
     "shake_table",
     "double_pendulum",
     "bouc_wen_drift",
+    "opensees_macro_model",
 )
 """The modules of the claims, in the order of the index."""
 
@@ -223,7 +224,9 @@ def index(folder: Path = FOLDER) -> str:
         head + "\n" + "\n".join(rows),
         "Besides: [speed_error.md](speed_error.md), error over cost of every level and step in "
         "nine scenes (`python -m validation.speed_error`), and [hard_cases.md](hard_cases.md), "
-        "what is hard to compute (`python -m validation.hard_cases`).",
+        "what is hard to compute (`python -m validation.hard_cases`), and "
+        "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
+        "(`python -m validation.opensees_hard_cases`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "
