@@ -26,6 +26,7 @@ from lir_element.opensees.symbols import REPLACED, NotPossibleError, addresses
 if TYPE_CHECKING:
     import socket
 
+    from lir_element.bearing import LIRBearing
     from lir_element.layout import Records
     from lir_element.opensees.hosted import Hosted
 
@@ -72,6 +73,7 @@ class Grafted:
         self._set_responses()
         self._set_messages()
         table = self._new_table()
+        self._element = element
         ctypes.c_int64.from_address(element).value = table  # from here on it is a bearing
 
     @property
@@ -82,6 +84,29 @@ class Grafted:
     def response(self, name: str) -> Any:
         """Return a response of the committed state by name."""
         return self.hosted.deformation() if name == "deformation" else self.hosted.response(name)
+
+    def start_recording(self, every: int) -> None:
+        """Record every so many commits from now on; 0: none."""
+        self.hosted.start_recording(every)
+
+    def recorded(self) -> tuple[Any, ...]:
+        """Return what `Hosted.recorded` does."""
+        return self.hosted.recorded()
+
+    @property
+    def bearing(self) -> LIRBearing:
+        """The device."""
+        return self.hosted.bearing
+
+    @property
+    def level(self) -> str:
+        """Level of fidelity."""
+        return self.hosted.level
+
+    def detach(self) -> None:
+        """Give the element its own functions back: ours end with Python, before OpenSees does."""
+        if self.alive:
+            ctypes.c_int64.from_address(self._element).value = addresses()["table"] + 16
 
     def release(self) -> None:
         """Give up the connection and the recorded states, once the element is gone."""

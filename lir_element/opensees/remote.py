@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import atexit
 import os
 import subprocess
 import sys
 import threading
 from multiprocessing import Pipe, reduction
 from typing import TYPE_CHECKING, Any
+
+from lir_element.opensees.guard import Guard
+from lir_element.opensees.protocol import vector_length
 
 if TYPE_CHECKING:
     import socket
@@ -19,6 +21,73 @@ if TYPE_CHECKING:
 
 class ServerError(RuntimeError):
     """The process that determines the states of bearings is gone."""
+
+
+class Remote:
+    """A bearing whose state the server determines.
+
+    Parameters
+    ----------
+    server : Server
+        The process.
+    tag : int
+        Of the element.
+    bearing : LIRBearing
+        The device.
+    level : str
+        Level of fidelity.
+    placement : Placement
+        How the model's degrees of freedom lead to its axes.
+    """
+
+    route = "portable"
+
+    def __init__(
+        self, server: Server, tag: int, bearing: LIRBearing, level: str, placement: Placement
+    ) -> None:
+        self._server = server
+        self._key = server.new_key()
+        self._words = vector_length(placement.dofs)
+        self._sock: socket.socket | None = None
+        self.bearing = bearing
+        self.level = level
+        server.ask("prepare", self._key, tag, bearing, level, placement)
+
+    def connect(self, sock: socket.socket) -> None:
+        """Hand the host element's connection over, and guard it."""
+        self._server.guard.add(sock, self._words)
+        self._sock = sock
+        self._server.ask("connect", self._key, sock=sock)
+
+    @property
+    def alive(self) -> bool:
+        """Whether OpenSees still has the element, as far as can be told."""
+        return not self._server.alive or bool(self._server.ask("is_open", self._key))
+
+    def response(self, name: str) -> Any:
+        """Return a response of the committed state by name."""
+        return self._server.ask("response", self._key, name)
+
+    def start_recording(self, every: int) -> None:
+        """Record every so many commits from now on; 0: none."""
+        self._server.ask("record", self._key, every)
+
+    def recorded(self) -> tuple[Any, ...]:
+        """Return what `Hosted.recorded` does."""
+        return tuple(self._server.ask("recorded", self._key))
+
+    def release(self) -> None:
+        """Give up the connection, once the element is gone."""
+        self.detach()
+        if self._server.alive:
+            self._server.ask("forget", self._key)
+
+    def detach(self) -> None:
+        """Guard the connection no more, and close it."""
+        if self._sock is not None:
+            self._server.guard.drop(self._sock)
+            self._sock.close()
+            self._sock = None
 
 
 class Server:
@@ -42,6 +111,7 @@ class Server:
         self._pipe = ours
         self._lock = threading.Lock()
         self._keys = 0
+        self.guard = Guard(ours, f"WARNING {self._end()}; the analysis cannot go on.\n")
 
     @property
     def pid(self) -> int:
@@ -89,24 +159,27 @@ class Server:
                     self._hand_over(sock)
                 good, answer = self._pipe.recv()
         except (EOFError, ConnectionError) as cause:
-            code = self._process.wait()
-            msg = (
-                f"the server process {self.pid} of the bearings ended (exit code {code}): their "
-                "states are lost, wipe the model and build it again"
-            )
-            raise ServerError(msg) from cause
+            self._process.wait()
+            raise ServerError(self._end()) from cause
         if not good:
             raise answer
         return answer
 
     def close(self) -> None:
         """End the process."""
+        self.guard.stop()
         self._pipe.close()
         try:
             self._process.wait(5.0)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+
+    def _end(self) -> str:
+        return (
+            f"the server process {self.pid} of the bearings has ended: their states are lost, "
+            "wipe the model and build it again"
+        )
 
     def _hand_over(self, sock: socket.socket) -> None:
         if sys.platform == "win32":

@@ -50,12 +50,18 @@ class Channel:
         self._out = np.zeros(size)
         self._status = RunStatus.OK
         self._told = RunStatus.OK
+        self.is_open = True
         if not self._read(protocol.HEADER_BYTES):
             return
         header = self._inbox.view(np.int32)[: protocol.HEADER_WORDS]
         if (header[0], header[-1]) != (count, size):
             msg = f"host element of {header[0]} DOFs and {header[-1]} words: {count}, {size} expected"
             raise ValueError(msg)
+
+    def close(self) -> None:
+        """Close the connection."""
+        self.is_open = False
+        self.sock.close()
 
     def serve(self) -> bool:
         """Read one message and answer it; False when the element is gone."""
@@ -119,6 +125,7 @@ class Service:
         self._pipe = pipe
         self._parent = parent
         self._hosted: dict[int, Hosted] = {}
+        self._channels: dict[int, Channel] = {}
         self._requests: collections.deque[tuple[Any, ...]] = collections.deque()
         self._selector = selectors.DefaultSelector()
         self._wake, self._bell = socket.socketpair()
@@ -136,7 +143,7 @@ class Service:
                     served = True
                     if not channel.serve():
                         self._selector.unregister(channel.sock)
-                        channel.sock.close()
+                        channel.close()
             # what the model sent before a request was made lies in the sockets: it comes first
             if ready and not served:
                 self._wake.recv(4096)
@@ -172,7 +179,11 @@ class Service:
 
     def _do_connect(self, key: int, sock: socket.socket) -> None:
         channel = Channel(sock, self._hosted[key])
+        self._channels[key] = channel
         self._selector.register(sock, selectors.EVENT_READ, channel)
+
+    def _do_is_open(self, key: int) -> bool:
+        return key in self._channels and self._channels[key].is_open
 
     def _do_response(self, key: int, name: str) -> Any:
         hosted = self._hosted[key]
@@ -185,6 +196,7 @@ class Service:
         return self._hosted[key].recorded()
 
     def _do_forget(self, key: int) -> None:
+        self._channels.pop(key, None)
         self._hosted.pop(key).release()
 
 

@@ -1,0 +1,260 @@
+"""Bearings in the current OpenSeesPy model: adding them, and asking what goes on inside."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import warnings
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from lir_element.bearing import LIRBearing
+from lir_element.element import LEVELS, Level
+from lir_element.opensees.connection import add_host_element
+from lir_element.opensees.fast import Grafted
+from lir_element.opensees.hosted import Hosted
+from lir_element.opensees.library import opensees
+from lir_element.opensees.placement import Placement, place
+from lir_element.opensees.remote import Remote, Server
+from lir_element.opensees.selftest import why_not_fast
+from lir_element.opensees.symbols import NotPossibleError
+
+Route = Literal["auto", "fast", "portable"]
+ROUTES = ("auto", "fast", "portable")
+
+
+class RouteWarning(UserWarning):
+    """The fast route is not possible; the portable one is taken."""
+
+
+class _Session:
+    # The bearings of this process by tag, and the server of the portable route.
+
+    def __init__(self) -> None:
+        self.bearings: dict[int, Grafted | Remote] = {}
+        self.server: Server | None = None
+        self.told = False
+
+    def sweep(self) -> None:
+        """Release what belongs to bearings that OpenSees has deleted."""
+        for tag, bearing in list(self.bearings.items()):
+            if not bearing.alive:
+                del self.bearings[tag]
+                bearing.release()
+
+    def running_server(self) -> Server:
+        """Return the server, started if there is none."""
+        if self.server is None or not self.server.alive:
+            self.server = Server()
+        return self.server
+
+    def close(self) -> None:
+        """End the process in good order: OpenSees' own exit comes after Python's."""
+        for bearing in self.bearings.values():
+            bearing.detach()
+        if self.server is not None:
+            self.server.close()
+
+    def forget(self) -> None:
+        """Start anew in a forked process: connections and server are the parent's."""
+        self.bearings, self.server = {}, None
+
+
+_SESSION = _Session()
+atexit.register(_SESSION.close)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_SESSION.forget)
+
+
+def bearing_element(
+    tag: int,
+    i: int,
+    j: int,
+    bearing: LIRBearing,
+    level: Level = "pendulum",
+    orient: Sequence[float] | None = None,
+    route: Route = "auto",
+    *,
+    length_unit: float = 1.0,
+    force_unit: float = 1.0,
+) -> str:
+    """Add a bearing to the current OpenSeesPy model.
+
+    Parameters
+    ----------
+    tag : int
+        Tag of the new element.
+    i, j : int
+        Nodes below and above, coincident or `bearing.height` apart along the bearing's axis.
+    bearing : LIRBearing
+        The device; `bearing.as_dcfp()` is the plain DCFP.
+    level : {"pendulum", "contact"}
+        Level of fidelity.
+    orient : sequence of 3 or 6 floats, optional
+        Direction of the bearing's axis from node i to node j in global axes, and optionally that
+        of its x axis. By default the axis points along global Z (in two dimensions Y) and x
+        along X.
+    route : {"auto", "fast", "portable"}
+        "fast" determines states in this process, "portable" in another one that OpenSees talks to.
+        "auto" is "fast" where this build of OpenSees allows it.
+    length_unit, force_unit : float
+        The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
+
+    Returns
+    -------
+    str
+        The route taken, "fast" or "portable".
+
+    Raises
+    ------
+    ValueError
+        If an option or a node is not what it must be; the model is as it was.
+    RuntimeError
+        If the route asked for is not possible.
+
+    Notes
+    -----
+    The tangent is unsymmetric: choose a system of equations that takes that (UmfPack, BandGeneral,
+    FullGeneral). Without velocities a trial is static, as for OpenSees' own bearings: friction
+    then is that at low speed. A step that leads beyond a limit of the bearing is committed, and
+    the next one fails; why, is written to standard error.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> from lir_element.opensees import bearing_element, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> bearing_element(1, 1, 2, bearing) in {"fast", "portable"}
+    True
+    >>> ops.wipe()
+    """
+    _check(tag, bearing, level, route)
+    ops = opensees()
+    if tag in (ops.getEleTags() or []):
+        msg = f"element {tag} is in the model already: choose another tag"
+        raise ValueError(msg)
+    _SESSION.sweep()
+    placement = place(ops, i, j, bearing, orient, length_unit, force_unit)
+    chosen = _choose(route)
+    add = _add_fast if chosen == "fast" else _add_portable
+    _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement)
+    return chosen
+
+
+def bearing_response(tag: int, name: str) -> Any:
+    """Return a response of a bearing as of the last committed step.
+
+    Parameters
+    ----------
+    tag : int
+        Of the bearing's element.
+    name : str
+        One of `Element.responses()`, in bearing axes and SI units; or "deformation", the
+        displacement of node j relative to node i in the model's degrees of freedom and units; or
+        "route".
+
+    Returns
+    -------
+    object
+        A number or an array.
+
+    Raises
+    ------
+    ValueError
+        If there is no such bearing in the model.
+    KeyError
+        If the response is not known; the message lists all.
+    """
+    bearing = bearing_at(tag)
+    return bearing.route if name == "route" else bearing.response(name)
+
+
+def bearing_tags() -> tuple[int, ...]:
+    """Return the tags of all bearings in the current model."""
+    _SESSION.sweep()
+    return tuple(_SESSION.bearings)
+
+
+def bearing_at(tag: int) -> Grafted | Remote:
+    """Return what stands behind a bearing's element.
+
+    Parameters
+    ----------
+    tag : int
+        Of the element.
+
+    Returns
+    -------
+    Grafted or Remote
+        By its route.
+
+    Raises
+    ------
+    ValueError
+        If there is no such bearing in the model.
+    """
+    found = _SESSION.bearings.get(tag)
+    if found is None or not found.alive:
+        msg = f"element {tag} is no bearing of the current model: it has {bearing_tags()}"
+        raise ValueError(msg)
+    return found
+
+
+def _check(tag: int, bearing: LIRBearing, level: str, route: str) -> None:
+    if isinstance(tag, bool) or not isinstance(tag, int):
+        msg = f"tag = {tag!r} must be an integer"
+        raise TypeError(msg)
+    if not isinstance(bearing, LIRBearing):
+        msg = f"bearing = {bearing!r} is no LIRBearing: describe the device by one"
+        raise TypeError(msg)
+    if level not in LEVELS:
+        msg = f"level = {level!r}: choose one of {LEVELS}"
+        raise ValueError(msg)
+    if route not in ROUTES:
+        msg = f"route = {route!r}: choose one of {ROUTES}"
+        raise ValueError(msg)
+
+
+def _choose(route: str) -> str:
+    if route == "portable":
+        return route
+    reason = why_not_fast()
+    if not reason:
+        return "fast"
+    if route == "fast":
+        msg = f'the fast route is not possible: {reason}; take route="portable"'
+        raise NotPossibleError(msg)
+    if not _SESSION.told:
+        _SESSION.told = True
+        msg = f"the portable route is taken, the fast one is not possible: {reason}"
+        warnings.warn(msg, RouteWarning, stacklevel=3)
+    return "portable"
+
+
+def _add_fast(
+    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement
+) -> Grafted:
+    hosted = Hosted(tag, bearing, level, placement)
+    connection = add_host_element(ops, tag, placement)
+    try:
+        return Grafted(hosted, connection)
+    except NotPossibleError:
+        ops.remove("element", tag)
+        connection.close()
+        raise
+
+
+def _add_portable(
+    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement
+) -> Remote:
+    server = _SESSION.running_server()
+    remote = Remote(server, tag, bearing, level, placement)
+    remote.connect(add_host_element(ops, tag, placement))
+    return remote
