@@ -13,8 +13,13 @@ from frames.kernel_data import ENERGY_TERMS, device_records
 from frames.parts import DOFS
 from frames.static import expand
 from lir_element.eccentricity import interface_eccentricity
-from lir_element.layout import PROPS_BY_NAME
-from lir_element.results import bearing_coordinates, bearing_variables, body_variables, labelled
+from lir_element.results import (
+    bearing_coordinates,
+    bearing_variables,
+    device_variables,
+    labelled,
+    some_bodies,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,17 +30,10 @@ if TYPE_CHECKING:
     from frames.kernel_data import Output
     from frames.model import Frame
     from frames.static import GravityState
-    from lir_element.contact_data import Contacts
     from lir_element.layout import Records
 
 ABSORBED = ENERGY_TERMS[1:]
 """Terms of the energy that take up the input."""
-
-DEVICE = (
-    "length", "slider_radius", "interface_friction", "lever", "rim_displacement", "friction_max",
-    "friction_drop", "friction_rate",
-)  # fmt: skip
-"""Properties of the bearings that a Dataset keeps, whatever the run left out."""
 
 
 def build_dataset(
@@ -81,7 +79,7 @@ def build_dataset(
     velocity = _bearing_velocity(state, out.v_b[:count])
     variables = bearing_variables("time", states[:count], velocity)
     if state.contacts is not None:
-        variables |= _bodies(state.contacts, states[:count], bodies[:count])
+        variables |= some_bodies("time", state.contacts.place, states[:count], bodies[:count])
     node = ("time", "node", "dof")
     grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
     forces = states["force"][:count, grounded, 6:9].sum(axis=1)
@@ -239,26 +237,8 @@ def load(path: str | Path) -> xr.Dataset:
         return data.load()
 
 
-def _bodies(contacts: Contacts, states: Records, bodies: Records) -> dict[str, xr.Variable]:
-    # Places and rotations of all bearings' bodies, NaN for bearings without contact points.
-    full = np.zeros(states.shape, dtype=bodies.dtype)
-    chosen = contacts.place >= 0
-    full["turn"] = (1.0, 0.0, 0.0, 0.0)
-    full[:, chosen] = bodies[:, contacts.place[chosen]]
-    variables = body_variables("time", full, states["displacement"])
-    for name in ("body_position", "body_rotation"):
-        variables[name].data[:, ~chosen, :2] = np.nan
-    return variables
-
-
 def _device_variables(system: System) -> dict[str, xr.Variable]:
-    records = device_records(system)
-    variables = {}
-    for name in DEVICE:
-        field = PROPS_BY_NAME[name]
-        dims = ("bearing", "surface") if field.shape else ("bearing",)
-        unit = "1" if field.unit == "-" else field.unit
-        variables[name] = labelled(dims, records[name].copy(), unit, field.meaning)
+    variables = device_variables(device_records(system))
     ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64)
     variables["bearing_node"] = labelled(
         ("bearing", "end"), ends, "1", "place of the node among the nodes"

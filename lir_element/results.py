@@ -11,14 +11,25 @@ import xarray as xr
 from scipy.spatial.transform import Rotation
 
 from lir_element.errors import AnalysisError, AnalysisWarning, RunStatus, failure_message
+from lir_element.layout import PROPS_BY_NAME
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy.typing as npt
+
     from lir_element.layout import Floats, Records
+
+    IntArray = npt.NDArray[np.int64]
 
 AXES = ("x", "y", "z")
 SURFACES = ("bottom", "top")
+DEVICE = (
+    "length", "slider_radius", "interface_friction", "lever", "rim_displacement", "friction_max",
+    "friction_drop", "friction_rate",
+)  # fmt: skip
+"""Properties of the bearings that a Dataset keeps, whatever the run left out."""
+
 BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
 
 
@@ -149,6 +160,46 @@ def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str
         ),
         "body_rotation": labelled(dims, rotation, "rad", "rotation vector of the body"),
     }
+
+
+def some_bodies(
+    step: str, place: IntArray, states: Records, bodies: Records
+) -> dict[str, xr.Variable]:
+    """Return `body_variables` of all bearings, NaN for those without contact points.
+
+    Parameters
+    ----------
+    step : str
+        Name of the first dimension.
+    place : ndarray, shape (n_bearings,)
+        Where a bearing stands in `bodies`, -1 if it does not.
+    states, bodies : records, shape (n_steps, n_bearings), (n_steps, n_with_points)
+        Committed states.
+
+    Returns
+    -------
+    dict
+        Variables by name.
+    """
+    full = np.zeros(states.shape, dtype=bodies.dtype)
+    chosen = place >= 0
+    full["turn"] = (1.0, 0.0, 0.0, 0.0)
+    full[:, chosen] = bodies[:, place[chosen]]
+    variables = body_variables(step, full, states["displacement"])
+    for name in ("body_position", "body_rotation"):
+        variables[name].data[:, ~chosen, :2] = np.nan
+    return variables
+
+
+def device_variables(records: Records) -> dict[str, xr.Variable]:
+    """Return what a Dataset keeps of the bearings' properties `records` (n_bearings,)."""
+    variables = {}
+    for name in DEVICE:
+        field = PROPS_BY_NAME[name]
+        dims = ("bearing", "surface") if field.shape else ("bearing",)
+        unit = "1" if field.unit == "-" else field.unit
+        variables[name] = labelled(dims, records[name].copy(), unit, field.meaning)
+    return variables
 
 
 def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:

@@ -3,3 +3,10 @@
 from lir_element.opensees.library import opensees as opensees
 from lir_element.opensees.macro_model import MacroModel as MacroModel
 from lir_element.opensees.macro_model import macro_model as macro_model
+from lir_element.opensees.plugin import RouteWarning as RouteWarning
+from lir_element.opensees.plugin import bearing_element as bearing_element
+from lir_element.opensees.plugin import bearing_response as bearing_response
+from lir_element.opensees.plugin import bearing_tags as bearing_tags
+from lir_element.opensees.recording import BearingRecording as BearingRecording
+from lir_element.opensees.recording import record_bearings as record_bearings
+from lir_element.opensees.remote import ServerError as ServerError

@@ -87,9 +87,7 @@ def set_response(element: int, words: int, count: int, stream: int) -> int:
         return call_response(h.host_set_response, element, words, count, stream)
     table = carray(pointer(h.responses), h.response_count, RESPONSE)
     response = call_word(h.allocate, _RESPONSE_BYTES)
-    call_constructor(
-        h.new_response, response, element, FIRST_RESPONSE + place, table[place].vector
-    )
+    call_constructor(h.new_response, response, element, FIRST_RESPONSE + place, table[place].vector)
     return response
 
 

@@ -26,7 +26,6 @@ from lir_element.opensees.symbols import REPLACED, NotPossibleError, addresses
 if TYPE_CHECKING:
     import socket
 
-    from lir_element.bearing import LIRBearing
     from lir_element.layout import Records
     from lir_element.opensees.hosted import Hosted
 
@@ -60,6 +59,9 @@ class Grafted:
 
     def __init__(self, hosted: Hosted, farewell: socket.socket) -> None:
         self.hosted = hosted
+        self.device = hosted.bearing
+        self.level = hosted.level
+        self.placement = hosted.placement
         self._farewell = farewell
         self._kept: list[Any] = []
         where = addresses()
@@ -93,25 +95,14 @@ class Grafted:
         """Return what `Hosted.recorded` does."""
         return self.hosted.recorded()
 
-    @property
-    def bearing(self) -> LIRBearing:
-        """The device."""
-        return self.hosted.bearing
-
-    @property
-    def level(self) -> str:
-        """Level of fidelity."""
-        return self.hosted.level
-
     def detach(self) -> None:
         """Give the element its own functions back: ours end with Python, before OpenSees does."""
         if self.alive:
             ctypes.c_int64.from_address(self._element).value = addresses()["table"] + 16
 
     def release(self) -> None:
-        """Give up the connection and the recorded states, once the element is gone."""
+        """Give up the connection, once the element is gone."""
         self._farewell.close()
-        self.hosted.release()
 
     def _fill_block(self, domain: int) -> None:
         block, where = self.hosted.block, addresses()

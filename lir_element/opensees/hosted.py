@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import sys
+import weakref
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from lir_element.contact_data import contact_arrays
 from lir_element.element import initial_state
 from lir_element.errors import RunStatus, failure_message
 from lir_element.layout import BODIES, STATE, STATE_BY_NAME, WORK
-from lir_element.opensees.layout import BODY_WORDS, HOST, RECORD_WORDS, STATE_WORDS
+from lir_element.opensees.layout import HOST, RECORD_WORDS, STATE_WORDS
 from lir_element.sliders import initial_bodies, initial_touches, point_records
 
 if TYPE_CHECKING:
@@ -50,9 +51,7 @@ class Hosted:
         What compiled code reads and writes (`layout.HOST`).
     """
 
-    def __init__(
-        self, tag: int, bearing: LIRBearing, level: str, placement: Placement
-    ) -> None:
+    def __init__(self, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> None:
         self.tag = tag
         self.bearing = bearing
         self.level = level
@@ -70,6 +69,7 @@ class Hosted:
         self._initial = views["initial"][: count * count]
         self._clock = self.block["committed_time"]
         self._trial, self._tangent, self._commit = _functions(level)
+        weakref.finalize(self, _free_records, self.block)
         self._set_map()
         self._set_records()
         self._set_initial()
@@ -170,13 +170,6 @@ class Hosted:
         bodies = words[:, 4 + STATE_WORDS :].copy().view(BODIES)[:, 0]
         return head[:, 0], head[:, 1:], states, bodies
 
-    def release(self) -> None:
-        """Free the recorded states."""
-        self.block["record_every"] = 0
-        self.block["record_count"], self.block["record_room"] = 0, 0
-        _C.free(int(self.block["record"][0]))
-        self.block["record"] = 0
-
     def _set_map(self) -> None:
         matrix = self.placement.matrix
         entries = 0
@@ -223,6 +216,10 @@ class Hosted:
         self._initial[:] = self.tangent_by_columns()
         self.trial(np.zeros(count), np.zeros(count), 0.0)
         self.block["trials"] = 0
+
+
+def _free_records(block: Records) -> None:
+    _C.free(int(block["record"][0]))
 
 
 @functools.cache

@@ -27,7 +27,9 @@ SHARED_FIELDS = (
     Field("committed_time", "s", "t", "the model's time at the last commit"),
     Field("last_status", "-", "", "RunStatus code of the last trial", (), "i8"),
     Field("refused", "-", "", "RunStatus code told to the user since the last commit", (), "i8"),
-    Field("has_tangent", "-", "", "0 to be made from the trial, 1 there, 2 from the commit", (), "i8"),
+    Field(
+        "has_tangent", "-", "", "0 to be made from the trial, 1 there, 2 from the commit", (), "i8"
+    ),
     Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
     Field("trials", "-", "", "trials since the start", (), "i8"),
     Field("commits", "-", "", "commits since the start", (), "i8"),

@@ -238,9 +238,7 @@ def _choose(route: str) -> str:
     return "portable"
 
 
-def _add_fast(
-    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement
-) -> Grafted:
+def _add_fast(ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> Grafted:
     hosted = Hosted(tag, bearing, level, placement)
     connection = add_host_element(ops, tag, placement)
     try:

@@ -49,8 +49,11 @@ class Remote:
         self._key = server.new_key()
         self._words = vector_length(placement.dofs)
         self._sock: socket.socket | None = None
-        self.bearing = bearing
+        self.device = bearing
         self.level = level
+        self.placement = placement
+        self._records: tuple[Any, ...] | None = None
+        self._recording = False
         server.ask("prepare", self._key, tag, bearing, level, placement)
 
     def connect(self, sock: socket.socket) -> None:
@@ -71,15 +74,20 @@ class Remote:
     def start_recording(self, every: int) -> None:
         """Record every so many commits from now on; 0: none."""
         self._server.ask("record", self._key, every)
+        self._recording = every > 0
 
     def recorded(self) -> tuple[Any, ...]:
         """Return what `Hosted.recorded` does."""
+        if self._records is not None:  # the element is gone, its records were kept
+            return self._records
         return tuple(self._server.ask("recorded", self._key))
 
     def release(self) -> None:
         """Give up the connection, once the element is gone."""
         self.detach()
         if self._server.alive:
+            if self._recording:
+                self._records = self.recorded()
             self._server.ask("forget", self._key)
 
     def detach(self) -> None:

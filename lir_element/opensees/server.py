@@ -55,7 +55,9 @@ class Channel:
             return
         header = self._inbox.view(np.int32)[: protocol.HEADER_WORDS]
         if (header[0], header[-1]) != (count, size):
-            msg = f"host element of {header[0]} DOFs and {header[-1]} words: {count}, {size} expected"
+            msg = (
+                f"host element of {header[0]} DOFs and {header[-1]} words: {count}, {size} expected"
+            )
             raise ValueError(msg)
 
     def close(self) -> None:
@@ -197,7 +199,7 @@ class Service:
 
     def _do_forget(self, key: int) -> None:
         self._channels.pop(key, None)
-        self._hosted.pop(key).release()
+        del self._hosted[key]
 
 
 def _receive_socket(pipe: Connection) -> socket.socket:

@@ -1,0 +1,144 @@
+"""Histories of bearings in an OpenSees model, as the Dataset that all analyses hand back."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from lir_element.eccentricity import interface_eccentricity
+from lir_element.element import limit_detail
+from lir_element.errors import RunStatus, failure_message
+from lir_element.opensees.library import opensees
+from lir_element.opensees.plugin import bearing_at, bearing_tags
+from lir_element.results import (
+    bearing_coordinates,
+    bearing_variables,
+    device_variables,
+    labelled,
+    package_version,
+    some_bodies,
+)
+
+if TYPE_CHECKING:
+    from lir_element.layout import Records
+
+
+class BearingRecording:
+    """The committed states of bearings from now on; made by `record_bearings`."""
+
+    def __init__(self, tags: tuple[int, ...], every: int) -> None:
+        self.tags = tags
+        self._every = every
+        self._bearings = [bearing_at(tag) for tag in tags]
+        self._started = time.perf_counter()
+        for bearing in self._bearings:
+            bearing.start_recording(every)
+
+    def dataset(self) -> xr.Dataset:
+        """Return what was recorded so far.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions time (the model's), bearing (its tag), axis, surface, end, and body where
+            there are sliders with contact points; the variables of the bearings as
+            `frames.time_history` names them (docs/results.md), in each bearing's own axes and SI
+            units. `base_shear` is there if the axes of all bearings agree. The attributes hold
+            status, message, versions and options.
+
+        Raises
+        ------
+        ValueError
+            If nothing was recorded.
+        MemoryError
+            If there was no memory for all states.
+        RuntimeError
+            If the process with the bearings' states is gone.
+        """
+        parts = [bearing.recorded() for bearing in self._bearings]
+        count = min(len(part[0]) for part in parts)
+        if count == 0:
+            msg = f"bearings {self.tags} have no committed step since the recording began: analyze"
+            raise ValueError(msg)
+        times = parts[0][0][:count]
+        velocity = np.stack([part[1][:count] for part in parts], axis=1)
+        states = np.stack([part[2][:count] for part in parts], axis=1)
+        bodies = np.stack([part[3][:count] for part in parts], axis=1)
+        props = np.concatenate([bearing.device.to_record() for bearing in self._bearings])
+        variables = bearing_variables("time", states, velocity) | device_variables(props)
+        variables["interface_eccentricity"] = labelled(
+            ("time", "bearing"),
+            interface_eccentricity(props, states),
+            "m",
+            "offset of the resultant between the sliders from their axes, the larger; 0 lifted",
+        )
+        with_points = np.array([bearing.level == "contact" for bearing in self._bearings])
+        if with_points.any():
+            place = np.where(with_points, np.arange(len(parts)), -1)
+            variables |= some_bodies("time", place, states, bodies)
+        first = self._bearings[0].placement.matrix
+        if all(np.array_equal(bearing.placement.matrix, first) for bearing in self._bearings):
+            variables["base_shear"] = labelled(
+                ("time", "axis"), states["force"][:, :, 6:9].sum(axis=1), "N",
+                "resisting force of all recorded bearings",
+            )  # fmt: skip
+        coordinates = {
+            "time": labelled(("time",), times, "s", "time"),
+            **bearing_coordinates([str(tag) for tag in self.tags]),
+        }
+        return xr.Dataset(variables, coordinates, self._attributes(states, props, times))
+
+    def _attributes(self, states: Records, props: Records, times: Any) -> dict[str, Any]:
+        status, message = RunStatus.OK, "completed"
+        last = states[-1]
+        beyond = np.flatnonzero(last["status"])
+        if len(beyond):
+            place = int(beyond[0])
+            status = RunStatus(int(last["status"][place]))
+            where = f"bearing element {self.tags[place]}"
+            detail = limit_detail(props, last, place)
+            message = failure_message(status, float(times[-1]), where, detail)
+        return {
+            "status": status.name.lower(),
+            "message": message,
+            "lir_dcfp_version": package_version(),
+            "opensees_version": opensees().version(),
+            "level": ", ".join(sorted({bearing.level for bearing in self._bearings})),
+            "route": ", ".join(sorted({bearing.route for bearing in self._bearings})),
+            "record_every": self._every,
+            "wall_time": time.perf_counter() - self._started,
+        }
+
+
+def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
+    """Record the committed states of bearings in the current OpenSeesPy model from now on.
+
+    Parameters
+    ----------
+    *tags : int
+        Of their elements; all bearings of the model if none is named. A recording that a bearing
+        was in before ends.
+    every : int
+        Record every so many committed steps.
+
+    Returns
+    -------
+    BearingRecording
+        Its `dataset()` may be called at any time, also after a wipe.
+
+    Raises
+    ------
+    ValueError
+        If there is no such bearing, or `every` is below 1.
+    """
+    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+        msg = f"every = {every!r} must be an integer of at least 1"
+        raise ValueError(msg)
+    chosen = tags or bearing_tags()
+    if not chosen:
+        msg = "the current OpenSees model has no bearing: add one by bearing_element"
+        raise ValueError(msg)
+    return BearingRecording(chosen, every)
