@@ -25,7 +25,7 @@ from validation.hard_cases import given_back, outcome, quiet
 from validation.hard_scenes import Case, impact, vertical
 from validation.opensees_devices import DEVICES
 from validation.opensees_hard_page import Entry, write
-from validation.opensees_runs import (
+from validation.opensees_scenes import (
     PLAIN,
     ROBUST,
     Shaken,

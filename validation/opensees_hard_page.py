@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lir_element.opensees import opensees
-from validation.opensees_runs import CODES, ITERATIONS, TOLERANCE
+from validation.opensees_scenes import CODES, ITERATIONS, TOLERANCE
 from validation.opensees_worker import LIMIT
 from validation.page import table
 from validation.scenes import MASS

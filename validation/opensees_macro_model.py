@@ -24,7 +24,7 @@ from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, stat
 from validation.opensees_devices import ABOVE, UP, Device, macro
 from validation.opensees_macro_figures import Rim, draw_loops, draw_rims
 from validation.opensees_macro_text import SCENES, scenes_table, settings_table, text
-from validation.opensees_runs import Shaken, pull, shake
+from validation.opensees_scenes import Shaken, pull, shake
 from validation.page import Check, Claim, Page, below, near, run
 from validation.static_test import LOAD, REACH, STEP, path
 

@@ -12,7 +12,7 @@ from frames import time_history
 from lir_element import AnalysisWarning
 from validation.cases import EXAMPLE_MASS, example_bearing
 from validation.opensees_devices import macro
-from validation.opensees_runs import PLAIN, ROBUST, Shaken, Steps, shake
+from validation.opensees_scenes import PLAIN, ROBUST, Shaken, Steps, shake
 from validation.page import Claim, figure, table
 from validation.scenes import MASS, Scene, made_scenes
 

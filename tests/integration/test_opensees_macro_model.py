@@ -23,7 +23,7 @@ from validation.opensees_macro_model import (
     series_with_mu_h,
     static_checks,
 )
-from validation.opensees_runs import (
+from validation.opensees_scenes import (
     PLAIN,
     ROBUST,
     load_down,
