@@ -25,6 +25,7 @@ CLAIMS = (
     "convergence",
     "shake_table",
     "double_pendulum",
+    "opensees_pendulum",
     "bouc_wen_drift",
 )
 """The modules of the claims, in the order of the index."""
