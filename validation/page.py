@@ -25,6 +25,7 @@ CLAIMS = (
     "convergence",
     "shake_table",
     "double_pendulum",
+    "opensees_pendulum",
     "bouc_wen_drift",
     "opensees_macro_model",
 )
