@@ -71,7 +71,7 @@ def destroy(element: int) -> None:
 
 @entry_point("void(int64)")
 def destroy_free(element: int) -> None:
-    """The same, freeing the element's memory."""
+    """Do the same, and free the element's memory."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     h.alive = 0
     set_word(element, h.host_table)

@@ -19,7 +19,7 @@ import numpy as np
 
 from lir_element.errors import RunStatus
 from lir_element.layout import STATE, STATE_FIELDS
-from lir_element.opensees.layout import MOST_DOFS, RESPONSE
+from lir_element.opensees.layout import MOST_DOFS, RESPONSE, offset_of
 from lir_element.opensees.motion import HASH_FACTOR, HASH_START
 from lir_element.opensees.symbols import REPLACED, NotPossibleError, addresses
 
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from lir_element.layout import Records
     from lir_element.opensees.hosted import Hosted
 
-_C = ctypes.CDLL(None)
 _SLOTS = 60
 """Virtual functions of an element: as many words are copied after the table's two first ones."""
 _OBJECT_BYTES = 256
@@ -115,7 +114,7 @@ class Grafted:
         block["host_set_response"] = where["set_response"]
         block["host_get_response"] = where["get_response"]
         block["host_table"] = where["table"] + 16
-        block["write"] = ctypes.cast(_C.write, ctypes.c_void_p).value
+        block["write"] = ctypes.cast(ctypes.CDLL(None).write, ctypes.c_void_p).value
         block["alive"] = 1
 
     def _set_objects(self) -> None:
@@ -132,7 +131,7 @@ class Grafted:
         for field in STATE_FIELDS:
             size = int(np.prod(field.shape, dtype=int))
             if field.name not in _HOST_RESPONSES and size <= MOST_DOFS:
-                offset = STATE.fields[field.name][1] // 8
+                offset = offset_of(STATE, field.name) // 8
                 rows.append((field.name, offset, size, field.kind == "i8"))
         table = self._keep(np.zeros(len(rows), dtype=RESPONSE))
         for k, (name, source, size, integer) in enumerate(rows):
@@ -224,5 +223,4 @@ def _word(address: int) -> int:
 
 def _field(records: Records, name: str) -> int:
     # Address of a field of the first record.
-    offset = records.dtype.fields[name][1]
-    return int(records.ctypes.data) + int(offset)
+    return int(records.ctypes.data) + offset_of(records.dtype, name)

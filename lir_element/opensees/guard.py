@@ -21,8 +21,6 @@ from lir_element.opensees.guard_layout import GUARD, MOST_CHANNELS
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
-_C = ctypes.CDLL(None)
-
 
 class Guard:
     """A thread that watches a server.
@@ -51,8 +49,9 @@ class Guard:
         self._block["send_flags"] = getattr(socket, "MSG_DONTWAIT", 0) | getattr(
             socket, "MSG_NOSIGNAL", 0
         )
+        system = ctypes.CDLL(None)
         for name in ("poll", "recv", "send", "write"):
-            self._block[name] = ctypes.cast(getattr(_C, name), ctypes.c_void_p).value
+            self._block[name] = ctypes.cast(getattr(system, name), ctypes.c_void_p).value
         address = int(self._block.ctypes.data)
         self._thread = threading.Thread(
             target=guard_kernel.watch.ctypes, args=(address,), name="bearing guard", daemon=True

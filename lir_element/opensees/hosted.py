@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import importlib
 import sys
 import weakref
 from typing import TYPE_CHECKING, Any
@@ -62,11 +63,11 @@ class Hosted:
         self._kept: list[Any] = []
         self.address = int(self.block.ctypes.data)
         count = placement.dofs
-        views = self.block[0]
-        self._u, self._v = views["host_u"][:count], views["host_v"][:count]
-        self._force = views["force"][:count]
-        self._columns = views["tangent"][: count * count]
-        self._initial = views["initial"][: count * count]
+        self._u: Floats = self.block["host_u"][0, :count]
+        self._v: Floats = self.block["host_v"][0, :count]
+        self._force: Floats = self.block["force"][0, :count]
+        self._columns: Floats = self.block["tangent"][0, : count * count]
+        self._initial: Floats = self.block["initial"][0, : count * count]
         self._clock = self.block["committed_time"]
         self._trial, self._tangent, self._commit = _functions(level)
         weakref.finalize(self, _free_records, self.block)
@@ -149,7 +150,12 @@ class Hosted:
         self.block["record_count"] = 0
 
     def recorded(self) -> tuple[Floats, Floats, Records, Records]:
-        """Return time (n,), velocity of node j relative to i (n, 3), states (n,), bodies (n,).
+        """Return the states that were recorded.
+
+        Returns
+        -------
+        time, velocity, states, bodies : ndarray, (n,), (n, 3), (n,), (n,)
+            The model's time [s], velocity of node j relative to i in bearing axes [m/s], records.
 
         Raises
         ------
@@ -211,7 +217,7 @@ class Hosted:
         count = self.placement.dofs
         u = np.zeros(12)
         u[8] = -options["design_load"] / options["axial_stiffness"]
-        host = np.linalg.lstsq(self.placement.matrix, u, rcond=None)[0]
+        host = np.asarray(np.linalg.lstsq(self.placement.matrix, u, rcond=None)[0], np.float64)
         self.trial(host, np.zeros(count), 0.0)
         self._initial[:] = self.tangent_by_columns()
         self.trial(np.zeros(count), np.zeros(count), 0.0)
@@ -230,8 +236,4 @@ def _functions(level: str) -> tuple[Callable[..., Any], ...]:
 
 def entries_of(level: str) -> ModuleType:
     """Return the compiled entry points of a level; compiled on first use of that level."""
-    if level == "contact":
-        from lir_element.opensees import entries_contact as entries
-    else:
-        from lir_element.opensees import entries_pendulum as entries
-    return entries
+    return importlib.import_module(f"lir_element.opensees.entries_{level}")

@@ -1,7 +1,8 @@
 """Kernels of a bearing in a foreign model: trial, tangent, commit, revert, record.
 
 They read and write the bearing's block (`layout.HOST`). The bearing's own axes are those of
-`Element`; a map (direction cosines, unit of length) leads there from the model's degrees of freedom.
+`Element`; a map (direction cosines, unit of length) leads there from the model's degrees of
+freedom.
 """
 
 from __future__ import annotations

@@ -27,9 +27,7 @@ SHARED_FIELDS = (
     Field("committed_time", "s", "t", "the model's time at the last commit"),
     Field("last_status", "-", "", "RunStatus code of the last trial", (), "i8"),
     Field("refused", "-", "", "RunStatus code told to the user since the last commit", (), "i8"),
-    Field(
-        "has_tangent", "-", "", "0 to be made from the trial, 1 there, 2 from the commit", (), "i8"
-    ),
+    Field("has_tangent", "-", "", "0 to make from the trial, 1 made, 2 from the commit", (), "i8"),
     Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
     Field("trials", "-", "", "trials since the start", (), "i8"),
     Field("commits", "-", "", "commits since the start", (), "i8"),
@@ -105,6 +103,13 @@ RESPONSE_FIELDS = (
     Field("vector", "", "", "address of the Vector over `values`", (), _ADDRESS),
     Field("values", "", "", "what is handed over", (12,)),
 )
+
+
+def offset_of(dtype: np.dtype[Any], name: str) -> int:
+    """Return the place of a field in a record, in bytes."""
+    record = np.zeros(1, dtype)
+    return int(record[name].ctypes.data - record.ctypes.data)
+
 
 HOST = dtype_of(SHARED_FIELDS + FAST_FIELDS)
 RESPONSE = dtype_of(RESPONSE_FIELDS)

@@ -207,7 +207,7 @@ def bearing_at(tag: int) -> Grafted | Remote:
     return found
 
 
-def _check(tag: int, bearing: LIRBearing, level: str, route: str) -> None:
+def _check(tag: object, bearing: object, level: str, route: str) -> None:
     if isinstance(tag, bool) or not isinstance(tag, int):
         msg = f"tag = {tag!r} must be an integer"
         raise TypeError(msg)

@@ -134,7 +134,7 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     ValueError
         If there is no such bearing, or `every` is below 1.
     """
-    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+    if every != int(every) or every < 1:
         msg = f"every = {every!r} must be an integer of at least 1"
         raise ValueError(msg)
     chosen = tags or bearing_tags()

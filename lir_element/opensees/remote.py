@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import subprocess
+import subprocess  # noqa: S404  # our own server, by our own interpreter
 import sys
 import threading
 from multiprocessing import Pipe, reduction
@@ -112,7 +112,7 @@ class Server:
             options = {"startupinfo": handles}
         paths = [path or os.getcwd() for path in sys.path]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-        self._process = subprocess.Popen(
+        self._process = subprocess.Popen(  # noqa: S603
             command, stdin=subprocess.DEVNULL, env=environment, **options
         )
         theirs.close()

@@ -13,7 +13,7 @@ import functools
 import hashlib
 import json
 import os
-import subprocess
+import subprocess  # noqa: S404  # this module, by our own interpreter
 import sys
 from pathlib import Path
 from typing import Any

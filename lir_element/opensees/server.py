@@ -43,7 +43,7 @@ class Channel:
         count = hosted.placement.dofs
         size = protocol.vector_length(count)
         self._inbox = np.zeros(size)
-        self._view = memoryview(self._inbox).cast("B")
+        self._view = memoryview(self._inbox.view(np.uint8).data)
         self._motion = self._inbox[1 : 1 + count], self._inbox[1 + count : 1 + 2 * count]
         self._time = 1 + 3 * count
         self._zeros = bytes(8 * size)
@@ -95,7 +95,7 @@ class Channel:
 
     def _send(self, values: np.ndarray) -> None:
         self._out[: len(values)] = values
-        self.sock.sendall(self._out)
+        self.sock.sendall(self._out.data)
 
     def _read(self, count: int) -> bool:
         got = 0

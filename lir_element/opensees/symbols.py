@@ -53,6 +53,11 @@ class NotPossibleError(RuntimeError):
 def library() -> ctypes.CDLL:
     """Return the OpenSees library that openseespy has loaded.
 
+    Returns
+    -------
+    CDLL
+        The library.
+
     Raises
     ------
     NotPossibleError
@@ -63,6 +68,11 @@ def library() -> ctypes.CDLL:
 
 def library_path() -> Path:
     """Return the file of the OpenSees library that openseespy has loaded.
+
+    Returns
+    -------
+    Path
+        The file.
 
     Raises
     ------
@@ -80,6 +90,11 @@ def library_path() -> Path:
 @functools.cache
 def addresses() -> dict[str, int]:
     """Return the addresses of all that `REPLACED` and `CALLED` name.
+
+    Returns
+    -------
+    dict of str to int
+        Addresses by the names there.
 
     Raises
     ------
