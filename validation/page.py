@@ -26,6 +26,7 @@ CLAIMS = (
     "shake_table",
     "double_pendulum",
     "bouc_wen_drift",
+    "opensees_superstructure",
 )
 """The modules of the claims, in the order of the index."""
 
