@@ -1,6 +1,7 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
 from frames._validate import ModelError as ModelError
+from frames._validate import ModelWarning as ModelWarning
 from frames.auditing import Finding as Finding
 from frames.auditing import audit as audit
 from frames.auditing import audit_report as audit_report

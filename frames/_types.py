@@ -13,8 +13,16 @@ FloatArray: TypeAlias = npt.NDArray[np.float64]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 """Array of int64; the shape is given in each docstring."""
 
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+"""Array of bool; the shape is given in each docstring."""
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from scipy.sparse import csr_array
 
     SparseMatrix: TypeAlias = csr_array[np.float64]
     """Compressed sparse row matrix of float64."""
+
+    MatrixLike: TypeAlias = SparseMatrix | FloatArray | Sequence[Sequence[float]]
+    """A matrix as the caller has it."""

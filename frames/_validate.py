@@ -17,6 +17,10 @@ class ModelError(ValueError):
     """A structural model, or a number of it, that cannot be used; the message names the culprit."""
 
 
+class ModelWarning(UserWarning):
+    """A structural model that can be used, with something that its user should know."""
+
+
 def finite(value: object, what: str, remedy: str = "give a finite number in SI units") -> float:
     """Accept a finite real number.
 

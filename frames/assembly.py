@@ -10,6 +10,7 @@ from scipy import sparse
 from frames.axes import default_up, matrix_to_global, to_global, to_local
 from frames.check import check_connections, check_mass, check_restraint
 from frames.constraints import free_dofs
+from frames.elimination import eliminate, separate_massless
 from frames.members import (
     fixed_end_forces,
     local_geometric_stiffness,
@@ -18,6 +19,7 @@ from frames.members import (
     spring_stiffness,
 )
 from frames.parts import bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.superelement import Placed, lumped, placed
 from frames.system import MemberTable as MemberTable
 from frames.system import System as System
 from frames.system import element_dofs
@@ -62,23 +64,34 @@ def assemble(
     index = {name: place for place, name in enumerate(names)}
     coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
     members = _member_table(frame, index, coordinates)
-    node_mass = _node_mass(frame, index, members)
+    own_mass = _node_mass(frame, index, members)
+    parts = placed(frame, index)
+    node_mass = own_mass + lumped(parts.mass)
     transform, labels = free_dofs(
         frame, coordinates, node_mass, planar=not features.second_direction
     )
-    node_stiffness = _node_stiffness(frame, index, coordinates, members)
-    node_load = _node_load(frame, index, members, node_mass)
+    mass = sparse.csr_array(sparse.diags_array(own_mass.ravel()))
+    inert = np.ones(len(labels))
+    if frame.superelements:
+        mass = sparse.csr_array(mass + parts.mass)
+        transform, labels, inert = _reduced(transform, labels, parts, mass, coordinates)
+    node_stiffness = sparse.csr_array(
+        _node_stiffness(frame, index, coordinates, members) + parts.stiffness
+    )
+    node_load = _node_load(frame, index, members, own_mass) + parts.load
     translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
+    masked = sparse.csr_array(transform @ sparse.diags_array(inert))
     system = System(
         node_names=names,
         coordinates=coordinates,
         dof_labels=labels,
         transform=transform,
         stiffness=_project(transform, node_stiffness),
-        mass=_project(transform, sparse.csr_array(sparse.diags_array(node_mass.ravel()))),
+        mass=_project(masked, mass),
+        damping=_project(transform, parts.damping),
         node_mass=node_mass,
         load=np.asarray(transform.T @ node_load),
-        inertia_load=np.asarray(transform.T @ (node_mass.reshape(-1, 1) * translations)),
+        inertia_load=np.asarray(masked.T @ (mass @ translations)),
         bearings=tuple(
             (link.name, index[link.i], index[link.j], link.bearing)
             for link in frame.bearings.values()
@@ -281,6 +294,27 @@ def _node_load(
     flat = load.ravel()
     np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
     return flat
+
+
+def _reduced(
+    transform: SparseMatrix,
+    labels: tuple[str, ...],
+    parts: Placed,
+    mass: SparseMatrix,
+    coordinates: FloatArray,
+) -> tuple[SparseMatrix, tuple[str, ...], FloatArray]:
+    # The superelements' ties eliminated, and displacements without mass apart from the rest;
+    # besides, 1 for each displacement with mass and 0 for each without.
+    extent = float(np.linalg.norm(np.ptp(coordinates, axis=0))) or 1.0
+    turns = np.array([label.rsplit(" ", 1)[1].startswith("r") for label in labels])
+    scale = np.where(turns, 1.0 / extent, 1.0)
+    kept, follow = eliminate(sparse.csr_array(parts.equations @ transform), scale)
+    labels = tuple(labels[place] for place in kept)
+    transform = sparse.csr_array(transform @ follow)
+    turn, massless = separate_massless(_project(transform, mass), labels)
+    inert = np.ones(len(labels))
+    inert[massless] = 0.0
+    return sparse.csr_array(transform @ turn), labels, inert
 
 
 def _project(transform: SparseMatrix, matrix: SparseMatrix) -> SparseMatrix:

@@ -18,6 +18,7 @@ from scipy import linalg, sparse
 
 from frames._validate import ModelError
 from frames.damping import ModalDamping, RayleighDamping
+from frames.matrix_damping import with_matrix_damping
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
@@ -38,13 +39,17 @@ class Basis:
     offset : ndarray, (n_free,)
         Static displacement of massless DOFs under their own loads.
     mass_b, mass_be : ndarray, (n_b, n_b), (n_b, n_e)
-        Mass; that of the modes is the unit matrix.
+        Mass of b, and what couples it with eta.
+    mass_e : ndarray, (n_e,)
+        Mass of eta: 1 of the modes, 0 of what lags behind (frames/matrix_damping.py).
     stiffness_b : ndarray, (n_b, n_b)
         Stiffness without bearings, geometric part included.
     damping_b : ndarray, (n_b, n_b)
         Damping of the base's own deformation.
     omega2, damping_e : ndarray, (n_e,)
         Squared circular frequencies and damping constants (2 zeta omega) of the modes.
+    damping_be, damping_ee : ndarray, (n_b, n_e), (n_e, n_e)
+        Damping besides that is given as a matrix; of no size where there is none.
     load_b, load_e : ndarray
         Permanent loads.
     inertia_b, inertia_e : ndarray, (n_b, 3), (n_e, 3)
@@ -57,10 +62,13 @@ class Basis:
     offset: FloatArray
     mass_b: FloatArray
     mass_be: FloatArray
+    mass_e: FloatArray
     stiffness_b: FloatArray
     damping_b: FloatArray
     omega2: FloatArray
     damping_e: FloatArray
+    damping_be: FloatArray
+    damping_ee: FloatArray
     load_b: FloatArray
     load_e: FloatArray
     inertia_b: FloatArray
@@ -92,7 +100,8 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
         Geometric stiffness of the members.
     damping : Damping or None
         Damping of the structure. It acts on its motion relative to the one that follows the
-        bearings quasi-statically: what moves with the isolation is not damped.
+        bearings quasi-statically: what moves with the isolation is not damped. The damping matrix
+        of the system acts besides, as it is.
 
     Returns
     -------
@@ -129,22 +138,28 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
         expand[kept] = part
         expand[massless] = follow @ part
     damping_e, beta = _damping(damping, omega2)
-    return Basis(
+    basis = Basis(
         bearing_dofs=touched,
         expand_b=expand_b,
         expand_e=expand_e,
         offset=offset,
         mass_b=_symmetric(to_kept_b.T @ m @ to_kept_b),
         mass_be=to_kept_b.T @ m @ to_kept_e,
+        mass_e=np.ones(len(omega2)),
         stiffness_b=_symmetric(to_kept_b.T @ k @ to_kept_b),
         damping_b=_symmetric(beta * (expand_b.T @ elastic @ expand_b)),
         omega2=omega2,
         damping_e=damping_e,
+        damping_be=np.zeros((0, 0)),
+        damping_ee=np.zeros((0, 0)),
         load_b=to_kept_b.T @ load,
         load_e=to_kept_e.T @ load,
         inertia_b=to_kept_b.T @ inertia,
         inertia_e=to_kept_e.T @ inertia,
     )
+    if not system.damping.nnz:
+        return basis
+    return with_matrix_damping(basis, system.damping.toarray(), stiffness, massless)
 
 
 def _static_following(

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly import System
     from frames.contents import FrameContents
+    from frames.superelement import Superelement
 
 __all__ = ["ModelError", "check_connections", "check_mass", "check_restraint", "free_motions"]
 
@@ -58,6 +59,8 @@ def check_connections(frame: FrameContents) -> None:
     for diaphragm in frame.diaphragms.values():
         first = index[diaphragm.nodes[0]]
         links.extend((first, index[node]) for node in diaphragm.nodes[1:])
+    for superelement in frame.superelements.values():
+        links.extend(_joined_by(superelement, index))
     rows, columns = np.array(links, dtype=np.int64).reshape(-1, 2).T
     size = len(index)
     graph = sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(size, size))
@@ -217,6 +220,16 @@ def _remedy(system: System, node: str, dof: str) -> str:
             "nodes above the bearings by base beams"
         )
     return advice
+
+
+def _joined_by(part: Superelement, index: dict[str, int]) -> list[tuple[int, int]]:
+    # Pairs of nodes that a superelement's stiffness or ties join.
+    ties = part.equations
+    pattern = abs(part.stiffness) + abs(part.mass) + abs(ties.T) @ abs(ties)
+    at_row, at_column = pattern.tocoo().coords
+    pairs = np.unique(np.column_stack([at_row // 6, at_column // 6]), axis=0)
+    places = np.array([index[node] for node in part.nodes], dtype=np.int64)
+    return [(int(places[a]), int(places[b])) for a, b in pairs if a != b]
 
 
 def _quoted(names: FloatArray) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from frames._validate import new_name, non_negative
 from frames.damping import Damping
 from frames.parts import BearingLink, Diaphragm, Level, Member, Node, Spring
+from frames.superelement import Superelement
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -35,6 +36,7 @@ class FrameContents:
         self._nodes: dict[str, Node] = {}
         self._members: dict[str, Member] = {}
         self._springs: dict[str, Spring] = {}
+        self._superelements: dict[str, Superelement] = {}
         self._diaphragms: dict[str, Diaphragm] = {}
         self._bearings: dict[str, BearingLink] = {}
         self._levels: dict[str, Level] = {}
@@ -52,7 +54,9 @@ class FrameContents:
         str
             One line.
         """
-        parts = ("nodes", "members", "springs", "diaphragms", "bearings")
+        parts = ["nodes", "members", "springs", "diaphragms", "bearings"]
+        if self._superelements:
+            parts.append("superelements")
         counts = ", ".join(f"{len(getattr(self, part))} {part}" for part in parts)
         return f'Frame("{self._name}": {counts})'
 
@@ -85,6 +89,11 @@ class FrameContents:
     def springs(self) -> Mapping[str, Spring]:
         """Springs by name, in the order added."""
         return MappingProxyType(self._springs)
+
+    @property
+    def superelements(self) -> Mapping[str, Superelement]:
+        """Superelements by name, in the order added."""
+        return MappingProxyType(self._superelements)
 
     @property
     def diaphragms(self) -> Mapping[str, Diaphragm]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.coupling import coupled_load, eliminate_modes, times
 from frames.kernel_data import MAX_LEVEL
 from frames.ledger import add_bearing_energy, add_energy
 from frames.stepping import commit_bearings, gather, newton
@@ -27,16 +28,6 @@ _MAX_LEVEL = MAX_LEVEL
 _LIMIT_LEVEL = 4  # halvings of a step before a limit of the bearing counts as exceeded
 
 
-@kernel
-def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
-    """Add ``factor * matrix @ x`` to `out`."""
-    for a in range(matrix.shape[0]):
-        total = 0.0
-        for c in range(matrix.shape[1]):
-            total += matrix[a, c] * x[c]
-        out[a] += factor * total
-
-
 @inlined
 def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
     """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
@@ -46,11 +37,9 @@ def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
 
 
 @kernel
-def reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: float) -> Floats:
-    """Return the effective stiffness of b with the modes eliminated, for this step size."""
+def set_reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: float) -> None:
+    """Set the effective stiffness of b with the modes eliminated, for this step size."""
     out = run.reduced[level]
-    if run.has_reduced[level] == 1:
-        return out
     c_m, c_c, c_k = effective(settings, dt)
     n_b, n_e = model.mass_be.shape
     for a in range(n_b):
@@ -60,14 +49,19 @@ def reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: f
                 + c_c * model.damping_b[a, c]
                 + (c_k * model.stiffness_b[a, c])
             )
-    for k in range(n_e):
-        inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
-        for a in range(n_b):
-            value = inv * model.mass_eb[k, a]
-            for c in range(n_b):
-                out[a, c] -= value * model.mass_eb[k, c]
+    if model.damping_ee.shape[0] > 0:
+        eliminate_modes(
+            model.mass_e, model.mass_eb, model.omega2, model.damping_e, model.damping_eb,
+            model.damping_ee, c_m, c_c, c_k, run.inverse_e[level], run.follow_e[level], out,
+        )  # fmt: skip
+    else:
+        for k in range(n_e):
+            inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+            for a in range(n_b):
+                value = inv * model.mass_eb[k, a]
+                for c in range(n_b):
+                    out[a, c] -= value * model.mass_eb[k, c]
     run.has_reduced[level] = 1
-    return out
 
 
 @inlined
@@ -79,6 +73,7 @@ def set_load(
     motion_dt: float,
     time: float,
     dt: float,
+    level: int,
 ) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
@@ -94,7 +89,7 @@ def set_load(
         run.h_e[k] = known_v * run.v_e[k] + known_a * run.a_e[k]
         run.rhs_e[k] = (
             model.load_e[k]
-            + run.h_e[k]
+            + model.mass_e[k] * run.h_e[k]
             - model.damping_e[k] * (damp_v * run.v_e[k] + damp_a * run.a_e[k])
             - model.omega2[k] * run.e[k]
         )
@@ -112,6 +107,14 @@ def set_load(
     times(model.damping_b, run.g_b, -1.0, run.rhs_b)
     times(model.stiffness_b, run.b, -1.0, run.rhs_b)
     # the modes, eliminated
+    if model.damping_ee.shape[0] > 0:
+        for k in range(run.e.shape[0]):
+            run.g_e[k] = damp_v * run.v_e[k] + damp_a * run.a_e[k]
+        coupled_load(
+            model.damping_be, model.damping_eb, model.damping_ee, run.inverse_e[level],
+            run.follow_e[level], run.g_b, run.g_e, run.rhs_b, run.rhs_e, run.h_e,
+        )  # fmt: skip
+        return
     c_m, c_c, c_k = effective(settings, dt)
     for k in range(run.e.shape[0]):
         run.h_e[k] = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
@@ -119,15 +122,21 @@ def set_load(
 
 
 @inlined
-def finish_step(model: Model, run: Run, settings: Setup, dt: float) -> None:
+def finish_step(model: Model, run: Run, settings: Setup, dt: float, level: int) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     beta, gamma = settings.beta, settings.gamma
-    c_m, c_c, c_k = effective(settings, dt)
+    if model.damping_ee.shape[0] > 0:
+        for k in range(run.e.shape[0]):
+            run.g_e[k] = run.h_e[k]
+        times(run.follow_e[level], run.step, -1.0, run.g_e)
+    else:
+        c_m, c_c, c_k = effective(settings, dt)
+        for k in range(run.e.shape[0]):
+            run.g_e[k] = run.rhs_e[k]
+        times(model.mass_eb, run.step, -c_m, run.g_e)
+        for k in range(run.e.shape[0]):
+            run.g_e[k] /= c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
     for k in range(run.e.shape[0]):
-        run.g_e[k] = run.rhs_e[k]
-    times(model.mass_eb, run.step, -c_m, run.g_e)
-    for k in range(run.e.shape[0]):
-        run.g_e[k] /= c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
         run.e_new[k] = run.e[k] + run.g_e[k]
         run.a_e_new[k] = (run.g_e[k] / dt - run.v_e[k]) / (beta * dt) - (
             0.5 / beta - 1.0
@@ -154,8 +163,10 @@ def try_step(
     level: int,
 ) -> int:
     """Attempt one step; leaves it in the trial arrays. Returns a status code."""
-    linear = reduced_stiffness(model, run, settings, level, dt)
-    set_load(model, run, settings, motion, motion_dt, time, dt)
+    if run.has_reduced[level] == 0:
+        set_reduced_stiffness(model, run, settings, level, dt)
+    linear = run.reduced[level]
+    set_load(model, run, settings, motion, motion_dt, time, dt, level)
     for a in range(run.b.shape[0]):
         run.step[a] = dt * run.mean_v_b[a]
     code = newton(
@@ -164,7 +175,7 @@ def try_step(
     )  # fmt: skip
     if code != _OK:
         return code
-    finish_step(model, run, settings, dt)
+    finish_step(model, run, settings, dt, level)
     return _OK
 
 

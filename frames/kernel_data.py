@@ -48,10 +48,14 @@ class Model(NamedTuple):
     mass_b: Array
     mass_be: Array
     mass_eb: Array
+    mass_e: Array
     stiffness_b: Array
     damping_b: Array
     omega2: Array
     damping_e: Array
+    damping_be: Array  # full damping besides; of no size where the modes' is diagonal
+    damping_eb: Array
+    damping_ee: Array
     load_b: Array
     load_e: Array
     inertia_b: Array
@@ -82,6 +86,8 @@ class Run(NamedTuple):
     tangent: Array  # (n_b, n_b)
     reduced: Array  # (MAX_LEVEL + 1, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
+    inverse_e: Array  # (MAX_LEVEL + 1, n_e, n_e) with full damping: effective flexibility of modes
+    follow_e: Array  # (MAX_LEVEL + 1, n_e, n_b) and how they follow b
     b_new: Array
     v_b_new: Array
     a_b_new: Array
@@ -139,10 +145,14 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         mass_b=plain(basis.mass_b),
         mass_be=plain(basis.mass_be),
         mass_eb=plain(basis.mass_be.T),
+        mass_e=plain(basis.mass_e),
         stiffness_b=plain(basis.stiffness_b),
         damping_b=plain(basis.damping_b),
         omega2=plain(basis.omega2),
         damping_e=plain(basis.damping_e),
+        damping_be=plain(basis.damping_be),
+        damping_eb=plain(basis.damping_be.T),
+        damping_ee=plain(basis.damping_ee),
         load_b=plain(basis.load_b),
         load_e=plain(basis.load_e),
         inertia_b=plain(basis.inertia_b),
@@ -170,12 +180,16 @@ def run_arrays(model: Model) -> Run:
     def e() -> Array:
         return np.zeros(n_e)
 
+    n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
+
     return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK),
         force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
         reduced=np.zeros((MAX_LEVEL + 1, n_b, n_b)), has_reduced=np.zeros(MAX_LEVEL + 1, np.int64),
+        inverse_e=np.zeros((MAX_LEVEL + 1, n_full, n_full)),
+        follow_e=np.zeros((MAX_LEVEL + 1, n_full, n_b)),
         b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
         rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),

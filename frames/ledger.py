@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined
+from frames.coupling import coupled_work
 from lir_element.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
 
 
 @inlined
-def quadratic(mass: Floats, coupling: Floats, x: Floats, y: Floats, unit: float) -> float:
-    """Return ``x' mass x + 2 x' coupling y + unit y' y`` halved."""
+def quadratic(mass: Floats, coupling: Floats, own: Floats, x: Floats, y: Floats) -> float:
+    """Return ``x' mass x + 2 x' coupling y + y' diag(own) y`` halved."""
     total = 0.0
     for a in range(x.shape[0]):
         part = 0.0
@@ -28,7 +29,7 @@ def quadratic(mass: Floats, coupling: Floats, x: Floats, y: Floats, unit: float)
             part += 2.0 * coupling[a, k] * y[k]
         total += x[a] * part
     for k in range(y.shape[0]):
-        total += unit * y[k] * y[k]
+        total += own[k] * y[k] * y[k]
     return 0.5 * total
 
 
@@ -75,7 +76,12 @@ def add_energy(
     for k in range(run.e.shape[0]):
         lifted -= model.load_e[k] * run.g_e[k]
         damped += 0.5 * run.g_e[k] * model.damping_e[k] * (run.v_e[k] + run.v_e_new[k])
-    kinetic = quadratic(model.mass_b, model.mass_be, run.v_b_new, run.v_e_new, 1.0)
+    if model.damping_ee.shape[0] > 0:
+        damped += coupled_work(
+            model.damping_be, model.damping_ee, run.step, run.g_e, run.v_b, run.v_b_new, run.v_e,
+            run.v_e_new,
+        )  # fmt: skip
+    kinetic = quadratic(model.mass_b, model.mass_be, model.mass_e, run.v_b_new, run.v_e_new)
     elastic = elastic_energy(model, run.b_new, run.e_new) - run.clock[3]
     energy[0] += supplied
     energy[1] += lifted

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
 from frames._validate import ModelError, known_name, new_name, non_negative, of_type, vector
 from frames.axes import default_up, local_axes
-from frames.contents import FrameContents
+from frames.contents import STANDARD_GRAVITY, FrameContents
 from frames.damping import Damping, ModalDamping, RayleighDamping
 from frames.parts import (
     DOFS,
@@ -23,8 +23,10 @@ from frames.parts import (
     bearing_height,
 )
 from frames.sections import Section
+from frames.superelement import superelement
 
 if TYPE_CHECKING:
+    from frames._types import FloatArray, MatrixLike
     from lir_element import LIRBearing
 
 POSITION_TOLERANCE = 1e-3
@@ -54,6 +56,104 @@ class Frame(FrameContents):
     >>> frame.add_member("mast", "foot", "top", Section.box(0.3, 0.3, 0.01))
     >>> frame.add_mass("top", 5000.0)
     """
+
+    @classmethod
+    def from_opensees(
+        cls,
+        base_nodes: Sequence[int],
+        bearing: LIRBearing | Mapping[int, LIRBearing],
+        *,
+        vertical: Literal["y", "z"] | None = None,
+        base_rotations: Literal["kept", "free", "fixed"] = "kept",
+        base_diaphragm: bool = True,
+        gravity: float | None = None,
+        damping: bool = True,
+        levels: Mapping[str, Sequence[int]] | None = None,
+        other_supports: Collection[int] = (),
+        accept_nonlinear: bool = False,
+        length_unit: float = 1.0,
+        force_unit: float = 1.0,
+        name: str = "OpenSees model",
+    ) -> Self:
+        """Take over the current model of OpenSeesPy, linear as it stands, and put it on bearings.
+
+        Parameters
+        ----------
+        base_nodes : sequence of int
+            Tags of the nodes that stand on a bearing. Fixed ones are released: their translations
+            and the rotation about the vertical.
+        bearing : LIRBearing or mapping
+            One bearing for all base nodes, or one by tag.
+        vertical : {None, "z", "y"}
+            Axis of the OpenSees model that points up: None is z in three dimensions and y in
+            the plane. Results are in the axes of docs/conventions.md, z up.
+        base_rotations : {"kept", "free", "fixed"}
+            Rotations of the base nodes about horizontal axes: held where the model holds them (as
+            stiff base beams would), free (of a model that has base beams), or held.
+        base_diaphragm : bool
+            Whether base nodes at one elevation move in plan as one rigid body, as on a base slab.
+        gravity : float, optional
+            Acceleration of gravity [m/s2] for a model without loads: its masses then weigh. None:
+            its loads, as they stand, are what the bearings carry.
+        damping : bool
+            Whether to take over the damping of the model (Rayleigh, modal, dashpots).
+        levels : mapping, optional
+            Tags of nodes by name of level, for storey drifts. None: "level-0" at the base, and
+            one at each elevation with mass.
+        other_supports : collection of int
+            Tags of supports that carry elements and shall stay as they are.
+        accept_nonlinear : bool
+            Whether to freeze the present stiffness of elements that have left their initial one.
+        length_unit, force_unit : float
+            Units of the OpenSees model [m], [N]: 1e-3 and 1e3 for mm and kN. Time is in seconds.
+        name : str
+            Name of the frame.
+
+        Returns
+        -------
+        Frame
+            Nodes are named by their tags; "ground-<tag>" and "bearing-<tag>" stand below the base
+            nodes. The model is the superelement "opensees", whose `notes` repeat the warnings.
+
+        Raises
+        ------
+        ModelError
+            If the model cannot be taken over; the message says what to change.
+        ImportError
+            If openseespy is not installed.
+
+        Warns
+        -----
+        ModelWarning
+            On what should be known: elements that may be nonlinear, damping of the isolation.
+
+        Notes
+        -----
+        The OpenSees model stays as it is, time and recorders too, but its analysis objects are
+        wiped (`wipeAnalysis`). Displacements count from its present state. What OpenSees does not
+        show cannot be seen: damping by `modalDampingQ` and by elements' option ``-damp``. See
+        docs/choices.md.
+        """
+        from frames import opensees_frame  # needs the optional openseespy
+
+        tags, devices = opensees_frame.bearings_by_tag(base_nodes, bearing)
+        options = opensees_frame.Options(
+            base_nodes=tags,
+            bearings=devices,
+            vertical=vertical,
+            base_rotations=base_rotations,
+            base_diaphragm=base_diaphragm,
+            gravity=gravity,
+            damping=damping,
+            levels=levels,
+            other_supports=tuple(other_supports),
+            accept_nonlinear=accept_nonlinear,
+            length_unit=length_unit,
+            force_unit=force_unit,
+        )
+        frame = cls(name, STANDARD_GRAVITY if gravity is None else gravity)
+        opensees_frame.build(frame, options)
+        return frame
 
     def add_node(self, name: str, x: float, y: float, z: float) -> None:
         """Add a node at (x, y, z) [m]; the name must be new."""
@@ -188,6 +288,56 @@ class Frame(FrameContents):
             )
             raise ModelError(message)
         self._springs[name] = Spring(name, i, j, tuple(values.tolist()))
+
+    def add_superelement(
+        self,
+        name: str,
+        nodes: Sequence[str],
+        stiffness: MatrixLike,
+        mass: MatrixLike,
+        *,
+        damping: MatrixLike | None = None,
+        load: Sequence[float] | FloatArray | None = None,
+        equations: MatrixLike | None = None,
+        notes: Sequence[str] = (),
+    ) -> None:
+        """Add a linear part given by its matrices: of another program, or condensed.
+
+        Its displacements u are ux, uy, uz, rx, ry, rz of its first node, then of the second, and
+        so on, in global axes; they count from the state that matrices and loads belong to.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        nodes : sequence of str, (n,)
+            Its nodes.
+        stiffness, mass : array_like or sparse, (6 n, 6 n)
+            Symmetric matrices [N/m, N, N m] and [kg, kg m, kg m2]; the geometric stiffness
+            included.
+        damping : array_like or sparse, (6 n, 6 n), optional
+            Symmetric damping [N s/m, N s, N m s] of the motion relative to the ground. What
+            `set_damping` asks for acts besides.
+        load : array_like, (6 n,), optional
+            Permanent forces and moments [N, N m], its weight among them: its mass does not weigh
+            by itself.
+        equations : array_like or sparse, (m, 6 n), optional
+            Ties of its displacements, ``equations @ u = 0``.
+        notes : sequence of str
+            What whoever reads the results should know of where it came from.
+
+        Raises
+        ------
+        ModelError
+            If the name is taken, a node unknown or listed twice, or an array has the wrong shape,
+            is not finite or not symmetric.
+        """
+        new_name(name, self._superelements, "superelement")
+        chosen = self._node_list(nodes, f'superelement "{name}"', least=1)
+        self._superelements[name] = superelement(
+            name, chosen, stiffness, mass,
+            damping=damping, load=load, equations=equations, notes=notes,
+        )  # fmt: skip
 
     def add_diaphragm(self, name: str, nodes: Sequence[str]) -> None:
         """Make nodes move in their horizontal plane as one rigid body.

@@ -70,7 +70,8 @@ def build_dataset(
     """
     system, basis = state.system, state.basis
     q = expand(basis, out.b[:count], out.e[:count])
-    a = expand(basis, out.a_b[:count], out.a_e[:count], offset=False)
+    # what lags without mass has a velocity, but no acceleration of use
+    a = expand(basis, out.a_b[:count], basis.mass_e * out.a_e[:count], offset=False)
     shape = (count, len(system.node_names), 6)
     displacement = np.asarray(system.transform @ q.T).T.reshape(shape)
     acceleration = np.asarray(system.transform @ a.T).T.reshape(shape).copy()

@@ -60,6 +60,7 @@ def is_plane(system: System) -> bool:
     parts = (
         system.stiffness[~outside][:, outside],
         system.mass[~outside][:, outside],
+        system.damping[~outside][:, outside],
         system.transform[~across][:, outside],
         system.transform[across][:, ~outside],
     )

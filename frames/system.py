@@ -59,11 +59,14 @@ class System:
     transform : csr_array, (6 n_nodes, n_free)
         Nodal displacements (ux, uy, uz, rx, ry, rz of each node) are `transform @ q`.
     stiffness : csr_array, (n_free, n_free)
-        Elastic stiffness of members and springs, without bearings.
+        Elastic stiffness of members, springs and superelements, without bearings.
     mass : csr_array, (n_free, n_free)
-        Lumped masses; zero for a DOF without mass.
+        Mass; rows of a DOF without mass are zero.
+    damping : csr_array, (n_free, n_free)
+        Damping matrix of the superelements; empty without. `Frame.damping` is not in it.
     node_mass : ndarray, (n_nodes, 6)
-        Diagonal of the nodal mass [kg, kg m2].
+        Masses by node: diagonal of the lumped ones, of superelements what a unit translation
+        moves [kg, kg m2].
     load : ndarray, (n_free,)
         Weights and permanent loads.
     inertia_load : ndarray, (n_free, 3)
@@ -89,6 +92,7 @@ class System:
     transform: SparseMatrix
     stiffness: SparseMatrix
     mass: SparseMatrix
+    damping: SparseMatrix
     node_mass: FloatArray
     load: FloatArray
     inertia_load: FloatArray

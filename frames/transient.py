@@ -291,7 +291,7 @@ def _start(state: GravityState, motion: GroundMotion) -> None:
     # Accelerations at rest: the ground's first sample acts on what has mass.
     run, basis = state.run, state.basis
     first = np.array([motion.components[0, axis] for axis in range(3)])
-    mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.eye(len(basis.omega2))]])
+    mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.diag(basis.mass_e)]])
     right = -np.concatenate([basis.inertia_b, basis.inertia_e]) @ first
     acceleration = linalg.pinvh(mass) @ right if first.any() else np.zeros(len(right))
     n_b = len(run.b)

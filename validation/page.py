@@ -28,6 +28,7 @@ CLAIMS = (
     "opensees_pendulum",
     "bouc_wen_drift",
     "opensees_macro_model",
+    "opensees_superstructure",
 )
 """The modules of the claims, in the order of the index."""
 

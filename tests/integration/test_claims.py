@@ -1,13 +1,22 @@
 """The claims of `validation/` hold; what they need recorded motions for, with the records only."""
 
 import math
+from importlib.util import find_spec
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from frames.bearing_geometry import slider_axis
-from validation import bouc_wen_drift, double_pendulum, newhall, shake_table, static_test
+from validation import (
+    bouc_wen_drift,
+    double_pendulum,
+    newhall,
+    opensees_superstructure,
+    shake_table,
+    static_test,
+)
 from validation.articulated import Articulated
 from validation.body_motion import body_motion
 from validation.cases import LEVELS_HISTORY, LEVELS_STATIC, example_bearing
@@ -32,6 +41,13 @@ def test_static_test(static):
 def test_double_pendulum():
     cases = double_pendulum.CASES
     assert_all_hold(double_pendulum.checks({c.name: double_pendulum.loops(c) for c in cases}))
+
+
+@pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
+def test_opensees_superstructure():
+    page = opensees_superstructure.page(None)
+    assert_all_hold(page.checks)
+    plt.close(page.figures["histories"])
 
 
 def test_shake_table():

@@ -1,0 +1,111 @@
+"""Kernels of damping that couples modes with each other and with the bearings' displacements.
+
+`damping_be` and `damping_ee` of the model are empty where the damping of the modes is diagonal;
+none of this is called then. These kernels take single arrays and stay out of line, so that the
+time loop of ordinary frames is not burdened by them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames._jit import kernel
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats
+
+
+@kernel
+def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
+    """Add ``factor * matrix @ x`` to `out`."""
+    for a in range(matrix.shape[0]):
+        total = 0.0
+        for c in range(matrix.shape[1]):
+            total += matrix[a, c] * x[c]
+        out[a] += factor * total
+
+
+@kernel
+def invert(matrix: Floats) -> None:
+    """Invert a symmetric positive definite matrix in place (Gauss-Jordan, no pivoting)."""
+    n = matrix.shape[0]
+    for p in range(n):
+        inv = 1.0 / matrix[p, p]
+        matrix[p, p] = 1.0
+        for c in range(n):
+            matrix[p, c] *= inv
+        for a in range(n):
+            if a != p:
+                factor = matrix[a, p]
+                matrix[a, p] = 0.0
+                for c in range(n):
+                    matrix[a, c] -= factor * matrix[p, c]
+
+
+@kernel
+def eliminate_modes(
+    mass_e: Floats, mass_eb: Floats, omega2: Floats, damping_e: Floats, damping_eb: Floats,
+    damping_ee: Floats, c_m: float, c_c: float, c_k: float, inverse: Floats, follow: Floats,
+    out: Floats,
+) -> None:  # fmt: skip
+    """Take the modes' share from the effective stiffness of b, `out`.
+
+    Sets `inverse`, the modes' effective flexibility, and `follow`, how they follow b.
+    """
+    n_e, n_b = mass_eb.shape
+    for k in range(n_e):
+        for j in range(n_e):
+            inverse[k, j] = c_c * damping_ee[k, j]
+        inverse[k, k] += c_m * mass_e[k] + c_c * damping_e[k] + c_k * omega2[k]
+    invert(inverse)
+    for k in range(n_e):
+        for a in range(n_b):
+            follow[k, a] = 0.0
+        for j in range(n_e):
+            for a in range(n_b):
+                follow[k, a] += inverse[k, j] * (c_m * mass_eb[j, a] + c_c * damping_eb[j, a])
+    for k in range(n_e):
+        for a in range(n_b):
+            value = c_m * mass_eb[k, a] + c_c * damping_eb[k, a]
+            for c in range(n_b):
+                out[a, c] -= value * follow[k, c]
+
+
+@kernel
+def coupled_load(
+    damping_be: Floats, damping_eb: Floats, damping_ee: Floats, inverse: Floats, follow: Floats,
+    g_b: Floats, g_e: Floats, rhs_b: Floats, rhs_e: Floats, h_e: Floats,
+) -> None:  # fmt: skip
+    """Take known damping forces from the right-hand sides, then eliminate the modes from b's.
+
+    `g_b` and `g_e` are the known part of the velocities. Sets `h_e` to what the modes do while b
+    rests.
+    """
+    times(damping_be, g_e, -1.0, rhs_b)
+    times(damping_eb, g_b, -1.0, rhs_e)
+    times(damping_ee, g_e, -1.0, rhs_e)
+    for k in range(rhs_e.shape[0]):
+        h_e[k] = 0.0
+        for a in range(rhs_b.shape[0]):
+            rhs_b[a] -= follow[k, a] * rhs_e[k]
+    times(inverse, rhs_e, 1.0, h_e)
+
+
+@kernel
+def coupled_work(
+    damping_be: Floats, damping_ee: Floats, step_b: Floats, step_e: Floats, v_b: Floats,
+    v_b_new: Floats, v_e: Floats, v_e_new: Floats,
+) -> float:  # fmt: skip
+    """Return the work of the coupled damping over the step, by the trapezoidal rule."""
+    total = 0.0
+    for a in range(step_b.shape[0]):
+        speed = 0.5 * (v_b[a] + v_b_new[a])
+        for k in range(step_e.shape[0]):
+            mean = 0.5 * (v_e[k] + v_e_new[k])
+            total += damping_be[a, k] * (step_b[a] * mean + speed * step_e[k])
+    for k in range(step_e.shape[0]):
+        part = 0.0
+        for j in range(step_e.shape[0]):
+            part += damping_ee[k, j] * 0.5 * (v_e[j] + v_e_new[j])
+        total += step_e[k] * part
+    return total

@@ -1,0 +1,220 @@
+"""Reads the linear model that OpenSeesPy holds, as it stands, into arrays.
+
+The constraint handler 'Penalty' with the factor 0 leaves every displacement in the system of
+equations, the supported ones too, and adds nothing to it: the integrator 'GimmeMCK' then hands
+over mass, damping and stiffness of the whole unsupported model. With the factor 1 for constraints
+alone and nothing else, the same matrix is the sum of g g' over all constraint equations g' u = 0.
+The equations are numbered by an analysis that ends before its first step (a step of 0 s is
+refused by Newmark's method), so that nothing in the model moves and no recorder writes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from frames._validate import ModelError
+from lir_element.opensees import opensees
+
+if TYPE_CHECKING:
+    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
+
+LARGEST = 6000
+"""Number of displacements up to which dense matrices are taken over."""
+
+SHAPES = ((3, 6), (2, 3))
+"""Models that can be read: dimensions, and displacements of a node."""
+
+_SPEED = 1e-6  # length / time, up to which a node counts as at rest
+_ACCELERATION = 1e-4  # length / time^2, the same
+
+
+class ElementEntry(NamedTuple):
+    """An element of the model: its tag, its class in OpenSees, and the tags of its nodes."""
+
+    tag: int
+    kind: str
+    nodes: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class OpenSeesModel:
+    """A model of OpenSees in its own axes and units, supports not applied.
+
+    Displacements are all those of the first node, then of the second, and so on.
+
+    Attributes
+    ----------
+    tags : tuple of int, (n,)
+        Nodes.
+    coordinates : ndarray, (n, ndm)
+        Where they are before the loads.
+    ndf : int
+        Displacements of a node.
+    mass, damping, stiffness : csr_array, (n ndf, n ndf)
+        Matrices in the present state.
+    initial : csr_array, (n ndf, n ndf)
+        Stiffness of the elements before any load.
+    fixed : ndarray of bool, (n ndf,)
+        What single-point constraints hold.
+    equations : csr_array, (m, n ndf)
+        What multi-point constraints ask for, ``equations @ u = 0``; some may repeat others.
+    unbalance : ndarray, (n ndf,)
+        Applied loads less resisting forces in the present state; minus the reactions at supports.
+    elements : tuple of ElementEntry
+        All elements.
+    """
+
+    tags: tuple[int, ...]
+    coordinates: FloatArray
+    ndf: int
+    mass: SparseMatrix
+    damping: SparseMatrix
+    stiffness: SparseMatrix
+    initial: SparseMatrix
+    fixed: BoolArray
+    equations: SparseMatrix
+    unbalance: FloatArray
+    elements: tuple[ElementEntry, ...]
+
+
+def read_model() -> OpenSeesModel:
+    """Read the current model of OpenSeesPy.
+
+    Returns
+    -------
+    OpenSeesModel
+        Its matrices, constraints and loads. The model stays as it is; its analysis objects are
+        wiped.
+
+    Raises
+    ------
+    ModelError
+        If there is no model, it is not of a shape that can be read, too large, not at rest, or
+        shaken.
+    """
+    ops = opensees()
+    tags = tuple(int(tag) for tag in ops.getNodeTags() or ())
+    ndf = _shape(ops, tags)
+    _refuse_motion(ops, tags)
+    with contextlib.redirect_stderr(io.StringIO()):
+        places = _number(ops, tags, ndf, 0.0, 0.0)
+        mass, damping, stiffness, initial = (
+            _matrix(ops, places, *factors)
+            for factors in ((1.0,), (0.0, 1.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 1.0))
+        )
+        ops.reactions()
+        unbalance = -np.array([ops.nodeReaction(tag) for tag in tags], dtype=np.float64)
+        places = _number(ops, tags, ndf, 1.0, 0.0)
+        fixed = _matrix(ops, places).diagonal() > 0.0
+        places = _number(ops, tags, ndf, 0.0, 1.0)
+        ties = _matrix(ops, places)
+        ops.wipeAnalysis()
+    if ops.getConstrainedNodes() and not ties.nnz:
+        message = (
+            "this build of OpenSees does not show its multi-point constraints (equalDOF, "
+            "rigidDiaphragm, rigidLink) to the constraint handler 'Penalty': use openseespy 3.7 "
+            "or 3.8"
+        )
+        raise ModelError(message)
+    return OpenSeesModel(
+        tags=tags,
+        coordinates=np.array([ops.nodeCoord(tag) for tag in tags], dtype=np.float64),
+        ndf=ndf,
+        mass=mass,
+        damping=damping,
+        stiffness=stiffness,
+        initial=initial,
+        fixed=fixed,
+        equations=sparse.csr_array(ties[np.diff(ties.indptr) > 0]),
+        unbalance=unbalance.ravel(),
+        elements=tuple(
+            ElementEntry(int(tag), str(ops.eleType(tag)), tuple(map(int, ops.eleNodes(tag))))
+            for tag in ops.getEleTags() or ()
+        ),
+    )
+
+
+def _shape(ops: Any, tags: tuple[int, ...]) -> int:
+    # Displacements of a node; refuses what is not of one of the known shapes.
+    if not tags:
+        message = (
+            "OpenSeesPy holds no model in this process: build it (ops.model, ops.node, ...) before"
+        )
+        raise ModelError(message)
+    ndm = len(ops.nodeCoord(tags[0]))
+    counts = [int(ops.getNDF(tag)[0]) for tag in tags]
+    wanted = dict(SHAPES).get(ndm, 0)
+    other = [tag for tag, count in zip(tags, counts, strict=True) if count != wanted]
+    if other:
+        message = (
+            f"node {other[0]} of the OpenSees model has {counts[tags.index(other[0])]} "
+            f"displacements in {ndm} dimensions ({len(other)} of {len(tags)} nodes are like that): "
+            "models with ndm 3, ndf 6 and ndm 2, ndf 3 can be taken over"
+        )
+        raise ModelError(message)
+    if len(tags) * wanted > LARGEST:
+        message = (
+            f"the OpenSees model has {len(tags) * wanted} displacements, at most {LARGEST} can be "
+            "taken over as full matrices: leave out detail, or condense it"
+        )
+        raise ModelError(message)
+    return wanted
+
+
+def _refuse_motion(ops: Any, tags: tuple[int, ...]) -> None:
+    # A model that moves, or that a pattern will move.
+    for word, read, limit in (
+        ("velocity", ops.nodeVel, _SPEED),
+        ("acceleration", ops.nodeAccel, _ACCELERATION),
+    ):
+        sizes = [float(np.abs(read(tag)).max()) for tag in tags]
+        worst = int(np.argmax(sizes))
+        if not sizes[worst] <= limit:
+            message = (
+                f"the OpenSees model is not at rest: {word} {sizes[worst]:.3g} at node "
+                f"{tags[worst]}, at most {limit:g} is allowed: take it over before its time "
+                "history, or let it come to rest"
+            )
+            raise ModelError(message)
+    for pattern in ops.getPatterns() or ():
+        if not ops.getNodeLoadTags(pattern) and not ops.getEleLoadTags(pattern):
+            message = (
+                f"load pattern {pattern} of the OpenSees model has no loads on nodes or elements: "
+                "a ground motion or imposed displacements cannot be taken over; remove it by "
+                f"ops.remove('loadPattern', {pattern}) and give the motion to time_history"
+            )
+            raise ModelError(message)
+
+
+def _number(ops: Any, tags: tuple[int, ...], ndf: int, supports: float, ties: float) -> IntArray:
+    # Number the equations; the places of all displacements, node by node.
+    ops.wipeAnalysis()
+    ops.constraints("Penalty", supports, ties)
+    ops.numberer("Plain")
+    ops.system("FullGeneral")
+    ops.algorithm("Linear")
+    ops.integrator("Newmark", 0.5, 0.25)
+    ops.analysis("Transient")
+    ops.analyze(1, 0.0)  # ends before the step; see the head of this file
+    places = np.array([ops.nodeDOFs(tag) for tag in tags], dtype=np.int64).ravel()
+    if not np.array_equal(np.sort(places), np.arange(len(tags) * ndf)):
+        message = (
+            f"OpenSees numbers {ops.systemSize()} equations where the model has "
+            f"{len(tags) * ndf} displacements: this build cannot be read, use openseespy 3.7 or 3.8"
+        )
+        raise ModelError(message)
+    return places
+
+
+def _matrix(ops: Any, places: IntArray, *factors: float) -> SparseMatrix:
+    # The system matrix with these factors of mass, damping, stiffness and initial stiffness.
+    ops.integrator("GimmeMCK", *(*factors, 0.0, 0.0, 0.0)[: max(3, len(factors))])
+    size = len(places)
+    full = np.array(ops.printA("-ret"), dtype=np.float64).reshape(size, size)
+    return sparse.csr_array(full[np.ix_(places, places)])

@@ -1,0 +1,374 @@
+"""Frame.from_opensees: against the same building built here, and analysed wholly in OpenSees."""
+
+import importlib.util
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy import sparse
+
+from frames import (
+    Features,
+    Frame,
+    ModalDamping,
+    ModelWarning,
+    Section,
+    gravity,
+    modes,
+    moment_frame,
+    static,
+    storey_drift,
+    transient,
+)
+from frames.summary import table_of
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element.opensees import opensees
+from validation import opensees_copy as scenes
+from validation.opensees_copy import STANDARD_GRAVITY as G
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
+)
+
+COLUMN = Section(0.0375, 8.8e-4, 8.8e-4, 1.3e-3, 2.1e11, 8.08e10, density=7850.0)
+BEAM = Section(0.0150, 7.5e-4, 3.5e-5, 1.5e-6, 2.1e11, 8.08e10, density=7850.0)
+
+
+@pytest.fixture
+def ops():
+    module = opensees()
+    module.wipe()
+    yield module
+    module.wipe()
+
+
+FLOORS = ("floor-1", "floor-2")
+
+
+def lir(**options):
+    given = {
+        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.12, "capacity": 0.15,
+        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.14,
+    }  # fmt: skip
+    return LIRBearing(**(given | options))
+
+
+def building(bearing, **options):
+    return moment_frame(bays=(1, 1), storeys=2, bearing=bearing, damping=None, **options)
+
+
+def histories_apart(first, second, names, others):
+    """Largest difference of two runs over the largest value, by variable."""
+    found = {}
+    words = ("bearing_displacement", "bearing_force", "base_shear", "energy")
+    for word in (*words, "node_displacement", "node_acceleration"):
+        by_node = word.startswith("node")
+        a = (first[word].sel(node=names) if by_node else first[word]).to_numpy()
+        b = (second[word].sel(node=others) if by_node else second[word]).to_numpy()
+        found[word] = float(np.abs(a - b).max() / np.abs(a).max())
+    return found
+
+
+def without_geometric_stiffness(monkeypatch):
+    """Let the building that is built here have none, as the one with Linear transformations."""
+    monkeypatch.setattr(
+        static, "geometric_stiffness", lambda system, _: sparse.csr_array(system.stiffness.shape)
+    )
+
+
+def test_the_same_building_built_here(ops, run, monkeypatch):
+    """All periods, and a history with rim contact, slip and uneven axial forces."""
+    without_geometric_stiffness(monkeypatch)
+    device = lir()
+    built = building(device)
+    tags, bases = scenes.build_in_opensees(ops, built)
+    taken = Frame.from_opensees(bases, device, gravity=G)
+    for frame in (built, taken):
+        frame.set_damping(ModalDamping(0.03))
+    for kind in ("sliding", "sticking", "fixed"):
+        expected, found = modes(built, 1000, kind), modes(taken, 1000, kind)
+        assert_allclose(found.periods, expected.periods, rtol=1e-9)
+        assert_allclose(found.mass_ratios.sum(axis=0), expected.mass_ratios.sum(axis=0), rtol=1e-9)
+    motion = scenes.waves(0.7, 5.0)
+    first, second = run(built, motion), run(taken, motion)
+    assert first.attrs["status"] == "ok"
+    assert float(first["rim_force"].max()) > 0.0
+    assert float(first["interface_slip_size"].max()) > 1e-3
+    names, others = list(tags), [str(tag) for tag in tags.values()]
+    for word, apart in histories_apart(first, second, names, others).items():
+        assert apart < 1e-6, word
+    assert_allclose(storey_drift(second), storey_drift(first), rtol=0.0, atol=1e-9)
+    assert "completed" in table_of({"built": first, "taken": second})
+
+
+PENDULUM = Features(
+    rims=False, interface=False, plate_rotation=False, vertical_coupling=False, uplift=False
+)
+"""What leaves of a bearing without friction a pendulum at constant load over a vertical spring."""
+
+
+@pytest.mark.parametrize("kind", ["none", "rayleigh", "current", "regions", "modal"])
+@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+def test_the_same_building_wholly_in_opensees(ops, run, monkeypatch, kind):
+    """P-Delta, diaphragms and every kind of damping; the isolators are linear in both programs."""
+    monkeypatch.setattr(transient, "_FORCE_TOLERANCE", 1e-12)
+    stiffness, damping = 2e9, 1e6
+    device = lir(
+        capacity=np.inf, friction=CoulombFriction(1e-9), axial_stiffness=stiffness,
+        axial_damping=damping,
+    ).as_dcfp()  # fmt: skip
+    built = building(device, column=COLUMN, beam=BEAM, base_beam=BEAM)
+    # OpenSees mixes up the modes of nodes that are tied where it damps by modes
+    tied = () if kind == "modal" else FLOORS
+    tags, bases = scenes.build_in_opensees(ops, built, transformation="PDelta", diaphragms=tied)
+    for tag in bases:
+        ops.fix(tag, 1, 1, 1, 0, 0, 0)
+        ops.node(100 + tag, *ops.nodeCoord(tag))
+        ops.fix(100 + tag, 1, 1, 1, 1, 1, 1)
+    scenes.add_weights(ops, tags.values())
+    damp(ops, kind)
+    scenes.analyse_gravity(ops)
+    if kind == "modal":
+        scenes.static_analysis(ops, 0.0)
+        ops.eigen("-genBandArpack", 4)
+        ops.modalDamping(0.05)
+    taken = Frame.from_opensees(bases, device, base_diaphragm=bool(tied))
+    state = gravity(taken, PENDULUM)
+    assert bool(state.basis.damping_ee.size) == (kind != "none")
+    assert (state.basis.mass_e == 0.0).any() == (kind == "regions")
+    motion, dt, steps = scenes.waves(0.02, 3.0), 0.005, 600
+    data = run(taken, motion, dt=dt, duration=dt * steps, features=PENDULUM)
+    damped = float(data["energy"].sel(term="damping")[-1] / data["energy"].sel(term="input")[-1])
+    assert damped > 1e-4 if kind != "none" else damped == 0.0
+
+    for tag, load in zip(bases, state.axial_forces, strict=True):
+        for dof in (1, 2, 3):
+            ops.remove("sp", tag, dof)
+        length = device.effective_radius + float(load) / stiffness  # of the stretched string
+        ops.uniaxialMaterial("Elastic", 10 * tag, float(load) / length)
+        ops.uniaxialMaterial("Elastic", 10 * tag + 1, stiffness, damping)
+        materials = (10 * tag, 10 * tag, 10 * tag + 1)
+        ops.element("zeroLength", 100 + tag, 100 + tag, tag, "-mat", *materials, "-dir", 1, 2, 3)
+    if tied:
+        ops.rigidDiaphragm(3, *bases)
+    scenes.static_analysis(ops, 0.0)
+    assert ops.analyze(1) == 0
+    nodes = [bases[0], *[tags[f"floor-{k}-1-0"] for k in (1, 2)]]
+    expected = scenes.shake(ops, motion, dt, steps, nodes, system="FullGeneral")
+    found = data["node_displacement"].sel(node=[str(tag) for tag in nodes]).to_numpy()
+    found = found - found[0]
+    # U / L = 0.005: the pendulum is linear within some 1e-5, its vertical motion in the square
+    assert_close(found, expected)
+    assert_close(found - found[:, :1], expected - expected[:, :1])
+
+
+def damp(ops, kind):
+    elements = ops.getEleTags()
+    if kind == "rayleigh":
+        ops.rayleigh(0.2, 0.0, 0.002, 0.0)
+    elif kind == "current":
+        ops.rayleigh(0.0, 0.005, 0.0, 0.0)
+    elif kind == "regions":
+        half = len(elements) // 2
+        ops.region(1, "-ele", *elements[:half], "-rayleigh", 0.0, 0.0, 0.02, 0.0)
+        ops.region(2, "-ele", *elements[half:], "-rayleigh", 0.0, 0.0, 0.001, 0.0)
+
+
+def assert_close(found, expected):
+    """Each kind of displacement that matters, over its largest value."""
+    for dofs, within in (([0, 1], 5e-5), ([2], 1e-3), ([3, 4], 2e-4)):
+        size = np.abs(expected[..., dofs]).max()
+        apart = np.abs(found[..., dofs] - expected[..., dofs]).max() / size
+        assert apart < within, dofs
+
+
+def test_the_model_stays_as_it_was(ops, tmp_path):
+    device = lir()
+    built = building(device)
+    _, bases = scenes.build_in_opensees(ops, built, diaphragms=FLOORS)
+    for tag in bases:
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    tags = ops.getNodeTags()
+    scenes.add_weights(ops, tags)
+    scenes.analyse_gravity(ops)
+    ops.setTime(3.5)
+    ops.recorder("Node", "-file", str(tmp_path / "out.txt"), "-node", 5, "-dof", 1, "disp")
+
+    def state():
+        scenes.static_analysis(ops, 0.0)
+        ops.reactions()
+        return (
+            [ops.nodeDisp(tag) for tag in tags], [ops.nodeReaction(tag) for tag in tags],
+            [ops.eleForce(tag) for tag in ops.getEleTags()], ops.getTime(), ops.getFixedNodes(),
+            [ops.getFixedDOFs(tag) for tag in bases], ops.getConstrainedNodes(),
+        )  # fmt: skip
+
+    before = state()
+    eigenvalues = ops.eigen(4)
+    Frame.from_opensees(bases, device)
+    after = state()
+    assert before == after  # to the bit
+    assert (tmp_path / "out.txt").read_text() == ""
+    assert_allclose(ops.eigen(4), eigenvalues, rtol=1e-12)
+
+
+@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+def test_fixed_interface_modes_are_those_of_the_fixed_base(ops):
+    """Rigid links with masses at their ends, equal displacements, consistent masses, torsion."""
+    device = lir()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for tag, (x, y) in enumerate(((0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 4.0)), start=1):
+        ops.node(tag, x, y, 0.0)
+        ops.node(10 + tag, x, y, 3.0)
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        ops.mass(10 + tag, 1e3, 1e3, 1e3, 0.0, 0.0, 0.0)
+    ops.geomTransf("Linear", 1, 1.0, 0.0, 0.0)
+    ops.geomTransf("Linear", 2, 0.0, 0.0, 1.0)
+    for tag in range(1, 5):
+        add(ops, tag, tag, 10 + tag, 1, "-mass", 80.0, "-cMass")
+        add(ops, 10 + tag, 10 + tag, 11 + tag % 4, 2, "-mass", 50.0)
+    ops.node(20, 2.5, 2.0, 3.0)
+    ops.fix(20, 0, 0, 1, 1, 1, 0)
+    ops.rigidDiaphragm(3, 20, 11, 12, 13, 14)
+    ops.mass(20, 4e4, 4e4, 0.0, 0.0, 0.0, 2e5)
+    ops.node(31, 0.0, 4.0, 5.0)
+    ops.node(30, 1.5, 4.5, 5.8)  # a mass beside the mast: singular in the displacements of its top
+    ops.rigidLink("beam", 31, 30)
+    ops.mass(30, 2e3, 2e3, 2e3, 0.0, 0.0, 0.0)
+    ops.node(32, 0.0, 4.0, 5.0)
+    add(ops, 30, 14, 31, 1)
+    ops.equalDOF(31, 32, 1, 2, 3)
+    ops.fix(32, 0, 0, 0, 1, 1, 1)
+    ops.mass(32, 500.0, 500.0, 500.0, 0.0, 0.0, 0.0)
+    scenes.static_analysis(ops, 0.0)
+    omega2 = np.array(ops.eigen("-fullGenLapack", 9))
+    frame = Frame.from_opensees([1, 2, 3, 4], device, gravity=G)
+    found = gravity(frame).basis.omega2
+    assert_allclose(found[:9], omega2, rtol=1e-8)
+    total = 4 * 1e3 + 4 * 80.0 * 3.0 + 50.0 * 18.0 + 2e3 + 500.0  # weighs; the plan's mass does not
+    assert_allclose(gravity(frame).axial_forces.sum(), G * total, rtol=1e-9)
+
+
+def add(ops, tag, i, j, transformation, *options):
+    s = COLUMN
+    ops.element(
+        "elasticBeamColumn", tag, i, j, s.area, s.elastic_modulus, s.shear_modulus,
+        s.torsion_constant, s.inertia_y, s.inertia_z, transformation, *options,
+    )  # fmt: skip
+
+
+def plane_frame(ops, length=1.0, force=1.0):
+    """Two bays and two storeys in OpenSees' x-y plane, in units of `length` m and `force` N."""
+    mass, second = force / length, length  # of the unit of mass in kg, of the lever in m
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Linear", 1)
+    for tag, x, y in plane_nodes():
+        ops.node(tag, x / length, y / length)
+        ops.mass(tag, 2e4 / mass, 2e4 / mass, 1e3 / (mass * second**2))
+    for tag, i, j in plane_members():
+        ops.element(
+            "elasticBeamColumn", tag, i, j, COLUMN.area / length**2,
+            COLUMN.elastic_modulus * length**2 / force, COLUMN.inertia_y / length**4, 1,
+        )  # fmt: skip
+    ops.fix(1, 1, 1, 1)
+    ops.fix(2, 1, 1, 0)
+    ops.fix(3, 1, 1, 1)
+    ops.rayleigh(0.05, 0.0, 0.001, 0.0)
+
+
+def plane_nodes():
+    return [(10 * k + i + 1, 5.0 * i, 3.5 * k) for k in range(3) for i in range(3)]
+
+
+def plane_members():
+    columns = [(10 * k + i, 10 * k + i, 10 * k + 10 + i) for k in range(2) for i in (1, 2, 3)]
+    return columns + [
+        (100 + 10 * k + i, 10 * k + i, 10 * k + i + 1) for k in (1, 2) for i in (1, 2)
+    ]
+
+
+def space_frame(ops, up):
+    """The same in three dimensions, what leaves the plane held; `up` is "y" or "z"."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    z_up = up == "z"
+    ops.geomTransf("Linear", 1, *((0.0, 1.0, 0.0) if z_up else (0.0, 0.0, 1.0)))
+    for tag, x, height in plane_nodes():
+        ops.node(tag, *((x, 0.0, height) if z_up else (x, height, 0.0)))
+        ops.mass(tag, 2e4, 2e4, 2e4, 1e3, 1e3, 1e3)
+        out = (0, 1, 0, 1, 0, 1) if z_up else (0, 0, 1, 1, 1, 0)
+        held = {1: (1,) * 6, 2: (1, 1, 1, *out[3:]), 3: (1,) * 6}.get(tag, out)
+        ops.fix(tag, *held)
+    for tag, i, j in plane_members():
+        add(ops, tag, i, j, 1)
+    ops.rayleigh(0.05, 0.0, 0.001, 0.0)
+
+
+@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+def test_plane_and_space_y_up_and_other_units(ops, run):
+    """One frame four times: in the plane, in space with z and y up, and in kN and mm."""
+    device = lir()
+    motion = scenes.waves(0.7, 3.0).scaled([1.0, 0.0, 1.0])
+
+    def analyse(**options):
+        frame = Frame.from_opensees([1, 2, 3], device, gravity=G, **options)
+        assert_allclose(frame.nodes["22"].position, (5.0, 0.0, 7.0), rtol=0.0, atol=1e-12)
+        assert [level.nodes for level in frame.levels] == [
+            ("1", "2", "3"), ("11", "12", "13"), ("21", "22", "23"),
+        ]  # fmt: skip
+        assert ("ry" in frame.fixed_dofs["1"], "ry" in frame.fixed_dofs["2"]) == (True, False)
+        return run(frame, motion)
+
+    plane_frame(ops)
+    first = analyse()
+    assert abs(float(first["node_displacement"].sel(node="22", dof="uy").max())) == 0.0
+    assert float(np.abs(first["node_displacement"].sel(node="22", dof="ry")).max()) > 1e-4
+    others = []
+    for up in ("z", "y"):
+        space_frame(ops, up)
+        others.append(analyse(vertical=up))
+    plane_frame(ops, length=1e-3, force=1e3)
+    others.append(analyse(length_unit=1e-3, force_unit=1e3))
+    names = [str(tag) for tag, _, _ in plane_nodes()]
+    for other in others:
+        for word, apart in histories_apart(first, other, names, names).items():
+            assert apart < 1e-6, word
+
+
+def test_rotations_of_the_bases_and_the_slab(ops, run):
+    """Held, free, with and without a slab: what moves, and who carries moments."""
+    device = lir()
+    built = building(device)
+    tags, bases = scenes.build_in_opensees(ops, built, diaphragms=FLOORS)
+    for tag in bases:
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    scenes.add_weights(ops, tags.values())
+    scenes.analyse_gravity(ops)
+    held = {}
+    for rotations in ("kept", "free", "fixed"):
+        frame = Frame.from_opensees(bases, device, base_rotations=rotations)
+        held[rotations] = frame.fixed_dofs.get(str(bases[0]), frozenset())
+        assert_allclose(
+            gravity(frame).axial_forces, gravity(built).axial_forces, rtol=1e-6
+        )  # by symmetry, whatever the rotations
+    assert held == {"kept": {"rx", "ry"}, "free": set(), "fixed": {"rx", "ry"}}
+    loose = Frame.from_opensees(bases, device, base_diaphragm=False)
+    assert not loose.diaphragms
+    data = run(Frame.from_opensees(bases, device), scenes.waves(0.5, 2.0))
+    assert float(np.abs(data["bearing_displacement"]).max()) > 0.01
+    names = [str(tag) for tag in bases]
+    turns = data["node_displacement"].sel(node=names, dof="rz").to_numpy()
+    assert_allclose(turns, turns[:, :1] * np.ones(4), rtol=0.0, atol=1e-12)
+
+
+def test_a_damped_isolation_is_told(ops):
+    device = lir()
+    _, bases = scenes.build_in_opensees(ops, building(device))
+    ops.rayleigh(0.3, 0.0, 0.0, 0.0)
+    omega = 2.0 * np.pi / device.period
+    with pytest.warns(ModelWarning, match=f"by {100 * 0.3 / (2 * omega):.1f} % of critical"):
+        frame = Frame.from_opensees(bases, device, gravity=G)
+    assert len(frame.superelements["opensees"].notes) == 1
+    without = Frame.from_opensees(bases, device, gravity=G, damping=False)
+    assert not without.superelements["opensees"].damping.nnz

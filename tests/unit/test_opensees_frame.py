@@ -1,0 +1,234 @@
+"""What Frame.from_opensees refuses or names; each message says what to change."""
+
+import importlib.util
+import subprocess  # a fresh interpreter  # noqa: S404
+import sys
+from dataclasses import replace
+
+import pytest
+from numpy.testing import assert_allclose
+from scipy import sparse
+
+from frames import Frame, ModelError, ModelWarning
+from frames.opensees_checks import refuse_unsymmetric
+from frames.opensees_model import read_model
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import opensees
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
+)
+
+BEARING = LIRBearing(
+    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+    friction=CoulombFriction(0.05), interface_friction=0.12,
+)  # fmt: skip
+BEAM = (0.02, 2e11, 8e10, 1e-4, 3e-4, 3e-4)
+
+
+@pytest.fixture
+def ops():
+    module = opensees()
+    module.wipe()
+    yield module
+    module.wipe()
+
+
+def portal(ops, *, loaded=True, base_mass=5e3):
+    """Two columns and a beam in space, fixed at nodes 1 and 2."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for tag, x in ((1, 0.0), (2, 6.0)):
+        ops.node(tag, x, 0.0, 0.0)
+        ops.node(10 + tag, x, 0.0, 4.0)
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        ops.mass(tag, base_mass, base_mass, base_mass, 0.0, 0.0, 0.0)
+        ops.mass(10 + tag, 1e4, 1e4, 1e4, 0.0, 0.0, 0.0)
+    ops.geomTransf("Linear", 1, 0.0, 1.0, 0.0)
+    for tag, i, j in ((1, 1, 11), (2, 2, 12), (3, 11, 12)):
+        ops.element("elasticBeamColumn", tag, i, j, *BEAM, 1)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    for tag in (11, 12):
+        ops.load(tag, 0.0, 0.0, -1e5, 0.0, 0.0, 0.0)
+    if loaded:
+        analyse(ops)
+
+
+def analyse(ops, steps=1):
+    ops.system("BandGeneral")
+    ops.constraints("Transformation")
+    ops.numberer("RCM")
+    ops.test("NormDispIncr", 1e-10, 50)
+    ops.algorithm("Newton")
+    ops.integrator("LoadControl", 1.0 / steps)
+    ops.analysis("Static")
+    assert ops.analyze(steps) == 0
+    ops.loadConst("-time", 0.0)
+
+
+def test_loads_come_as_they_stand(ops):
+    portal(ops)
+    ops.timeSeries("Linear", 2)
+    ops.pattern("Plain", 2, 2)
+    ops.eleLoad("-ele", 3, "-type", "-beamUniform", 0.0, -2e3)  # not at work: no time has passed
+    frame = Frame.from_opensees([1, 2], BEARING)
+    part = frame.superelements["opensees"]
+    assert part.nodes == ("1", "2", "11", "12")
+    assert part.notes == ()
+    assert_allclose(-part.load.reshape(-1, 6)[:, 2].sum(), 2e5, rtol=1e-12)
+    assert_allclose(part.load.reshape(-1, 6)[:2, 2], -1e5, rtol=1e-9)
+    assert_allclose(part.load.reshape(-1, 6)[2:], 0.0, atol=1e-6)  # in equilibrium already
+    assert frame.fixed_dofs["1"] == {"rx", "ry"}
+    assert frame.nodes["ground-1"].z == pytest.approx(-BEARING.height)
+    by_tag = Frame.from_opensees((2, 1), {1: BEARING, 2: BEARING.as_dcfp()})
+    assert by_tag.bearings["bearing-2"].bearing.is_dcfp
+    named = Frame.from_opensees([1, 2], BEARING, levels={"roof": [11, 12], "base": [1, 2]})
+    assert [level.name for level in named.levels] == ["base", "roof"]
+
+
+def test_weights_and_loads_are_not_mixed_up(ops):
+    portal(ops, loaded=False)
+    with pytest.raises(
+        ModelError, match=r"vertical load of 0 N, its masses would weigh 2.942e\+05"
+    ):
+        Frame.from_opensees([1, 2], BEARING)
+    portal(ops)
+    with pytest.raises(ModelError, match=r"gravity = 9.81 m/s2, but .* 2e\+05 N already"):
+        Frame.from_opensees([1, 2], BEARING, gravity=9.81)
+    with pytest.warns(ModelWarning, match="check the units, and pass length_unit"):
+        Frame.from_opensees([1, 2], BEARING, force_unit=1e3, length_unit=1e-3 * 1e3 * 20.0)
+
+
+def test_a_base_without_mass_is_told(ops):
+    portal(ops, base_mass=0.0)
+    with pytest.warns(ModelWarning, match="a base without mass rings, and steps become small"):
+        Frame.from_opensees([1, 2], BEARING)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"base_nodes": [1, 7]}, "no node 7, named as a base node"),
+        ({"base_nodes": [1, 1]}, "lists node 1 more than once"),
+        ({"base_nodes": []}, "base_nodes is empty"),
+        ({"base_nodes": [1]}, "nodes 2 are supports that carry elements, but no base nodes: name"),
+        ({"bearing": {1: BEARING}}, "node 2 is in base_nodes but not in bearing"),
+        ({"vertical": "x"}, "vertical = 'x'"),
+        ({"base_rotations": "loose"}, "base_rotations = 'loose': choose one of"),
+        ({"length_unit": 0.0}, "length_unit = 0 must be greater than 0"),
+        ({"gravity": -9.81}, "gravity"),
+    ],
+)
+def test_options_out_of_bounds(ops, options, message):
+    portal(ops)
+    given = {"base_nodes": [1, 2], "bearing": BEARING} | options
+    with pytest.raises(ModelError, match=message):
+        Frame.from_opensees(**given)
+
+
+def test_there_must_be_a_model_of_a_known_shape(ops):
+    with pytest.raises(ModelError, match="holds no model"):
+        Frame.from_opensees([1], BEARING)
+    ops.model("basic", "-ndm", 3, "-ndf", 3)
+    ops.node(1, 0.0, 0.0, 0.0)
+    with pytest.raises(ModelError, match=r"node 1 .* 3 displacements in 3 dimensions"):
+        Frame.from_opensees([1], BEARING)
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.node(1, 0.0, 0.0)
+    ops.mass(1, 1.0, 1.0, 1.0)
+    with pytest.raises(ModelError, match='vertical = "z": a plane model of OpenSees has its y'):
+        Frame.from_opensees([1], BEARING, vertical="z")
+
+
+def test_motion_is_refused(ops):
+    portal(ops)
+    ops.setNodeVel(11, 1, 0.02, "-commit")
+    with pytest.raises(ModelError, match=r"not at rest: velocity 0\.02 at node 11"):
+        Frame.from_opensees([1, 2], BEARING)
+    portal(ops)
+    ops.timeSeries("Path", 5, "-dt", 0.01, "-values", 0.0, 1.0, 0.0)
+    ops.pattern("UniformExcitation", 5, 1, "-accel", 5)
+    with pytest.raises(ModelError, match=r"load pattern 5 .*remove\('loadPattern', 5\)"):
+        Frame.from_opensees([1, 2], BEARING)
+
+
+def test_isolators_and_ties_to_the_ground_are_refused(ops):
+    portal(ops, loaded=False)
+    ops.remove("sp", 1, 1)
+    ops.node(101, 0.0, 0.0, 0.0)
+    ops.fix(101, 1, 1, 1, 1, 1, 1)
+    ops.uniaxialMaterial("Elastic", 1, 1e6)
+    ops.element("zeroLength", 7, 101, 1, "-mat", 1, "-dir", 1)
+    with pytest.raises(ModelError, match=r"element 7 \(ZeroLength\) joins one to base node 1"):
+        Frame.from_opensees([1, 2], BEARING, gravity=9.81)
+    ops.remove("element", 7)
+    frame = Frame.from_opensees([1, 2], BEARING, gravity=9.81)
+    assert "101" not in frame.nodes  # nothing reaches it any more
+    ops.equalDOF(101, 1, 2)
+    with pytest.raises(ModelError, match="base node 1 cannot move along uy: a multi-point"):
+        Frame.from_opensees([1, 2], BEARING, gravity=9.81, base_diaphragm=False)
+
+
+def test_supports_that_are_meant_stay(ops):
+    portal(ops)
+    with pytest.raises(ModelError, match="nodes 2 are supports"):
+        Frame.from_opensees([1], BEARING)
+    frame = Frame.from_opensees([1], BEARING, other_supports=[2])
+    assert len(frame.fixed_dofs["2"]) == 6
+
+
+def yielding(ops, push):
+    """Let a push yield the fibre columns of the portal, or not."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for tag, x in ((1, 0.0), (2, 6.0)):
+        ops.node(tag, x, 0.0, 0.0)
+        ops.node(10 + tag, x, 0.0, 4.0)
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        ops.mass(tag, 5e3, 5e3, 5e3, 0.0, 0.0, 0.0)
+        ops.mass(10 + tag, 1e4, 1e4, 1e4, 0.0, 0.0, 0.0)
+    ops.uniaxialMaterial("Steel01", 1, 3e8, 2e11, 0.01)
+    ops.section("Fiber", 1, "-GJ", 1e7)
+    ops.patch("rect", 1, 10, 2, -0.1, -0.1, 0.1, 0.1)
+    ops.beamIntegration("Lobatto", 1, 1, 4)
+    ops.geomTransf("Linear", 1, 0.0, 1.0, 0.0)
+    for tag in (1, 2):
+        ops.element("forceBeamColumn", tag, tag, 10 + tag, 1, 1)
+    ops.element("elasticBeamColumn", 3, 11, 12, *BEAM, 1)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    for tag in (11, 12):
+        ops.load(tag, push, 0.0, -1e5, 0.0, 0.0, 0.0)
+    analyse(ops, steps=20)
+
+
+def test_elements_in_yield_are_refused_and_others_named(ops):
+    yielding(ops, push=1e3)
+    with pytest.warns(ModelWarning, match=r"2 elements ForceBeamColumn3d \(1, 2\) may be nonlin"):
+        Frame.from_opensees([1, 2], BEARING)
+    yielding(ops, push=4e5)
+    with pytest.raises(ModelError, match=r"elements 1, 2 have left their initial stiffness"):
+        Frame.from_opensees([1, 2], BEARING)
+    with pytest.warns(ModelWarning) as told:
+        frame = Frame.from_opensees([1, 2], BEARING, accept_nonlinear=True)
+    notes = frame.superelements["opensees"].notes
+    assert "their present stiffness is kept" in notes[0]
+    assert len(told) == len(notes) == 2
+
+
+def test_unsymmetric_matrices_are_refused(ops):
+    portal(ops)
+    model = read_model()
+    refuse_unsymmetric(model)
+    skew = model.stiffness.tolil()
+    skew[6 * 2, 1] += 0.01 * model.stiffness.max()
+    with pytest.raises(ModelError, match="stiffness of the OpenSees model is not symmetric near"):
+        refuse_unsymmetric(replace(model, stiffness=sparse.csr_array(skew)))
+
+
+def test_frames_alone_does_not_load_openseespy():
+    code = "import frames, sys; print(any(name.startswith('openseespy') for name in sys.modules))"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    assert out.stdout.strip() == "False"
