@@ -27,6 +27,7 @@ CLAIMS = (
     "double_pendulum",
     "opensees_pendulum",
     "bouc_wen_drift",
+    "opensees_element",
     "opensees_macro_model",
     "opensees_superstructure",
 )
@@ -225,10 +226,11 @@ def index(folder: Path = FOLDER) -> str:
         "this repository.",
         head + "\n" + "\n".join(rows),
         "Besides: [speed_error.md](speed_error.md), error over cost of every level and step in "
-        "nine scenes (`python -m validation.speed_error`), and [hard_cases.md](hard_cases.md), "
-        "what is hard to compute (`python -m validation.hard_cases`), and "
+        "nine scenes (`python -m validation.speed_error`), [hard_cases.md](hard_cases.md), "
+        "what is hard to compute (`python -m validation.hard_cases`), "
         "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
-        "(`python -m validation.opensees_hard_cases`).",
+        "(`python -m validation.opensees_hard_cases`), and [opensees_cost.md](opensees_cost.md), "
+        "what a bearing costs inside OpenSees (`python -m validation.opensees_cost`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "

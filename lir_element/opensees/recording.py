@@ -109,7 +109,7 @@ class BearingRecording:
             "level": ", ".join(sorted({bearing.level for bearing in self._bearings})),
             "route": ", ".join(sorted({bearing.route for bearing in self._bearings})),
             "record_every": self._every,
-            "wall_time": time.perf_counter() - self._started,
+            "seconds": time.perf_counter() - self._started,
         }
 
 

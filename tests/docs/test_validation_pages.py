@@ -9,7 +9,7 @@ import pytest
 import validation
 from validation.page import CLAIMS, FOLDER, index
 
-MEASUREMENTS = ("speed_error", "hard_cases", "opensees_hard_cases")
+MEASUREMENTS = ("speed_error", "hard_cases", "opensees_hard_cases", "opensees_cost")
 PACKAGE = Path(str(validation.__file__)).parent
 FIGURE = re.compile(r"!\[[^\]]+\]\((figures/[^)]+)\)")
 claims = pytest.mark.parametrize("name", CLAIMS)
