@@ -57,15 +57,10 @@ def pulse() -> GroundMotion:
 
 def scenes(bearing: LIRBearing) -> dict[str, Frame]:
     """Return the structures, from one bearing to nine."""
-    sections = {
-        "column": _slender(DEFAULT_COLUMN),
-        "beam": _slender(DEFAULT_BEAM),
-        "base_beam": _slender(DEFAULT_BASE_BEAM),
-    }
     return {
         "a mass on one bearing": lumped_mass(bearing, EXAMPLE_MASS),
-        "1 × 1 bay, 1 storey": moment_frame((1, 1), 1, bearing, damping=None, **sections),
-        "2 × 2 bays, 3 storeys": moment_frame((2, 2), 3, bearing, damping=None, **sections),
+        "1 × 1 bay, 1 storey": _building((1, 1), 1, bearing),
+        "2 × 2 bays, 3 storeys": _building((2, 2), 3, bearing),
     }
 
 
@@ -176,6 +171,13 @@ def ratio(times: Mapping[str, list[float]], device: str) -> float:
     """Return the median over the turns of the time over that of `BASE`."""
     pairs = zip(times[device], times[BASE], strict=True)
     return statistics.median(a / b for a, b in pairs)
+
+
+def _building(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
+    return moment_frame(
+        bays=bays, storeys=storeys, bearing=bearing, damping=None, column=_slender(DEFAULT_COLUMN),
+        beam=_slender(DEFAULT_BEAM), base_beam=_slender(DEFAULT_BASE_BEAM),
+    )  # fmt: skip
 
 
 def _slender(section: Section) -> Section:
