@@ -1,9 +1,8 @@
-"""A `frames.Frame` as an OpenSees model, its bearings put there by the caller; its time history.
+"""A `frames.Frame` as an OpenSees model, its bearings put there by the caller or left out.
 
-Nodes, members, springs, masses, supports, diaphragms and permanent loads are carried over; members
-with shear deformation as ElasticTimoshenkoBeam, others as elasticBeamColumn, both with the
-transformation PDelta, which the former takes no notice of (openseespy 3.7.1). Damping: none, or
-proportional to the members' stiffness.
+Nodes, members, springs, masses, supports and diaphragms are carried over, and permanent loads on
+request; members with shear deformation as ElasticTimoshenkoBeam, which takes no notice of P-Delta
+(openseespy 3.7.1), others as elasticBeamColumn.
 """
 
 from __future__ import annotations
@@ -11,20 +10,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from frames.assembly import assemble
 from frames.axes import default_up
 from frames.parts import DOFS
-from validation.opensees_runs import AXES, advance, gravity_analysis, model, shake
+from validation.opensees_model import empty_model, gravity_analysis, permanent_loads
+from validation.opensees_runs import Track, respond
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from frames import Frame, GroundMotion
-    from frames._types import FloatArray
     from frames.parts import Member
     from lir_element import LIRBearing
 
@@ -33,28 +32,23 @@ PlaceBearing: TypeAlias = Callable[[int, int, int, "LIRBearing"], object]
 
 
 @dataclass(frozen=True)
-class FrameTrack:
-    """What a frame did.
+class Built:
+    """Tags of what was built.
 
     Attributes
     ----------
-    time : ndarray, (n,)
-        Times [s].
-    displacement : ndarray, (n, nodes, 3)
-        Of the nodes asked for, relative to the ground [m].
-    force : ndarray, (n, bearings, 3)
-        Of the bearings on the node above, in the frame's order [N].
-    seconds : float
-        Time of computation [s].
-    loose : int
-        Steps with the larger tolerance.
+    nodes, members : dict of str to int
+        By name.
+    bases : tuple of int
+        Nodes above the bearings, in the frame's order.
+    bearings : tuple of int
+        Elements of the bearings in that order; none where they were left out.
     """
 
-    time: FloatArray
-    displacement: FloatArray
-    force: FloatArray
-    seconds: float
-    loose: int
+    nodes: dict[str, int]
+    members: dict[str, int]
+    bases: tuple[int, ...]
+    bearings: tuple[int, ...]
 
 
 def frame_history(
@@ -66,7 +60,7 @@ def frame_history(
     *,
     duration: float | None = None,
     stiffness_damping: float = 0.0,
-) -> FrameTrack:
+) -> Track:
     """Run a frame in OpenSees: gravity, then the ground motion with Newmark's average acceleration.
 
     Parameters
@@ -88,33 +82,29 @@ def frame_history(
 
     Returns
     -------
-    FrameTrack
-        At each step.
+    Track
+        Of the nodes asked for and of all bearings.
     """
-    with model() as ops:
-        tags, bearings = build(ops, frame, place)
+    with empty_model() as ops:
+        built = build(ops, frame, place)
+        add_loads(ops, frame, built)
         gravity_analysis(ops)
         if stiffness_damping > 0.0:
-            members = [tags[f"member {name}"] for name in frame.members]
+            members = built.members.values()
             ops.region(1, "-ele", *members, "-rayleigh", 0.0, 0.0, stiffness_damping, 0.0)
-        shake(ops, motion)
-        steps = round((motion.duration if duration is None else duration) / dt)
-        time = np.zeros(steps + 1)
-        moved = np.zeros((steps + 1, len(nodes), 3))
-        force = np.zeros((steps + 1, len(bearings), 3))
-        chosen = [tags[f"node {name}"] for name in nodes]
-        began, loose = perf_counter(), 0
-        for k in range(steps + 1):
-            if k:
-                loose += advance(ops, 1, dt)
-            time[k] = ops.getTime()
-            moved[k] = [[ops.nodeDisp(node, axis) for axis in AXES] for node in chosen]
-            force[k] = [ops.eleResponse(tag, "force")[6:9] for tag in bearings]
-        return FrameTrack(time, moved, force, perf_counter() - began, loose)
+        chosen = [built.nodes[name] for name in nodes]
+        return respond(ops, motion, dt, chosen, built.bearings, duration=duration)
 
 
-def build(ops: Any, frame: Frame, place: PlaceBearing) -> tuple[dict[str, int], list[int]]:
-    """Write a frame into an empty model, its permanent loads in a pattern.
+def build(
+    ops: Any,
+    frame: Frame,
+    place: PlaceBearing | None = None,
+    *,
+    transformation: str = "PDelta",
+    diaphragms: Collection[str] | None = None,
+) -> Built:
+    """Write a frame into an empty model, without its loads.
 
     Parameters
     ----------
@@ -122,60 +112,72 @@ def build(ops: Any, frame: Frame, place: PlaceBearing) -> tuple[dict[str, int], 
         OpenSees.
     frame : Frame
         The structure.
-    place : callable
-        Puts the element of a bearing.
+    place : callable, optional
+        Puts the element of a bearing; None leaves bearings out, and the nodes below them.
+    transformation : str
+        Geometric transformation of the members.
+    diaphragms : collection of str, optional
+        Names of the diaphragms to build; None is all.
 
     Returns
     -------
-    tags : dict of str to int
-        Tags of nodes and members, by "node <name>" and "member <name>".
-    bearings : list of int
-        Element tags of the bearings, in the frame's order.
+    Built
+        The tags.
     """
-    tags = {f"node {name}": k for k, name in enumerate(frame.nodes, start=1)}
-    for name, node in frame.nodes.items():
-        ops.node(tags[f"node {name}"], *node.position)
-    for name, dofs in frame.fixed_dofs.items():
-        ops.fix(tags[f"node {name}"], *(int(dof in dofs) for dof in DOFS))
+    links = frame.bearings.values()
+    left_out = {link.i for link in links} if place is None else set()
+    system = assemble(frame)
+    nodes = {name: k for k, name in enumerate((n for n in frame.nodes if n not in left_out), 1)}
+    for name, tag in nodes.items():
+        ops.node(tag, *frame.nodes[name].position)
+        if name in frame.fixed_dofs:
+            ops.fix(tag, *(int(dof in frame.fixed_dofs[name]) for dof in DOFS))
+        mass = system.node_mass[system.node_names.index(name)]
+        if mass.any():
+            ops.mass(tag, *mass.tolist())
     for diaphragm in frame.diaphragms.values():
-        ops.rigidDiaphragm(3, *(tags[f"node {name}"] for name in diaphragm.nodes))
-    for k, member in enumerate(frame.members.values(), start=1):
-        tags[f"member {member.name}"] = k
-        _member(ops, frame, k, member, tags)
-    mass = _masses(frame)
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    for name in frame.nodes:
-        weight = np.zeros(6)
-        if mass[name].any():
-            ops.mass(tags[f"node {name}"], *mass[name].tolist())
-            weight[2] = -frame.gravity * mass[name][2]
-        load = weight + frame.loads.get(name, np.zeros(6))
-        if load.any():
-            ops.load(tags[f"node {name}"], *load.tolist())
-    count = len(frame.members)
-    for k, spring in enumerate(frame.springs.values(), start=count + 1):
-        _spring(ops, k, tags[f"node {spring.i}"], tags[f"node {spring.j}"], spring.stiffness)
+        if diaphragms is None or diaphragm.name in diaphragms:
+            ops.rigidDiaphragm(3, *(nodes[name] for name in diaphragm.nodes))
+    members = {name: k for k, name in enumerate(frame.members, start=1)}
+    for name, member in frame.members.items():
+        _member(ops, frame, members[name], member, nodes, transformation)
+    count = len(members)
+    for tag, spring in enumerate(frame.springs.values(), start=count + 1):
+        _spring(ops, tag, nodes[spring.i], nodes[spring.j], spring.stiffness)
     count += len(frame.springs)
-    bearings = list(range(count + 1, count + len(frame.bearings) + 1))
-    for k, link in zip(bearings, frame.bearings.values(), strict=True):
-        place(k, tags[f"node {link.i}"], tags[f"node {link.j}"], link.bearing)
-    return tags, bearings
+    bearings = () if place is None else tuple(range(count + 1, count + len(links) + 1))
+    if place is not None:
+        for tag, link in zip(bearings, links, strict=True):
+            place(tag, nodes[link.i], nodes[link.j], link.bearing)
+    return Built(nodes, members, tuple(nodes[link.j] for link in links), bearings)
 
 
-def _member(ops: Any, frame: Frame, tag: int, member: Member, tags: dict[str, int]) -> None:
-    ends = [np.array([frame.nodes[name].position]) for name in (member.i, member.j)]
-    up = default_up(*ends)[0].tolist() if member.up is None else member.up
-    ops.geomTransf("PDelta", tag, *up)
-    s, nodes = member.section, (tags[f"node {member.i}"], tags[f"node {member.j}"])
+def add_loads(ops: Any, frame: Frame, built: Built) -> None:
+    """Add weights and permanent loads of a frame to the model."""
+    system = assemble(frame)
+    loads = system.node_load.reshape(-1, len(DOFS))
+    permanent_loads(ops)
+    for name, tag in built.nodes.items():
+        load = loads[system.node_names.index(name)]
+        if load.any():
+            ops.load(tag, *load.tolist())
+
+
+def _member(
+    ops: Any, frame: Frame, tag: int, member: Member, nodes: dict[str, int], transformation: str
+) -> None:
+    start, end = (np.array([frame.nodes[name].position]) for name in (member.i, member.j))
+    up = default_up(start, end)[0].tolist() if member.up is None else member.up
+    ops.geomTransf(transformation, tag, *up)
+    s, ends = member.section, (nodes[member.i], nodes[member.j])
     if math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z):
         ops.element(
-            "elasticBeamColumn", tag, *nodes, s.area, s.elastic_modulus, s.shear_modulus,
+            "elasticBeamColumn", tag, *ends, s.area, s.elastic_modulus, s.shear_modulus,
             s.torsion_constant, s.inertia_y, s.inertia_z, tag,
         )  # fmt: skip
     else:
         ops.element(
-            "ElasticTimoshenkoBeam", tag, *nodes, s.elastic_modulus, s.shear_modulus, s.area,
+            "ElasticTimoshenkoBeam", tag, *ends, s.elastic_modulus, s.shear_modulus, s.area,
             s.torsion_constant, s.inertia_y, s.inertia_z, s.shear_area_y, s.shear_area_z, tag,
         )  # fmt: skip
 
@@ -189,14 +191,3 @@ def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> N
         "twoNodeLink", tag, i, j, "-mat", *materials, "-dir", 1, 2, 3, 4, 5, 6,
         "-orient", 1, 0, 0, 0, 1, 0,
     )  # fmt: skip
-
-
-def _masses(frame: Frame) -> dict[str, FloatArray]:
-    # Lumped masses and half of each member's at its ends.
-    mass = {name: np.array(frame.masses.get(name, np.zeros(6))) for name in frame.nodes}
-    for member in frame.members.values():
-        ends = [np.array(frame.nodes[name].position) for name in (member.i, member.j)]
-        half = 0.5 * member.section.density * member.section.area * math.dist(*ends)
-        for name in (member.i, member.j):
-            mass[name][:3] += half
-    return mass

@@ -25,7 +25,7 @@ from validation.hard_cases import given_back, outcome, quiet
 from validation.hard_scenes import Case, impact, vertical
 from validation.opensees_devices import DEVICES
 from validation.opensees_hard_page import Entry, write
-from validation.opensees_scenes import (
+from validation.opensees_trials import (
     PLAIN,
     ROBUST,
     Shaken,
@@ -40,6 +40,7 @@ from validation.scenes import MASS
 if TYPE_CHECKING:
     import xarray as xr
 
+    from frames import GroundMotion
     from lir_element import LIRBearing
     from lir_element.layout import Floats
 
@@ -88,22 +89,15 @@ def cases() -> list[Case]:
     ]
 
 
-def motion_of(case: Case) -> Floats:
-    """Return the ground acceleration of a case (n, 3)."""
-    return np.asarray(case.motion.components)
-
-
-def energies(done: Shaken, motion: Floats, step: float, bearing: LIRBearing) -> tuple[float, float]:
+def energies(done: Shaken, motion: GroundMotion, bearing: LIRBearing) -> tuple[float, float]:
     """Return how far the balance of energy stays open, and the energy that the device made.
 
     Parameters
     ----------
     done : Shaken
         A run.
-    motion : ndarray, shape (n, 3)
-        Ground acceleration [m/s2].
-    step : float
-        Of the motion [s].
+    motion : GroundMotion
+        Acceleration of the ground.
     bearing : LIRBearing
         What the device stands for.
 
@@ -115,9 +109,8 @@ def energies(done: Shaken, motion: Floats, step: float, bearing: LIRBearing) -> 
     """
     if len(done.time) < 3:
         return float("nan"), float("nan")
-    times = step * np.arange(len(motion))
     ground = np.column_stack(
-        [np.interp(done.time, times, motion[:, axis], right=0.0) for axis in range(3)]
+        [np.interp(done.time, motion.time, values, right=0.0) for values in motion.components.T]
     )
     push = -MASS * ground - np.array([0.0, 0.0, WEIGHT])
     work = _work(done.force, done.displacement)
@@ -184,17 +177,16 @@ def theirs(
     duration: float, reference: xr.Dataset,
 ) -> Entry:  # fmt: skip
     """Run an element of OpenSees."""
-    motion = motion_of(case)
     status, done = worker.run(
-        shake, make=DEVICES[device], bearing=kind.bearing, mass=MASS, motion=motion,
-        step=case.motion.dt, duration=duration, dt=dt, algorithms=algorithms,
+        shake, make=DEVICES[device], bearing=kind.bearing, mass=MASS, motion=case.motion,
+        duration=duration, dt=dt, algorithms=algorithms,
     )  # fmt: skip
     setting = f"{1e3 * dt:g}, {NAMES[algorithms]}"
     if done is None:
         nothing = float("nan")
         return Entry(case.name, kind.name, device, setting, status, nothing, nothing, nothing,
                      nothing, nothing)  # fmt: skip
-    gap, made = energies(done, motion, case.motion.dt, kind.bearing)
+    gap, made = energies(done, case.motion, kind.bearing)
     return Entry(
         case.name, kind.name, device, setting, done.status, float(done.time[-1]),
         peak_until(done.time, done.displacement, np.inf),

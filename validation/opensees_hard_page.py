@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lir_element.opensees import opensees
-from validation.opensees_scenes import CODES, ITERATIONS, TOLERANCE
+from validation.opensees_trials import CODES, ITERATIONS, TOLERANCE
 from validation.opensees_worker import LIMIT
 from validation.page import table
 from validation.scenes import MASS
@@ -184,11 +184,11 @@ def write(
         "[hard_cases.md](hard_cases.md).",
         "**Models.** Each is compared with the element of this package in the same duty: a "
         "pendulum without rims (singleFPBearing, FPBearingPTV), one with rims "
-        "(TripleFrictionPendulum "
-        "with equal friction everywhere, TFP with its inner surfaces held by friction), and the "
-        "LIR-DCFP ([macro-model](opensees_macro_model.md)). TripleFrictionPendulum and TFP choose "
-        "the stiffness of their rims by themselves: their peaks beyond a rim need not be those of "
-        "the reference.",
+        "(TripleFrictionPendulum, TFP), and the LIR-DCFP "
+        "([macro-model](opensees_macro_model.md)). The first four are given what "
+        "`lir_element.opensees.builtin_element` gives them; TFP, whose rims it refuses, gets "
+        "dishes that end at them. TripleFrictionPendulum and TFP choose the stiffness of their "
+        "rims by themselves: their peaks beyond a rim need not be those of the reference.",
         "**Settings.** Newmark's average acceleration, test NormUnbalance of "
         f"{TOLERANCE:g} of the weight, {ITERATIONS} iterations, Transformation, BandGeneral. "
         "*Newton*: plain, stops where it fails. *Fallback*: where Newton fails KrylovNewton, then "

@@ -21,10 +21,11 @@ from lir_element import cyclic_test
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
 from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
-from validation.opensees_devices import ABOVE, UP, Device, macro
+from validation.opensees_devices import Device, macro
 from validation.opensees_macro_figures import Rim, draw_loops, draw_rims
 from validation.opensees_macro_text import SCENES, scenes_table, settings_table, text
-from validation.opensees_scenes import Shaken, pull, shake
+from validation.opensees_model import ABOVE
+from validation.opensees_trials import Shaken, pull, shake
 from validation.page import Check, Claim, Page, below, near, run
 from validation.static_test import LOAD, REACH, STEP, path
 
@@ -99,7 +100,7 @@ def series_with_mu_h(bearing: LIRBearing, weight: float) -> Device:
     ops.uniaxialMaterial("Elastic", first + 1, 1.0)
     ops.element(
         "flatSliderBearing", first, made.middle, ABOVE, first, stiffness, "-P", first,
-        "-T", first + 1, "-My", first + 1, "-Mz", first + 1, "-orient", *UP,
+        "-T", first + 1, "-My", first + 1, "-Mz", first + 1, "-orient", 0, 0, 1, 1, 0, 0,
     )  # fmt: skip
     return Device((first,), made.middle)
 
@@ -227,8 +228,7 @@ def histories(motion: GroundMotion) -> tuple[xr.Dataset, Shaken]:
     bearing = example_bearing()
     ours = time_history(lumped_mass(bearing, EXAMPLE_MASS), motion, DURATION, dt=STEP_HISTORY)
     theirs = shake(
-        macro, bearing, EXAMPLE_MASS, motion.components, motion.dt, duration=DURATION,
-        dt=STEP_HISTORY,
+        macro, bearing, EXAMPLE_MASS, motion, duration=DURATION, dt=STEP_HISTORY
     )  # fmt: skip
     return ours, theirs
 

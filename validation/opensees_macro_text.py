@@ -12,7 +12,7 @@ from frames import time_history
 from lir_element import AnalysisWarning
 from validation.cases import EXAMPLE_MASS, example_bearing
 from validation.opensees_devices import macro
-from validation.opensees_scenes import PLAIN, ROBUST, Shaken, Steps, shake
+from validation.opensees_trials import PLAIN, ROBUST, Shaken, Steps, shake
 from validation.page import Claim, figure, table
 from validation.scenes import MASS, Scene, made_scenes
 
@@ -59,8 +59,8 @@ def settings_table(motion: GroundMotion) -> tuple[str, dict[str, Shaken]]:
     rows, kept = [], {}
     for name, options, dt, algorithms in SETTINGS:
         done = shake(
-            partial(macro, **options), example_bearing(), EXAMPLE_MASS, motion.components,
-            motion.dt, duration=DURATION, dt=dt, algorithms=algorithms,
+            partial(macro, **options), example_bearing(), EXAMPLE_MASS, motion,
+            duration=DURATION, dt=dt, algorithms=algorithms,
         )  # fmt: skip
         kept[f"{name}, {1e3 * dt:g} ms, {NAMES[algorithms]}"] = done
         rows.append((
@@ -94,8 +94,8 @@ def scenes_table() -> tuple[str, dict[str, dict[str, Floats]], dict[str, float]]
             if gaps == 8 and scene.name != SCENES[0]:
                 continue
             done = shake(
-                partial(macro, directions=gaps), scene.bearing, MASS, scene.motion.components,
-                scene.motion.dt, duration=scene.duration, dt=SCENE_STEP, algorithms=algorithms,
+                partial(macro, directions=gaps), scene.bearing, MASS, scene.motion,
+                duration=scene.duration, dt=SCENE_STEP, algorithms=algorithms,
             )  # fmt: skip
             name = f"macro-model, {gaps} gaps, {NAMES[algorithms]}"
             axial = float(-done.force[:, 2].min() / -done.force[0, 2])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -27,15 +27,18 @@ from frames import (
     time_history,
 )
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.opensees import opensees
-from validation.opensees_copy import (
-    add_weights,
-    analyse_gravity,
-    build_in_opensees,
-    shake,
-    static_analysis,
+from validation.opensees_frames import Built, add_loads, build
+from validation.opensees_isolators import (
+    Isolator,
+    add_ground,
+    damp,
+    put_on_isolators,
+    single_pendulum,
+    spring,
     waves,
 )
+from validation.opensees_model import empty_model, gravity_analysis
+from validation.opensees_runs import respond
 from validation.page import Check, Claim, Page, below, figure, run, table
 
 if TYPE_CHECKING:
@@ -54,6 +57,7 @@ CLAIM = Claim(
     "OpenSeesPy",
 )
 DT, DURATION = 0.005, 8.0  # s
+EQUILIBRIUM = 1e-10  # m and rad, of the last correction in OpenSees
 STOREYS = 3
 AXIAL, AXIAL_DAMPING = 2e9, 1e6  # N/m, N s/m, of a bearing
 FRICTION = 0.05
@@ -62,22 +66,13 @@ BEAM = Section(0.0150, 7.5e-4, 3.5e-5, 1.5e-6, 2.1e11, 8.08e10, density=7850.0)
 PENDULUM = Features(
     rims=False, interface=False, plate_rotation=False, vertical_coupling=False, uplift=False
 )
+"""What leaves of a bearing without friction a pendulum at constant load over a vertical spring."""
 DAMPINGS = {
     "none": "none",
     "mass and initial stiffness": "`rayleigh(0.2, 0, 0.002, 0)`",
     "present stiffness": "`rayleigh(0, 0.005, 0, 0)`",
     "by regions": "initial stiffness, 0.02 s in the columns, 0.001 s in the beams",
 }
-
-
-class Isolator(Protocol):
-    """Puts an isolator between two nodes of the OpenSees model."""
-
-    def __call__(
-        self, ops: Any, tag: int, ground: int, base: int, bearing: LIRBearing, load: float
-    ) -> None:
-        """Add the element `tag`; the bearing carries `load` [N] at rest."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -129,51 +124,20 @@ def building(bearing: LIRBearing) -> Frame:
     return frame
 
 
-def fixed_base(ops: Any, built: Frame, damping: str) -> tuple[dict[str, int], list[int]]:
-    """Build it in OpenSees on fixed supports, P-Delta in its columns, loads applied."""
-    floors = [name for name in built.diaphragms if name != "base"]
-    tags, bases = build_in_opensees(ops, built, transformation="PDelta", diaphragms=floors)
-    for tag in bases:
+def fixed_base(ops: Any, frame: Frame, damping: str) -> Built:
+    """Build it in OpenSees on fixed supports, P-Delta in its members, loads applied."""
+    built = build(ops, frame, diaphragms=_floors(frame))
+    for tag in built.bases:
         ops.fix(tag, 1, 1, 1, 1, 1, 0)
-    add_weights(ops, tags.values())
-    if damping == "mass and initial stiffness":
-        ops.rayleigh(0.2, 0.0, 0.002, 0.0)
-    elif damping == "present stiffness":
-        ops.rayleigh(0.0, 0.005, 0.0, 0.0)
-    elif damping == "by regions":
-        columns = [k for k, name in enumerate(built.members, start=1) if name.startswith("col")]
-        beams = [k for k, name in enumerate(built.members, start=1) if name.startswith("beam")]
-        ops.region(1, "-ele", *columns, "-rayleigh", 0.0, 0.0, 0.02, 0.0)
-        ops.region(2, "-ele", *beams, "-rayleigh", 0.0, 0.0, 0.001, 0.0)
-    analyse_gravity(ops)
-    return tags, bases
+    add_ground(ops, built.bases)
+    add_loads(ops, frame, built)
+    damp(ops, built, damping)
+    gravity_analysis(ops)
+    return built
 
 
-def spring(ops: Any, tag: int, ground: int, base: int, bearing: LIRBearing, load: float) -> None:
-    """Put the pendulum under constant load as a linear spring, over a vertical one."""
-    length = bearing.effective_radius + load / AXIAL
-    ops.uniaxialMaterial("Elastic", 10 * tag, load / length)
-    ops.uniaxialMaterial("Elastic", 10 * tag + 1, AXIAL, AXIAL_DAMPING)
-    materials = (10 * tag, 10 * tag, 10 * tag + 1)
-    ops.element("zeroLength", tag, ground, base, "-mat", *materials, "-dir", 1, 2, 3)
-
-
-def single_pendulum(
-    ops: Any, tag: int, ground: int, base: int, bearing: LIRBearing, load: float
-) -> None:
-    """Put OpenSees' singleFPBearing with the same radius, strength and stiffness before slip."""
-    length = bearing.effective_radius
-    parts = zip(bearing.frictions, bearing.radii, strict=True)
-    slope = sum(law.f_min * radius**2 for law, radius in parts)
-    stiffness = load * slope / (bearing.yield_displacement * length**2)
-    ops.frictionModel("Coulomb", tag, bearing.effective_friction)
-    ops.uniaxialMaterial("Elastic", 10 * tag, AXIAL, AXIAL_DAMPING)
-    ops.uniaxialMaterial("Elastic", 10 * tag + 1, 1.0)  # N m/rad: bearings resist no rotation
-    ops.element(
-        "singleFPBearing", tag, ground, base, tag, length, stiffness, "-P", 10 * tag, "-T",
-        10 * tag + 1, "-My", 10 * tag + 1, "-Mz", 10 * tag + 1, "-orient", 0, 0, 1, 1, 0, 0,
-        "-iter", 100, 1e-8,
-    )  # fmt: skip
+def _floors(frame: Frame) -> list[str]:
+    return [name for name in frame.diaphragms if name != "base"]
 
 
 def compare(
@@ -209,35 +173,21 @@ def compare(
     RuntimeError
         If OpenSees does not complete.
     """
-    ops = opensees()
-    tags, bases = fixed_base(ops, building(bearing), damping)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ModelWarning)  # damping of the isolation is meant here
-        taken = Frame.from_opensees(bases, bearing)
-    loads = gravity(taken, features).axial_forces
-    data = time_history(taken, motion, DURATION, DT, features=features, on_failure="raise")
-    nodes = [bases[0], tags[f"floor-{STOREYS}-0-0"]]
+    with empty_model() as ops:
+        built = fixed_base(ops, building(bearing), damping)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ModelWarning)  # damping of the isolation is meant here
+            taken = Frame.from_opensees(built.bases, bearing)
+        loads = gravity(taken, features).axial_forces
+        data = time_history(taken, motion, DURATION, DT, features=features, on_failure="raise")
+        nodes = [built.bases[0], built.nodes[f"floor-{STOREYS}-0-0"]]
+        put_on_isolators(ops, built.bases, bearing, loads, isolator)
+        track = respond(ops, motion, DT, nodes, duration=DURATION, tolerance=EQUILIBRIUM)
     moves = data["node_displacement"].sel(node=[str(tag) for tag in nodes]).to_numpy()
-
-    for tag, load in zip(bases, loads, strict=True):
-        ground = 1000 + tag
-        ops.node(ground, *ops.nodeCoord(tag))
-        ops.fix(ground, 1, 1, 1, 1, 1, 1)
-        for dof in (1, 2, 3):
-            ops.remove("sp", tag, dof)
-        isolator(ops, ground, ground, tag, bearing, float(load))
-    ops.rigidDiaphragm(3, *bases)
-    static_analysis(ops, 0.0)
-    if ops.analyze(1):
-        msg = "OpenSees found no equilibrium on the isolators"
-        raise RuntimeError(msg)
-    steps = round(DURATION / DT)
-    expected = shake(ops, motion, DT, steps, nodes, linear=isolator is spring)
-    ops.wipe()
     return Comparison(
-        time=np.arange(steps + 1) * DT,
+        time=track.time,
         found=moves - moves[0],
-        expected=expected,
+        expected=track.displacement - track.displacement[0],
         ledger=energy_error(data),
     )
 
@@ -251,27 +201,23 @@ def independent() -> tuple[float, float]:
         Largest relative differences of all periods on sticking bearings, and of the bearings'
         displacements.
     """
-    ops = opensees()
     bearing = LIRBearing(
         radius=1.0, slider_height=0.1, slider_radius=0.12, capacity=0.15,
         friction=CoulombFriction(FRICTION), interface_friction=0.14,
     )  # fmt: skip
-    built = building(bearing)
-    tags, bases = build_in_opensees(ops, built, transformation="PDelta", diaphragms=())
-    floors = [d for name, d in built.diaphragms.items() if name != "base"]
-    for floor in floors:
-        ops.rigidDiaphragm(3, *[tags[name] for name in floor.nodes])
-    for tag in bases:
-        ops.fix(tag, 1, 1, 1, 1, 1, 1)
-    add_weights(ops, tags.values())
-    analyse_gravity(ops)
-    taken = Frame.from_opensees(bases, bearing, base_rotations="free")
-    ops.wipe()
-    first, second = (modes(frame, 10**6, "sticking").periods for frame in (built, taken))
+    here = building(bearing)
+    with empty_model() as ops:
+        built = build(ops, here, diaphragms=_floors(here))
+        for tag in built.bases:
+            ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        add_loads(ops, here, built)
+        gravity_analysis(ops)
+        taken = Frame.from_opensees(built.bases, bearing, base_rotations="free")
+    first, second = (modes(frame, 10**6, "sticking").periods for frame in (here, taken))
     motion = waves(0.5, 6.0)
     runs = [
         time_history(frame, motion, dt=DT, on_failure="raise")["bearing_displacement"].to_numpy()
-        for frame in (built, taken)
+        for frame in (here, taken)
     ]
     return float(np.abs(second / first - 1.0).max()), _apart(runs[1], runs[0])
 
@@ -339,8 +285,8 @@ def text(rows: str) -> list[str]:
     """Return the text of the page."""
     return [
         figure(CLAIM, "histories", "Displacements from both programs, one upon the other"),
-        f"A steel moment frame of 2 by 2 bays and {STOREYS} storeys: elastic beam-columns, P-Delta "
-        "in the columns, rigid diaphragms, lumped masses with rotational inertia. It is built in "
+        f"A steel moment frame of 2 by 2 bays and {STOREYS} storeys: elastic beam-columns with "
+        "P-Delta, rigid diaphragms, lumped masses with rotational inertia. It is built in "
         "OpenSees on fixed supports, loaded by its weight, and taken over by "
         "`Frame.from_opensees`. The same model then gets isolators in OpenSees, and is analysed "
         f"there by Newmark's method with the same step of {1e3 * DT:g} ms.",

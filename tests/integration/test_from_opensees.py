@@ -8,11 +8,9 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 
 from frames import (
-    Features,
     Frame,
     ModalDamping,
     ModelWarning,
-    Section,
     gravity,
     modes,
     moment_frame,
@@ -22,25 +20,16 @@ from frames import (
 )
 from frames.summary import table_of
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
-from lir_element.opensees import opensees
-from validation import opensees_copy as scenes
-from validation.opensees_copy import STANDARD_GRAVITY as G
+from lir_element.bearing import STANDARD_GRAVITY as G
+from validation.opensees_frames import add_loads, build
+from validation.opensees_isolators import add_ground, damp, put_on_isolators, spring, waves
+from validation.opensees_model import gravity_analysis, solver, static_steps
+from validation.opensees_runs import respond
+from validation.opensees_superstructure import BEAM, COLUMN, PENDULUM
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
 )
-
-COLUMN = Section(0.0375, 8.8e-4, 8.8e-4, 1.3e-3, 2.1e11, 8.08e10, density=7850.0)
-BEAM = Section(0.0150, 7.5e-4, 3.5e-5, 1.5e-6, 2.1e11, 8.08e10, density=7850.0)
-
-
-@pytest.fixture
-def ops():
-    module = opensees()
-    module.wipe()
-    yield module
-    module.wipe()
-
 
 FLOORS = ("floor-1", "floor-2")
 
@@ -55,6 +44,19 @@ def lir(**options):
 
 def building(bearing, **options):
     return moment_frame(bays=(1, 1), storeys=2, bearing=bearing, damping=None, **options)
+
+
+def build_anew(ops, frame, **options):
+    """Build a frame in OpenSees, without its bearings."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    return build(ops, frame, **options)
+
+
+def analysis_at_hand(ops):
+    """Set an analysis up, and take no step of it."""
+    solver(ops)
+    static_steps(ops, 0.0)
 
 
 def histories_apart(first, second, names, others):
@@ -81,33 +83,30 @@ def test_the_same_building_built_here(ops, run, monkeypatch):
     without_geometric_stiffness(monkeypatch)
     device = lir()
     built = building(device)
-    tags, bases = scenes.build_in_opensees(ops, built)
-    taken = Frame.from_opensees(bases, device, gravity=G)
+    there = build_anew(ops, built, transformation="Linear")
+    taken = Frame.from_opensees(there.bases, device, gravity=G)
     for frame in (built, taken):
         frame.set_damping(ModalDamping(0.03))
     for kind in ("sliding", "sticking", "fixed"):
         expected, found = modes(built, 1000, kind), modes(taken, 1000, kind)
         assert_allclose(found.periods, expected.periods, rtol=1e-9)
         assert_allclose(found.mass_ratios.sum(axis=0), expected.mass_ratios.sum(axis=0), rtol=1e-9)
-    motion = scenes.waves(0.7, 5.0)
+    motion = waves(0.7, 5.0)
     first, second = run(built, motion), run(taken, motion)
     assert first.attrs["status"] == "ok"
     assert float(first["rim_force"].max()) > 0.0
     assert float(first["interface_slip_size"].max()) > 1e-3
-    names, others = list(tags), [str(tag) for tag in tags.values()]
+    names, others = list(there.nodes), [str(tag) for tag in there.nodes.values()]
     for word, apart in histories_apart(first, second, names, others).items():
         assert apart < 1e-6, word
     assert_allclose(storey_drift(second), storey_drift(first), rtol=0.0, atol=1e-9)
     assert "completed" in table_of({"built": first, "taken": second})
 
 
-PENDULUM = Features(
-    rims=False, interface=False, plate_rotation=False, vertical_coupling=False, uplift=False
-)
-"""What leaves of a bearing without friction a pendulum at constant load over a vertical spring."""
+KINDS = ("none", "mass and initial stiffness", "present stiffness", "by regions", "modal")
 
 
-@pytest.mark.parametrize("kind", ["none", "rayleigh", "current", "regions", "modal"])
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.filterwarnings("ignore::frames.ModelWarning")
 def test_the_same_building_wholly_in_opensees(ops, run, monkeypatch, kind):
     """P-Delta, diaphragms and every kind of damping; the isolators are linear in both programs."""
@@ -120,58 +119,38 @@ def test_the_same_building_wholly_in_opensees(ops, run, monkeypatch, kind):
     built = building(device, column=COLUMN, beam=BEAM, base_beam=BEAM)
     # OpenSees mixes up the modes of nodes that are tied where it damps by modes
     tied = () if kind == "modal" else FLOORS
-    tags, bases = scenes.build_in_opensees(ops, built, transformation="PDelta", diaphragms=tied)
+    there = build_anew(ops, built, diaphragms=tied)
+    bases = there.bases
     for tag in bases:
         ops.fix(tag, 1, 1, 1, 0, 0, 0)
-        ops.node(100 + tag, *ops.nodeCoord(tag))
-        ops.fix(100 + tag, 1, 1, 1, 1, 1, 1)
-    scenes.add_weights(ops, tags.values())
-    damp(ops, kind)
-    scenes.analyse_gravity(ops)
+    add_ground(ops, bases)
+    add_loads(ops, built, there)
+    damp(ops, there, kind)
+    gravity_analysis(ops)
     if kind == "modal":
-        scenes.static_analysis(ops, 0.0)
+        analysis_at_hand(ops)
         ops.eigen("-genBandArpack", 4)
         ops.modalDamping(0.05)
     taken = Frame.from_opensees(bases, device, base_diaphragm=bool(tied))
     state = gravity(taken, PENDULUM)
     assert bool(state.basis.damping_ee.size) == (kind != "none")
-    assert (state.basis.mass_e == 0.0).any() == (kind == "regions")
-    motion, dt, steps = scenes.waves(0.02, 3.0), 0.005, 600
-    data = run(taken, motion, dt=dt, duration=dt * steps, features=PENDULUM)
+    assert (state.basis.mass_e == 0.0).any() == (kind == "by regions")
+    motion, dt, duration = waves(0.02, 3.0), 0.005, 3.0
+    data = run(taken, motion, dt=dt, duration=duration, features=PENDULUM)
     damped = float(data["energy"].sel(term="damping")[-1] / data["energy"].sel(term="input")[-1])
     assert damped > 1e-4 if kind != "none" else damped == 0.0
 
-    for tag, load in zip(bases, state.axial_forces, strict=True):
-        for dof in (1, 2, 3):
-            ops.remove("sp", tag, dof)
-        length = device.effective_radius + float(load) / stiffness  # of the stretched string
-        ops.uniaxialMaterial("Elastic", 10 * tag, float(load) / length)
-        ops.uniaxialMaterial("Elastic", 10 * tag + 1, stiffness, damping)
-        materials = (10 * tag, 10 * tag, 10 * tag + 1)
-        ops.element("zeroLength", 100 + tag, 100 + tag, tag, "-mat", *materials, "-dir", 1, 2, 3)
-    if tied:
-        ops.rigidDiaphragm(3, *bases)
-    scenes.static_analysis(ops, 0.0)
-    assert ops.analyze(1) == 0
-    nodes = [bases[0], *[tags[f"floor-{k}-1-0"] for k in (1, 2)]]
-    expected = scenes.shake(ops, motion, dt, steps, nodes, system="FullGeneral")
+    put_on_isolators(ops, bases, device, state.axial_forces, spring, diaphragm=bool(tied))
+    nodes = [bases[0], *[there.nodes[f"floor-{k}-1-0"] for k in (1, 2)]]
+    track = respond(
+        ops, motion, dt, nodes, duration=duration, tolerance=1e-10, system="FullGeneral"
+    )
+    expected = track.displacement - track.displacement[0]
     found = data["node_displacement"].sel(node=[str(tag) for tag in nodes]).to_numpy()
     found = found - found[0]
     # U / L = 0.005: the pendulum is linear within some 1e-5, its vertical motion in the square
     assert_close(found, expected)
     assert_close(found - found[:, :1], expected - expected[:, :1])
-
-
-def damp(ops, kind):
-    elements = ops.getEleTags()
-    if kind == "rayleigh":
-        ops.rayleigh(0.2, 0.0, 0.002, 0.0)
-    elif kind == "current":
-        ops.rayleigh(0.0, 0.005, 0.0, 0.0)
-    elif kind == "regions":
-        half = len(elements) // 2
-        ops.region(1, "-ele", *elements[:half], "-rayleigh", 0.0, 0.0, 0.02, 0.0)
-        ops.region(2, "-ele", *elements[half:], "-rayleigh", 0.0, 0.0, 0.001, 0.0)
 
 
 def assert_close(found, expected):
@@ -182,20 +161,26 @@ def assert_close(found, expected):
         assert apart < within, dofs
 
 
+def on_fixed_supports(ops, frame):
+    """Build a frame in OpenSees, load it by its weight; return its supports."""
+    there = build_anew(ops, frame, diaphragms=FLOORS, transformation="Linear")
+    for tag in there.bases:
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    add_loads(ops, frame, there)
+    gravity_analysis(ops)
+    return there.bases
+
+
 def test_the_model_stays_as_it_was(ops, tmp_path):
     device = lir()
     built = building(device)
-    _, bases = scenes.build_in_opensees(ops, built, diaphragms=FLOORS)
-    for tag in bases:
-        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    bases = on_fixed_supports(ops, built)
     tags = ops.getNodeTags()
-    scenes.add_weights(ops, tags)
-    scenes.analyse_gravity(ops)
     ops.setTime(3.5)
     ops.recorder("Node", "-file", str(tmp_path / "out.txt"), "-node", 5, "-dof", 1, "disp")
 
     def state():
-        scenes.static_analysis(ops, 0.0)
+        analysis_at_hand(ops)
         ops.reactions()
         return (
             [ops.nodeDisp(tag) for tag in tags], [ops.nodeReaction(tag) for tag in tags],
@@ -240,7 +225,7 @@ def test_fixed_interface_modes_are_those_of_the_fixed_base(ops):
     ops.equalDOF(31, 32, 1, 2, 3)
     ops.fix(32, 0, 0, 0, 1, 1, 1)
     ops.mass(32, 500.0, 500.0, 500.0, 0.0, 0.0, 0.0)
-    scenes.static_analysis(ops, 0.0)
+    analysis_at_hand(ops)
     omega2 = np.array(ops.eigen("-fullGenLapack", 9))
     frame = Frame.from_opensees([1, 2, 3, 4], device, gravity=G)
     found = gravity(frame).basis.omega2
@@ -309,7 +294,7 @@ def space_frame(ops, up):
 def test_plane_and_space_y_up_and_other_units(ops, run):
     """One frame four times: in the plane, in space with z and y up, and in kN and mm."""
     device = lir()
-    motion = scenes.waves(0.7, 3.0).scaled([1.0, 0.0, 1.0])
+    motion = waves(0.7, 3.0).scaled([1.0, 0.0, 1.0])
 
     def analyse(**options):
         frame = Frame.from_opensees([1, 2, 3], device, gravity=G, **options)
@@ -340,11 +325,7 @@ def test_rotations_of_the_bases_and_the_slab(ops, run):
     """Held, free, with and without a slab: what moves, and who carries moments."""
     device = lir()
     built = building(device)
-    tags, bases = scenes.build_in_opensees(ops, built, diaphragms=FLOORS)
-    for tag in bases:
-        ops.fix(tag, 1, 1, 1, 1, 1, 1)
-    scenes.add_weights(ops, tags.values())
-    scenes.analyse_gravity(ops)
+    bases = on_fixed_supports(ops, built)
     held = {}
     for rotations in ("kept", "free", "fixed"):
         frame = Frame.from_opensees(bases, device, base_rotations=rotations)
@@ -355,7 +336,7 @@ def test_rotations_of_the_bases_and_the_slab(ops, run):
     assert held == {"kept": {"rx", "ry"}, "free": set(), "fixed": {"rx", "ry"}}
     loose = Frame.from_opensees(bases, device, base_diaphragm=False)
     assert not loose.diaphragms
-    data = run(Frame.from_opensees(bases, device), scenes.waves(0.5, 2.0))
+    data = run(Frame.from_opensees(bases, device), waves(0.5, 2.0))
     assert float(np.abs(data["bearing_displacement"]).max()) > 0.01
     names = [str(tag) for tag in bases]
     turns = data["node_displacement"].sel(node=names, dof="rz").to_numpy()
@@ -364,7 +345,7 @@ def test_rotations_of_the_bases_and_the_slab(ops, run):
 
 def test_a_damped_isolation_is_told(ops):
     device = lir()
-    _, bases = scenes.build_in_opensees(ops, building(device))
+    bases = build_anew(ops, building(device), transformation="Linear").bases
     ops.rayleigh(0.3, 0.0, 0.0, 0.0)
     omega = 2.0 * np.pi / device.period
     with pytest.warns(ModelWarning, match=f"by {100 * 0.3 / (2 * omega):.1f} % of critical"):

@@ -23,7 +23,16 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
-from validation.opensees_runs import cycle, gravity_analysis, lumped, solver
+from validation.opensees_model import (
+    gravity_analysis,
+    lead,
+    solver,
+    stand,
+    static_steps,
+    transient_steps,
+    weigh_down,
+)
+from validation.opensees_runs import cycle, lumped
 
 LOAD = 500e3
 MASS = LOAD / 9.80665
@@ -44,13 +53,8 @@ def plain(**changes: Any) -> LIRBearing:
 
 @pytest.fixture
 def ops() -> Iterator[Any]:
-    commands = opensees()
-    commands.wipe()
-    commands.model("basic", "-ndm", 3, "-ndf", 6)
-    commands.node(1, 0.0, 0.0, 0.0)
-    commands.node(2, 0.0, 0.0, 0.1)
-    yield commands
-    commands.wipe()
+    with stand(0.1, held=(0, 1)) as commands:
+        yield commands
 
 
 def loop(kind: str, bearing: LIRBearing, reach: float, steps: int = 200) -> np.ndarray:
@@ -67,9 +71,7 @@ def loop(kind: str, bearing: LIRBearing, reach: float, steps: int = 200) -> np.n
 
 
 def weigh(ops: Any) -> None:
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    ops.load(2, 0.0, 0.0, -LOAD, 0.0, 0.0, 0.0)
+    weigh_down(ops, LOAD)
     gravity_analysis(ops)
 
 
@@ -127,8 +129,6 @@ def test_rims_are_met_at_the_capacity() -> None:
 def test_friction_at_two_speeds(ops: Any, kind: str, frequency: float) -> None:
     """A stiff actuator moves the node; at the centre the force is friction at a known speed."""
     bearing = plain(friction=VelocityFriction(f_max=0.06, f_min=0.03, rate=8.0))
-    ops.fix(1, *[1] * 6)
-    ops.fix(2, 0, 1, 0, 1, 1, 1)
     ops.mass(2, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     builtin_element(kind, 1, 1, 2, bearing, LOAD)
     weigh(ops)
@@ -143,8 +143,7 @@ def test_friction_at_two_speeds(ops: Any, kind: str, frequency: float) -> None:
     ops.pattern("Plain", 2, 2)
     ops.load(2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     solver(ops, 1e-10)
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
+    transient_steps(ops)
     assert ops.analyze(len(times) // 4, dt) == 0
     u, speed = ops.nodeDisp(2, 1), ops.nodeVel(2, 1)
     assert speed == pytest.approx(np.pi * frequency * reach, rel=0.02)
@@ -221,16 +220,11 @@ def test_shear_acts_at_half_height(ops: Any) -> None:
     """The option is not swallowed: the moment above is half the shear times the height."""
     bearing = plain()
     path = np.linspace(0.0, 0.05, 101)
-    ops.fix(1, *[1] * 6)
-    ops.fix(2, 0, 1, 0, 1, 1, 1)
     builtin_element("singleFPBearing", 1, 1, 2, bearing, LOAD)
     weigh(ops)
-    ops.timeSeries("Path", 2, "-dt", 1.0, "-values", *path.tolist(), path[-1])
-    ops.pattern("Plain", 2, 2)
-    ops.sp(2, 1, 1.0)
+    lead(ops, 2, 1, path)
     solver(ops)
-    ops.integrator("LoadControl", 1.0)
-    ops.analysis("Static")
+    static_steps(ops, 1.0)
     assert ops.analyze(len(path) - 1) == 0
     force = ops.eleResponse(1, "force")
     assert force[10] == pytest.approx(-0.5 * force[6] * bearing.height, rel=1e-9)

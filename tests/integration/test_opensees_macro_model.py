@@ -8,13 +8,14 @@ import pytest
 
 pytest.importorskip("openseespy")
 
+from frames import GroundMotion
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
 from validation import static_test
 from validation.hard_scenes import impact, vertical
-from validation.opensees_devices import ABOVE, BELOW, DEVICES, macro
-from validation.opensees_hard_cases import cases, energies, kinds, motion_of
+from validation.opensees_devices import DEVICES, macro
+from validation.opensees_hard_cases import cases, energies, kinds
 from validation.opensees_macro_model import (
     Loop,
     element_force,
@@ -23,15 +24,8 @@ from validation.opensees_macro_model import (
     series_with_mu_h,
     static_checks,
 )
-from validation.opensees_scenes import (
-    PLAIN,
-    ROBUST,
-    load_down,
-    pull,
-    shake,
-    stand,
-    take_back,
-)
+from validation.opensees_model import ABOVE, BELOW, stand
+from validation.opensees_trials import PLAIN, ROBUST, load_down, pull, shake, take_back
 from validation.opensees_worker import Worker
 from validation.scenes import MASS
 
@@ -133,8 +127,14 @@ def test_rims_are_a_polygon(directions):
     assert first == pytest.approx(own.lateral_capacity / math.cos(corner), rel=6e-3)
 
 
+@pytest.fixture
+def ops():
+    with stand(bearing().height) as commands:
+        yield commands
+
+
+@pytest.mark.usefixtures("ops")
 def test_one_piece_has_no_interface_and_no_rims_no_gaps():
-    stand(bearing(), 0.0)
     made = macro_model(bearing().as_dcfp(rims=False), BELOW, ABOVE, load=LOAD)
     assert made.node is None
     assert made.interface is None
@@ -147,8 +147,8 @@ def test_friction_of_unlike_surfaces_at_speed():
     laws = (VelocityFriction(0.06, 0.03, 20.0), VelocityFriction(0.10, 0.05, 40.0))
     own = bearing(friction=laws, radius=(0.9, 0.6), interface_friction=0.2)
     length = own.effective_radius
-    push = np.tile([-0.9, 0.0, 0.0], (100, 1))  # m/s2
-    done = shake(macro, own, LOAD / STANDARD_GRAVITY, push, 0.01, duration=0.2, dt=5e-4)
+    push = GroundMotion(x=np.full(100, -0.9), dt=0.01)
+    done = shake(macro, own, LOAD / STANDARD_GRAVITY, push, duration=0.2, dt=5e-4)
     assert done.status == "ok"
     u, v = done.displacement[-1, 0], done.velocity[-1, 0]
     expected = sum(
@@ -158,9 +158,7 @@ def test_friction_of_unlike_surfaces_at_speed():
     assert done.force[-1, 0] / LOAD - u / length == pytest.approx(expected, rel=0.02)
 
 
-def test_tags_begin_where_asked_and_do_not_collide():
-    stand(bearing(), 0.0)
-    ops = opensees()
+def test_tags_begin_where_asked_and_do_not_collide(ops):
     first = macro_model(bearing(), BELOW, ABOVE, load=LOAD, first_tag=500)
     assert first.node is not None
     assert min(*first.materials, *first.frictions, first.node, first.pendulum) == 500
@@ -184,20 +182,18 @@ def test_tags_begin_where_asked_and_do_not_collide():
         ({"node_i": ABOVE, "node_j": BELOW}, "node j stands above"),
     ],
 )
-def test_refuses_what_cannot_be_and_leaves_the_model_alone(changes, message):
-    stand(bearing(), 0.0)
+def test_refuses_what_cannot_be_and_leaves_the_model_alone(ops, changes, message):
     options = {"bearing": bearing(), "node_i": BELOW, "node_j": ABOVE, "load": LOAD} | changes
     with pytest.raises(ValueError, match=message):
         macro_model(**options)
-    ops = opensees()
     assert not ops.getEleTags()
     assert sorted(ops.getNodeTags()) == [BELOW, ABOVE]
 
 
+@pytest.mark.usefixtures("ops")
 def test_refuses_a_weak_interface():
     with pytest.warns(DesignWarning):
         weak = bearing(interface_friction=0.068)
-    stand(bearing(), 0.0)
     with pytest.raises(ValueError, match=r"interface_friction = 0\.068"):
         macro_model(weak, BELOW, ABOVE, load=LOAD)
 
@@ -220,12 +216,12 @@ def worker():
 
 def test_a_failed_step_leaves_a_trace_in_singlefpbearing(worker):
     status, force = worker.run(
-        take_back, make=DEVICES["singleFPBearing"], bearing=bearing(), load=LOAD
+        take_back, make=DEVICES["singleFPBearing"], bearing=bearing().as_dcfp(rims=False), load=LOAD
     )
     assert status == "ok"
     assert abs(force) > 0.9
     status, force = worker.run(
-        take_back, make=DEVICES["TripleFrictionPendulum"], bearing=bearing(), load=LOAD
+        take_back, make=DEVICES["TripleFrictionPendulum"], bearing=bearing().as_dcfp(), load=LOAD
     )
     assert status == "ok"
     assert abs(force) < 0.01
@@ -236,8 +232,8 @@ def test_uplift_stops_newton_and_not_the_fallback(worker, algorithms, status):
     case = vertical("uplift", 20.0, 0.3, 8.0)
     kind = kinds()[2]
     how, done = worker.run(
-        shake, make=macro, bearing=kind.bearing, mass=MASS, motion=motion_of(case),
-        step=case.motion.dt, duration=1.2, dt=1e-3, algorithms=algorithms,
+        shake, make=macro, bearing=kind.bearing, mass=MASS, motion=case.motion,
+        duration=1.2, dt=1e-3, algorithms=algorithms,
     )  # fmt: skip
     assert how == "ok"
     assert done.status == status
@@ -248,13 +244,13 @@ def test_balance_and_energy_of_an_impact(worker):
     kind = kinds()[0]
     _, done = worker.run(
         shake, make=DEVICES["singleFPBearing"], bearing=kind.bearing, mass=MASS,
-        motion=motion_of(case), step=case.motion.dt, duration=2.0, dt=5e-3,
+        motion=case.motion, duration=2.0, dt=5e-3,
     )  # fmt: skip
-    gap, made = energies(done, motion_of(case), case.motion.dt, kind.bearing)
+    gap, made = energies(done, case.motion, kind.bearing)
     assert gap < 1e-4
     assert made < 1e-2
     done.force[:, 0] *= -1.0
-    gap, made = energies(done, motion_of(case), case.motion.dt, kind.bearing)
+    gap, made = energies(done, case.motion, kind.bearing)
     assert gap > 0.1
     assert made > 0.1
 
@@ -282,4 +278,4 @@ def test_crashes_and_hangs_are_results():
 
 def test_all_cases_have_motions():
     assert len({case.name for case in cases()}) == len(cases()) >= 10
-    assert all(motion_of(case).shape[1] == 3 for case in cases())
+    assert all(case.motion.components.any() for case in cases())

@@ -13,7 +13,7 @@ from frames import Frame, ModelError, ModelWarning
 from frames.opensees_checks import refuse_unsymmetric
 from frames.opensees_model import read_model
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.opensees import opensees
+from validation.opensees_model import gravity_analysis, permanent_loads
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
@@ -26,16 +26,18 @@ BEARING = LIRBearing(
 BEAM = (0.02, 2e11, 8e10, 1e-4, 3e-4, 3e-4)
 
 
-@pytest.fixture
-def ops():
-    module = opensees()
-    module.wipe()
-    yield module
-    module.wipe()
-
-
 def portal(ops, *, loaded=True, base_mass=5e3):
     """Two columns and a beam in space, fixed at nodes 1 and 2."""
+    corners(ops, base_mass)
+    for tag in (1, 2):
+        ops.element("elasticBeamColumn", tag, tag, 10 + tag, *BEAM, 1)
+    load(ops)
+    if loaded:
+        gravity_analysis(ops)
+
+
+def corners(ops, base_mass=5e3):
+    """Nodes of the portal, and its beam, in an empty model."""
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     for tag, x in ((1, 0.0), (2, 6.0)):
@@ -45,26 +47,14 @@ def portal(ops, *, loaded=True, base_mass=5e3):
         ops.mass(tag, base_mass, base_mass, base_mass, 0.0, 0.0, 0.0)
         ops.mass(10 + tag, 1e4, 1e4, 1e4, 0.0, 0.0, 0.0)
     ops.geomTransf("Linear", 1, 0.0, 1.0, 0.0)
-    for tag, i, j in ((1, 1, 11), (2, 2, 12), (3, 11, 12)):
-        ops.element("elasticBeamColumn", tag, i, j, *BEAM, 1)
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
+    ops.element("elasticBeamColumn", 3, 11, 12, *BEAM, 1)
+
+
+def load(ops, push=0.0):
+    """Loads on top of both columns, down and along x; an analysis has still to bring them up."""
+    permanent_loads(ops)
     for tag in (11, 12):
-        ops.load(tag, 0.0, 0.0, -1e5, 0.0, 0.0, 0.0)
-    if loaded:
-        analyse(ops)
-
-
-def analyse(ops, steps=1):
-    ops.system("BandGeneral")
-    ops.constraints("Transformation")
-    ops.numberer("RCM")
-    ops.test("NormDispIncr", 1e-10, 50)
-    ops.algorithm("Newton")
-    ops.integrator("LoadControl", 1.0 / steps)
-    ops.analysis("Static")
-    assert ops.analyze(steps) == 0
-    ops.loadConst("-time", 0.0)
+        ops.load(tag, push, 0.0, -1e5, 0.0, 0.0, 0.0)
 
 
 def test_loads_come_as_they_stand(ops):
@@ -181,27 +171,15 @@ def test_supports_that_are_meant_stay(ops):
 
 def yielding(ops, push):
     """Let a push yield the fibre columns of the portal, or not."""
-    ops.wipe()
-    ops.model("basic", "-ndm", 3, "-ndf", 6)
-    for tag, x in ((1, 0.0), (2, 6.0)):
-        ops.node(tag, x, 0.0, 0.0)
-        ops.node(10 + tag, x, 0.0, 4.0)
-        ops.fix(tag, 1, 1, 1, 1, 1, 1)
-        ops.mass(tag, 5e3, 5e3, 5e3, 0.0, 0.0, 0.0)
-        ops.mass(10 + tag, 1e4, 1e4, 1e4, 0.0, 0.0, 0.0)
+    corners(ops)
     ops.uniaxialMaterial("Steel01", 1, 3e8, 2e11, 0.01)
     ops.section("Fiber", 1, "-GJ", 1e7)
     ops.patch("rect", 1, 10, 2, -0.1, -0.1, 0.1, 0.1)
     ops.beamIntegration("Lobatto", 1, 1, 4)
-    ops.geomTransf("Linear", 1, 0.0, 1.0, 0.0)
     for tag in (1, 2):
         ops.element("forceBeamColumn", tag, tag, 10 + tag, 1, 1)
-    ops.element("elasticBeamColumn", 3, 11, 12, *BEAM, 1)
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    for tag in (11, 12):
-        ops.load(tag, push, 0.0, -1e5, 0.0, 0.0, 0.0)
-    analyse(ops, steps=20)
+    load(ops, push)
+    gravity_analysis(ops)
 
 
 def test_elements_in_yield_are_refused_and_others_named(ops):

@@ -1,7 +1,7 @@
-"""Runs of a bearing in OpenSeesPy: under a mass that is shaken, or in a rig that pulls.
+"""Trials of a device in OpenSees that may fail: under a mass that is shaken, or in a rig.
 
-Shared by the pages that compare with OpenSees. A device is one of `opensees_devices`; what comes
-back are its histories, and what the analysis said.
+A device is one of `opensees_devices`. What comes back is how far a trial got, how it ended and what
+it cost; `opensees_runs` is for runs that must succeed.
 """
 
 from __future__ import annotations
@@ -9,18 +9,31 @@ from __future__ import annotations
 import math
 import os
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from lir_element.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
-from validation.opensees_devices import ABOVE, BELOW
+from validation.opensees_model import (
+    ABOVE,
+    AXES,
+    BELOW,
+    ground_motion,
+    lead,
+    solver,
+    stand,
+    static_steps,
+    transient_steps,
+    weigh_down,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Generator
 
+    from frames import GroundMotion
     from lir_element import LIRBearing
     from lir_element.layout import Floats
     from validation.opensees_devices import Device, Maker
@@ -63,35 +76,29 @@ class Shaken:
     iterations: int = 0
 
 
-def stand(bearing: LIRBearing, mass: float) -> None:
-    """Begin a model: a fixed node, and a mass that stays level, the bearing's height above."""
-    ops = opensees()
-    ops.wipe()
-    ops.logFile(os.devnull, "-noEcho")  # thousands of lines where steps are tried again
-    ops.model("basic", "-ndm", 3, "-ndf", 6)
-    ops.node(BELOW, 0.0, 0.0, 0.0)
-    ops.node(ABOVE, 0.0, 0.0, bearing.height)
-    ops.fix(BELOW, 1, 1, 1, 1, 1, 1)
-    ops.fix(ABOVE, 0, 0, 0, 1, 1, 1)
-    ops.mass(ABOVE, mass, mass, mass, 0.0, 0.0, 0.0)
-
-
 def load_down(weight: float) -> int:
-    """Put the weight on and hold it; return the code of `analyze`."""
+    """Put the weight on a stand and hold it; return the code of `analyze`."""
     ops = opensees()
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    ops.load(ABOVE, 0.0, 0.0, -weight, 0.0, 0.0, 0.0)
-    ops.constraints("Transformation")
-    ops.numberer("RCM")
-    ops.system("BandGeneral")
-    ops.test("NormUnbalance", TOLERANCE * weight, ITERATIONS)
-    ops.algorithm("Newton")
-    ops.integrator("LoadControl", 0.1)
-    ops.analysis("Static")
+    weigh_down(ops, weight)
+    _solver(weight)
+    static_steps(ops, 0.1)
     code = int(ops.analyze(10))
     ops.loadConst("-time", 0.0)
     return code
+
+
+def _solver(weight: float) -> None:
+    solver(
+        opensees(), TOLERANCE * weight, test="NormUnbalance", iterations=ITERATIONS,
+        system="BandGeneral",
+    )  # fmt: skip
+
+
+@contextmanager
+def _quiet_stand(height: float, mass: float) -> Generator[Any, None, None]:
+    with stand(height, mass) as ops:
+        ops.logFile(os.devnull, "-noEcho")  # thousands of lines where steps are tried again
+        yield ops
 
 
 def pull(make: Maker, bearing: LIRBearing, load: float, path: Floats) -> Shaken:
@@ -114,33 +121,31 @@ def pull(make: Maker, bearing: LIRBearing, load: float, path: Floats) -> Shaken:
         Its histories over the number of the point; the device lags behind the path by what the
         springs give.
     """
-    ops = opensees()
     way = path if path.ndim == 2 else np.column_stack([path, np.zeros_like(path)])
-    made = _rig(make, bearing, load)
-    for axis in range(2):
-        values = way[:, axis].tolist()
-        ops.timeSeries("Path", 10 + axis, "-dt", 1.0, "-values", *values, "-useLast")
-        ops.pattern("Plain", 10 + axis, 10 + axis)
-        ops.sp(RIG, axis + 1, 1.0)
+    with _rig(make, bearing, load) as (ops, made):
+        for axis, values in zip(AXES, way.T, strict=False):
+            lead(ops, RIG, axis, values)
 
-    def analyse(share: float) -> int:
-        ops.integrator("LoadControl", share)
-        return int(ops.analyze(1))
+        def analyse(share: float) -> int:
+            ops.integrator("LoadControl", share)
+            return int(ops.analyze(1))
 
-    return _March(made, ROBUST, analyse, halves=False).go(len(way) - 1, 1.0)
+        return _March(made, ROBUST, analyse, halves=False).go(len(way) - 1, 1.0)
 
 
-def _rig(make: Maker, bearing: LIRBearing, load: float) -> Device:
-    """Make a device under load, with springs to the node that pulls."""
-    ops = opensees()
-    stand(bearing, 0.0)
-    made = make(bearing, load)
-    ops.node(RIG, 0.0, 0.0, bearing.height)
-    ops.fix(RIG, 0, 0, 1, 1, 1, 1)
-    ops.uniaxialMaterial("Elastic", RIG, _RIG_STIFFNESS)
-    ops.element("zeroLength", RIG, RIG, ABOVE, "-mat", RIG, RIG, "-dir", 1, 2)
-    load_down(load)
-    return made
+@contextmanager
+def _rig(
+    make: Maker, bearing: LIRBearing, load: float
+) -> Generator[tuple[Any, Device], None, None]:
+    """Hand out OpenSees and a device under load, with springs to the node that pulls."""
+    with _quiet_stand(bearing.height, 0.0) as ops:
+        made = make(bearing, load)
+        ops.node(RIG, 0.0, 0.0, bearing.height)
+        ops.fix(RIG, 0, 0, 1, 1, 1, 1)
+        ops.uniaxialMaterial("Elastic", RIG, _RIG_STIFFNESS)
+        ops.element("zeroLength", RIG, RIG, ABOVE, "-mat", RIG, RIG, "-dir", 1, 2)
+        load_down(load)
+        yield ops, made
 
 
 def take_back(make: Maker, bearing: LIRBearing, load: float) -> float:
@@ -160,23 +165,20 @@ def take_back(make: Maker, bearing: LIRBearing, load: float) -> float:
     float
         The force after three steps without motion; NaN if the first step does not fail.
     """
-    ops = opensees()
-    made = _rig(make, bearing, load)
-    ops.timeSeries("Linear", 10)
-    ops.pattern("Plain", 10, 10)
-    ops.sp(RIG, 1, 1.0)
-    ops.integrator("LoadControl", 2e-3)  # m
-    ops.test("NormUnbalance", 1e-12 * load, 1)
-    if ops.analyze(1) == 0:
-        return math.nan
-    ops.test("NormUnbalance", TOLERANCE * load, ITERATIONS)
-    ops.integrator("LoadControl", 1e-9)
-    ops.analyze(3)
-    return _row(made)[7] / (bearing.effective_friction * load)
+    with _rig(make, bearing, load) as (ops, made):
+        lead(ops, RIG, 1, np.array([0.0, 1.0]))  # the time is the displacement
+        ops.integrator("LoadControl", 2e-3)  # m
+        ops.test("NormUnbalance", 1e-12 * load, 1)
+        if ops.analyze(1) == 0:
+            return math.nan
+        ops.test("NormUnbalance", TOLERANCE * load, ITERATIONS)
+        ops.integrator("LoadControl", 1e-9)
+        ops.analyze(3)
+        return _row(made)[7] / (bearing.effective_friction * load)
 
 
 def shake(
-    make: Maker, bearing: LIRBearing, mass: float, motion: Floats, step: float, *,
+    make: Maker, bearing: LIRBearing, mass: float, motion: GroundMotion, *,
     duration: float, dt: float, algorithms: Steps = PLAIN,
 ) -> Shaken:  # fmt: skip
     """Run a mass on a device under a ground motion.
@@ -189,10 +191,8 @@ def shake(
         What it stands for.
     mass : float
         Mass on it [kg].
-    motion : ndarray, shape (n, 3)
-        Ground acceleration, its `step` [s] apart [m/s2].
-    step : float
-        Of the motion [s].
+    motion : GroundMotion
+        Acceleration of the ground.
     duration, dt : float
         Length of the analysis and its step [s].
     algorithms : tuple
@@ -203,31 +203,22 @@ def shake(
     Shaken
         Its histories.
     """
-    ops = opensees()
     weight = mass * STANDARD_GRAVITY
-    stand(bearing, mass)
-    made = make(bearing, weight)
-    code = load_down(weight)
-    if code != 0:
-        empty = np.zeros((1, 3))
-        return Shaken(np.zeros(1), empty, empty, np.zeros((1, 2, 3)), empty, empty,
-                      f"gravity: {CODES.get(code, code)}")  # fmt: skip
-    for axis in range(3):
-        ops.timeSeries("Path", 10 + axis, "-dt", step, "-values", *motion[:, axis].tolist())
-        ops.pattern("UniformExcitation", 10 + axis, axis + 1, "-accel", 10 + axis)
-    ops.wipeAnalysis()
-    ops.constraints("Transformation")
-    ops.numberer("RCM")
-    ops.system("BandGeneral")
-    ops.test("NormUnbalance", TOLERANCE * weight, ITERATIONS)
-    ops.algorithm("Newton")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
+    with _quiet_stand(bearing.height, mass) as ops:
+        made = make(bearing, weight)
+        code = load_down(weight)
+        if code != 0:
+            empty = np.zeros((1, 3))
+            return Shaken(np.zeros(1), empty, empty, np.zeros((1, 2, 3)), empty, empty,
+                          f"gravity: {CODES.get(code, code)}")  # fmt: skip
+        ground_motion(ops, motion)
+        _solver(weight)
+        transient_steps(ops)
 
-    def analyse(length: float) -> int:
-        return int(ops.analyze(1, length))
+        def analyse(length: float) -> int:
+            return int(ops.analyze(1, length))
 
-    return _March(made, algorithms, analyse, halves=True).go(round(duration / dt), dt)
+        return _March(made, algorithms, analyse, halves=True).go(round(duration / dt), dt)
 
 
 class _March:
