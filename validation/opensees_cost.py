@@ -26,8 +26,14 @@ from frames.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element, builtin_element, opensees
 from validation.cases import EXAMPLE_MASS, example_bearing
-from validation.opensees_frames import build
-from validation.opensees_runs import gravity_analysis, model, shake
+from validation.opensees_frames import add_loads, build
+from validation.opensees_model import (
+    empty_model,
+    gravity_analysis,
+    ground_motion,
+    solver,
+    transient_steps,
+)
 from validation.page import table
 
 if TYPE_CHECKING:
@@ -106,10 +112,12 @@ def microseconds(frame: Frame, place: Place, motion: GroundMotion) -> float:
     RuntimeError
         If the analysis fails.
     """
-    with model() as ops:
-        build(ops, frame, place)
+    with empty_model() as ops:
+        add_loads(ops, frame, build(ops, frame, place))
         gravity_analysis(ops)
-        shake(ops, motion)
+        ground_motion(ops, motion)
+        solver(ops)
+        transient_steps(ops)
         began = time.perf_counter()
         if ops.analyze(STEPS, STEP):
             msg = f"OpenSees stopped at {ops.getTime():g} s"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from frames import GroundMotion
-from lir_element.opensees import builtin_element
+from lir_element.opensees import bearing_element, builtin_element
 from validation.opensees_model import settle
 
 if TYPE_CHECKING:
@@ -46,6 +46,12 @@ def single_pendulum(
 ) -> None:
     """Put OpenSees' singleFPBearing, mapped as the package maps it."""
     builtin_element("singleFPBearing", tag, ground, base, bearing, load)
+
+
+def own_bearing(_: Any, tag: int, ground: int, base: int, bearing: LIRBearing, load: float) -> None:
+    """Put the bearing itself, whatever load it carries."""
+    del load
+    bearing_element(tag, ground, base, bearing)
 
 
 def add_ground(ops: Any, bases: Sequence[int]) -> None:
