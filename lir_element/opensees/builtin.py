@@ -11,7 +11,7 @@ as a series of three Fenz and Constantinou (2008), Earthq. Eng. Struct. Dyn. 37,
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from lir_element.opensees.builtin_mapping import BuiltinValues, builtin_values
 from lir_element.opensees.library import opensees
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 BuiltinKind = Literal["singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"]
 Command = tuple[Any, ...]
 
-BUILTIN_KINDS = ("singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP")
+BUILTIN_KINDS: tuple[BuiltinKind, ...] = get_args(BuiltinKind)
 """The elements of OpenSees that a plain bearing can be written as."""
 
 _CONSTANT = {
@@ -111,6 +111,7 @@ def builtin_commands(
       bearing's capacity, their stiffness is its own, ``3 W mu / U_y``. Constant friction. Moments
       N U half on each node; tilts do not enter. Give it displacements of 10 mm a step at most:
       larger ones have been seen to end in a force thousands of times too large, without a message.
+      So has uplift of 2 g, in kilometres (validation/opensees_hard_cases.py).
     - ``"TFP"``: both surfaces slide together, the inner slider is locked by its friction, so that
       unlike surfaces keep their own, ``mu R / (R - h/2)``. Constant friction, no dashpot, no
       moments. It adds up increments of force without iteration: the step must be far below that
