@@ -60,27 +60,42 @@ class Building:
 
 
 def frame_of(setting: Building) -> Frame:
-    """Return the building."""
+    """Return the building of a setting."""
     bearing = example_bearing(
         friction=CoulombFriction(setting.scale * F_MAX), design_load=LOAD, slider_radius=0.1,
         yield_displacement=setting.scale * SLIP,
     ).as_dcfp(rims=False)  # fmt: skip
-    column, beam, base = (_slender(s) for s in (DEFAULT_COLUMN, DEFAULT_BEAM, DEFAULT_BASE_BEAM))
-    if setting.rigid_base:
+    return steel_frame(bearing, rigid_base=setting.rigid_base)
+
+
+def steel_frame(bearing: LIRBearing, *, rigid_base: bool = False) -> Frame:
+    """Return one bay by one, two storeys, damped by the members' stiffness alone."""
+    base = slender(DEFAULT_BASE_BEAM)
+    if rigid_base:
         base = replace(
             base, inertia_y=STIFFENED * base.inertia_y, inertia_z=STIFFENED * base.inertia_z
         )
     frame = moment_frame(
-        bays=(1, 1), storeys=2, bearing=bearing, column=column, beam=beam, base_beam=base,
-        floor_load=1900.0, damping=None,
+        bays=(1, 1), storeys=2, bearing=bearing, column=slender(DEFAULT_COLUMN),
+        beam=slender(DEFAULT_BEAM), base_beam=base, floor_load=1900.0, damping=None,
     )  # fmt: skip
     frame.set_damping(RayleighDamping(RATIO, (FAR, first_period(frame))))
     return frame
 
 
+def stiffness_damping(frame: Frame) -> float:
+    """Return the factor of the members' stiffness in the damping of a `steel_frame` [s]."""
+    return RATIO * first_period(frame) / math.pi
+
+
 def first_period(frame: Frame) -> float:
     """Return the first period with the bearings held [s]."""
     return float(modes(frame, 1, bearings="fixed").periods[0])
+
+
+def slender(section: Section) -> Section:
+    """Return a section without shear deformation."""
+    return replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
 
 
 def apart(setting: Building, record: GroundMotion) -> Gap:
@@ -109,8 +124,9 @@ def apart(setting: Building, record: GroundMotion) -> Gap:
     def place(tag: int, i: int, j: int, bearing: LIRBearing) -> None:
         builtin_element(setting.kind, tag, i, j, bearing, load)
 
-    beta = RATIO * first_period(frame) / math.pi
-    track = frame_history(frame, place, motion, STEP, NODES, stiffness_damping=beta)
+    track = frame_history(
+        frame, place, motion, STEP, NODES, stiffness_damping=stiffness_damping(frame)
+    )
     ours = data["node_displacement"].sel(node=list(NODES)).to_numpy()[:, :, :2]
     theirs = track.displacement[: len(ours), :, :2]
     shears = (data["bearing_force"].sum("bearing").to_numpy(), track.force.sum(axis=1))
@@ -121,10 +137,6 @@ def apart(setting: Building, record: GroundMotion) -> Gap:
     }
     gap = {name: _peak(b) / _peak(a) - 1.0 for name, (a, b) in pairs.items()}
     return {**gap, "path": _peak(ours[:, 0] - theirs[:, 0]) / _peak(ours[:, 0])}
-
-
-def _slender(section: Section) -> Section:
-    return replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
 
 
 def _peak(values: FloatArray) -> float:

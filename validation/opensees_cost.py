@@ -9,7 +9,6 @@ ratios within a turn, and hold on a noisy machine.
 
 from __future__ import annotations
 
-import math
 import os
 import platform
 import statistics
@@ -21,11 +20,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from frames import Frame, GroundMotion, Section, gravity, lumped_mass, moment_frame, time_history
+from frames import Frame, GroundMotion, gravity, lumped_mass, moment_frame, time_history
 from frames.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element, builtin_element, opensees
 from validation.cases import EXAMPLE_MASS, example_bearing
+from validation.opensees_building import slender
 from validation.opensees_frames import add_loads, build
 from validation.opensees_model import (
     empty_model,
@@ -183,13 +183,9 @@ def ratio(times: Mapping[str, list[float]], device: str) -> float:
 
 def _building(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
     return moment_frame(
-        bays=bays, storeys=storeys, bearing=bearing, damping=None, column=_slender(DEFAULT_COLUMN),
-        beam=_slender(DEFAULT_BEAM), base_beam=_slender(DEFAULT_BASE_BEAM),
+        bays=bays, storeys=storeys, bearing=bearing, damping=None, column=slender(DEFAULT_COLUMN),
+        beam=slender(DEFAULT_BEAM), base_beam=slender(DEFAULT_BASE_BEAM),
     )  # fmt: skip
-
-
-def _slender(section: Section) -> Section:
-    return replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
 
 
 def main() -> None:

@@ -10,17 +10,15 @@ Structure and damping are the same in both (see `opensees_building`).
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames import Frame, GroundMotion, RayleighDamping, Section, modes, moment_frame, time_history
-from frames.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames import Frame, GroundMotion, time_history
 from frames.plot_style import PALETTE, caption, grid_of, new_figure, style
-from lir_element import VelocityFriction
 from lir_element.opensees import bearing_element, record_bearings
 from validation.cases import EXAMPLE_RECORD, example_bearing
+from validation.opensees_building import LOAD, RATIO, steel_frame, stiffness_damping
 from validation.opensees_frames import frame_history
 from validation.page import Check, Claim, Page, below, figure, run, table
 
@@ -43,9 +41,6 @@ CLAIM = Claim(
     EXAMPLE_RECORD,
 )
 GOAL = 0.005
-LOAD = 550e3  # N, about that of each bearing
-RATIO = 0.02  # of damping, in the first mode over held bearings
-FAR = 1e6  # s: a period that leaves damping proportional to mass out
 SCALE, ANGLE = 1.1, math.radians(30.0)  # of the motion, and its direction in plan
 DURATION = 8.0  # s
 GRAVITY_STEPS = 10
@@ -65,17 +60,7 @@ STEADY = ("displacement", "slip", "work")
 
 def building() -> Frame:
     """Return the building: one bay by one, two storeys, a bearing under each column."""
-    bearing = example_bearing(
-        design_load=LOAD, slider_radius=0.1,
-        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-    )  # fmt: skip
-    column, beam, base = (_slender(s) for s in (DEFAULT_COLUMN, DEFAULT_BEAM, DEFAULT_BASE_BEAM))
-    frame = moment_frame(
-        bays=(1, 1), storeys=2, bearing=bearing, column=column, beam=beam, base_beam=base,
-        floor_load=1900.0, damping=None,
-    )  # fmt: skip
-    frame.set_damping(RayleighDamping(RATIO, (FAR, _first_period(frame))))
-    return frame
+    return steel_frame(example_bearing(design_load=LOAD, slider_radius=0.1))
 
 
 def in_opensees(
@@ -107,10 +92,10 @@ def in_opensees(
         bearing_element(tag, i, j, bearing, level=level, route=route)  # type: ignore[arg-type]
         recordings[:] = [record_bearings()]
 
-    beta = RATIO * _first_period(frame) / math.pi
     track = frame_history(
-        frame, place, motion, dt, [ROOF], duration=DURATION, stiffness_damping=beta
-    )
+        frame, place, motion, dt, [ROOF], duration=DURATION,
+        stiffness_damping=stiffness_damping(frame),
+    )  # fmt: skip
     data = recordings[0].dataset().isel(time=slice(GRAVITY_STEPS, None))
     return data, track.displacement[1:, 0]
 
@@ -218,14 +203,6 @@ def _figure(shown: dict[str, xr.Dataset]) -> Figure:
 
 def _largest(vectors: FloatArray) -> float:
     return float(np.linalg.norm(vectors, axis=-1).max())
-
-
-def _first_period(frame: Frame) -> float:
-    return float(modes(frame, 1, bearings="fixed").periods[0])
-
-
-def _slender(section: Section) -> Section:
-    return replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
 
 
 if __name__ == "__main__":
