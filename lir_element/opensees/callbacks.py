@@ -1,6 +1,7 @@
 """What OpenSees calls in place of the host element's own functions, the same at every level.
 
-Every function takes the address of the element first, as C++ methods do.
+Every function takes the address of the element first, as C++ methods do; `restart`, which the
+portable route calls, takes that of the block.
 """
 
 from __future__ import annotations
@@ -58,6 +59,12 @@ def revert_to_start(element: int) -> int:
     """Bring the bearing back to its start."""
     host_restart(carray(pointer(block_of(element)), 1, HOST)[0])
     return 0
+
+
+@entry_point("void(int64)")
+def restart(block: int) -> None:
+    """Bring the bearing back to its start."""
+    host_restart(carray(pointer(block), 1, HOST)[0])
 
 
 @entry_point("void(int64)")

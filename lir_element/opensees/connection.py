@@ -55,7 +55,11 @@ def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
             "genericClient", tag, "-node", *placement.nodes, "-dof", *dofs, "-dof", *dofs,
             "-server", port, _LOOPBACK, "-dataSize", vector_length(placement.dofs), "-noRayleigh",
         )  # fmt: skip
-        return _accept_own(listener, port, tag)
+        try:
+            return _accept_own(listener, port, tag)
+        except ConnectionError:
+            ops.remove("element", tag)  # before the port closes: its farewell must find an end
+            raise
 
 
 def _accept_own(listener: socket.socket, port: int, tag: int) -> socket.socket:

@@ -98,6 +98,7 @@ class Grafted:
         """Give the element its own functions back: ours end with Python, before OpenSees does."""
         if self.alive:
             ctypes.c_int64.from_address(self._element).value = addresses()["table"] + 16
+            self._farewell.detach()  # stays open: to a closed end the destructor writes for ever
 
     def release(self) -> None:
         """Give up the connection, once the element is gone."""

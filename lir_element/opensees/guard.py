@@ -11,6 +11,7 @@ from __future__ import annotations
 import ctypes
 import os
 import socket
+import sys
 import threading
 from typing import TYPE_CHECKING
 
@@ -27,13 +28,14 @@ class Guard:
 
     Parameters
     ----------
-    pipe : Connection
-        To the server; its end is the server's end.
+    pipe : Connection or None
+        To the server; its end is the server's end. None: there is no server from the beginning,
+        and every connection is added before `start`.
     message : str
-        What to tell the user when the server ends.
+        What to tell the user when the server ends, or asks for what there is not.
     """
 
-    def __init__(self, pipe: Connection, message: str) -> None:
+    def __init__(self, pipe: Connection | None, message: str) -> None:
         from lir_element.opensees import guard_kernel
 
         self._text = np.frombuffer(message.encode(), dtype=np.uint8).copy()
@@ -41,7 +43,7 @@ class Guard:
         self._block = np.zeros(1, dtype=GUARD)
         self._block["channels"][0, :, 0] = -1
         self._block["answer"] = np.nan
-        self._block["pipe"] = pipe.fileno()
+        self._block["pipe"] = -1 if pipe is None else pipe.fileno()
         self._block["stop"] = self._reader
         self._block["message"] = self._text.ctypes.data
         self._block["message_size"] = len(self._text)
@@ -49,6 +51,9 @@ class Guard:
         self._block["send_flags"] = getattr(socket, "MSG_DONTWAIT", 0) | getattr(
             socket, "MSG_NOSIGNAL", 0
         )
+        self._thread: threading.Thread | None = None
+        if sys.platform == "win32":  # it has no such functions: nobody answers for a killed server
+            return
         system = ctypes.CDLL(None)
         for name in ("poll", "recv", "send", "write"):
             self._block[name] = ctypes.cast(getattr(system, name), ctypes.c_void_p).value
@@ -56,7 +61,11 @@ class Guard:
         self._thread = threading.Thread(
             target=guard_kernel.watch.ctypes, args=(address,), name="bearing guard", daemon=True
         )
-        self._thread.start()
+
+    def start(self) -> None:
+        """Start watching."""
+        if self._thread is not None:
+            self._thread.start()
 
     def add(self, sock: socket.socket, words: int) -> None:
         """Guard a host element's connection, whose answers have so many words."""
@@ -76,7 +85,8 @@ class Guard:
 
     def stop(self) -> None:
         """End the thread."""
-        os.write(self._writer, b"!")
-        self._thread.join()
+        if self._thread is not None:
+            os.write(self._writer, b"!")
+            self._thread.join()
         os.close(self._writer)
         os.close(self._reader)

@@ -9,6 +9,7 @@ from numba import carray
 from lir_element._jit import entry_point, kernel
 from lir_element.opensees.guard_layout import GUARD
 from lir_element.opensees.pointers import call_poll, call_transfer, call_write, pointer
+from lir_element.opensees.protocol import END
 
 if TYPE_CHECKING:
     from lir_element.opensees.guard_layout import GuardBlock
@@ -48,10 +49,16 @@ def wait_for_end(g: GuardBlock) -> bool:
 
 
 @kernel
-def answer_requests(g: GuardBlock) -> None:
-    """Answer whatever the model asks, until the guard is to stop."""
+def tell(g: GuardBlock) -> None:
+    """Write to standard error why there are no answers."""
+    call_write(g.write, _STDERR, g.message, g.message_size)
+
+
+@kernel
+def answer_requests(g: GuardBlock, told: bool) -> None:
+    """Answer whatever the model asks, until the guard is to stop; told: a request may wait."""
     count = g.channels.shape[0]
-    waiting = True
+    waiting = told
     while True:
         g.polled[0] = polled_word(g.stop, _READABLE)
         for k in range(count):
@@ -70,6 +77,9 @@ def answer_requests(g: GuardBlock) -> None:
                     g.recv, g.channels[k, 0], g.inbox.ctypes.data, size, g.receive_flags
                 )
                 if got > 0:
+                    if not told and g.inbox[0] != END:
+                        tell(g)
+                        told = True
                     send_answer(g, k)
                 else:
                     g.channels[k, 0] = -2  # the element is gone
@@ -78,8 +88,10 @@ def answer_requests(g: GuardBlock) -> None:
 
 @entry_point("void(int64)")
 def watch(block: int) -> None:
-    """Watch a server until it is gone or the guard is to stop."""
+    """Watch a server until it is gone or the guard is to stop; without a pipe there is none."""
     g = carray(pointer(block), 1, GUARD)[0]
-    if wait_for_end(g):
-        call_write(g.write, _STDERR, g.message, g.message_size)
-        answer_requests(g)
+    if g.pipe < 0:
+        answer_requests(g, False)
+    elif wait_for_end(g):
+        tell(g)
+        answer_requests(g, True)

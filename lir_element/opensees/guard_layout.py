@@ -11,7 +11,7 @@ MOST_CHANNELS = 1024
 """Bearings that can be served at a time in the portable route."""
 
 GUARD_FIELDS = (
-    Field("pipe", "-", "", "file descriptor of the pipe to the server", (), "i8"),
+    Field("pipe", "-", "", "file descriptor of the pipe to the server; -1: none", (), "i8"),
     Field("stop", "-", "", "file descriptor that ends the thread when written to", (), "i8"),
     Field("channels", "-", "", "descriptors, and words of an answer", (MOST_CHANNELS, 2), "i8"),
     Field("polled", "-", "", "what `poll` reads and writes", (MOST_CHANNELS + 1,), "i8"),

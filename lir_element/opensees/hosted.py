@@ -118,6 +118,11 @@ class Hosted:
         """Accept the trial state."""
         self._commit(self.address)
 
+    def restart(self) -> None:
+        """Bring the bearing back to its start: undeformed and unloaded."""
+        if self.block["commits"][0]:
+            _restart()(self.address)
+
     def tangent_by_columns(self) -> Floats:
         """Return the tangent of the last trial in the model's DOFs, a view (n * n,)."""
         self._tangent(self.address)
@@ -232,6 +237,13 @@ def _free_records(block: Records) -> None:
 def _functions(level: str) -> tuple[Callable[..., Any], ...]:
     entries = entries_of(level)
     return tuple(e.ctypes for e in (entries.trial, entries.tangent, entries.commit))
+
+
+@functools.cache
+def _restart() -> Callable[..., Any]:
+    from lir_element.opensees import callbacks
+
+    return callbacks.restart.ctypes  # type: ignore[no-any-return]
 
 
 def entries_of(level: str) -> ModuleType:

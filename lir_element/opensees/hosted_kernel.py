@@ -90,8 +90,10 @@ def map_tangent(h: Host) -> None:
 def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     """Determine the trial state at `host_u`, `host_v`, a step `dt` after the last commit.
 
-    A trial at rest (all velocities exactly zero) is static: its time is no time. Returns a
-    RunStatus code; a committed state beyond a limit of the bearing is refused here.
+    A trial at rest (all velocities exactly zero) is static: its time is no time. At the committed
+    place a moving bearing has the committed force: an explicit integrator asks for it there with
+    velocities that are none. Returns a RunStatus code; a committed state beyond a limit of the
+    bearing is refused here.
     """
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
@@ -104,6 +106,9 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
         moves = moves or h.host_v[k] != 0.0
     to_bearing(h, h.host_u, h.u)
     to_bearing(h, h.host_v, h.v)
+    stays = moves
+    for k in range(12):
+        stays = stays and h.u[k] == old[0].displacement[k]
     time = old[0].time + (max(dt, 0.0) if moves else 0.0)
     code = bearing_trial(
         carray(pointer(h.props), 1, PROPS), old, new, carray(pointer(h.work), 1, WORK), contacts,
@@ -114,7 +119,7 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     if has_no_state(code):
         h.last_status = code
         return code
-    set_force(h, new[0].force)
+    set_force(h, old[0].force if stays else new[0].force)
     return _OK
 
 
@@ -143,7 +148,12 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
 
 @kernel
 def host_commit(h: Host, contacts: Contacts | None) -> None:
-    """Accept the trial state, and record it if it is its turn."""
+    """Accept the trial state, and record it if it is its turn.
+
+    A trial without a state is not accepted, whatever OpenSees makes of it.
+    """
+    if h.last_status != _OK:
+        return
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
     bearing_commit(
@@ -198,7 +208,9 @@ def host_revert(h: Host) -> None:
     copy_words(
         carray(pointer(h.old), STATE_WORDS, WORDS), carray(pointer(h.new), STATE_WORDS, WORDS)
     )
-    set_force(h, carray(pointer(h.old), 1, STATE)[0].force)
+    old = carray(pointer(h.old), 1, STATE)
+    set_force(h, old[0].force)
+    h.last_status = old[0].status
     h.has_tangent = 0 if h.bodies_old == 0 else 2
 
 
@@ -219,5 +231,5 @@ def host_restart(h: Host) -> None:
             carray(pointer(h.touch_old), count, WORDS),
         )
     h.time, h.committed_time, h.loaded = 0.0, 0.0, 0
-    h.record_count = 0
+    h.record_count, h.commits = 0, 0
     host_revert(h)

@@ -44,14 +44,19 @@ def copy_vector(vector: int, count: int, first: int, target: Floats) -> None:
 
 @kernel
 def read_motion(h: Host) -> float:
-    """Set the block's motion to the nodes' trial motion; returns the step since the commit."""
+    """Set the block's motion to the nodes' trial motion; returns the step since the commit.
+
+    Explicit integrators set the domain's time after their trials: the step then is that from the
+    last committed trial.
+    """
     half = h.dofs // 2
     copy_vector(call_word(h.get_displacement, h.node_i), half, 0, h.host_u)
     copy_vector(call_word(h.get_displacement, h.node_j), half, half, h.host_u)
     copy_vector(call_word(h.get_velocity, h.node_i), half, 0, h.host_v)
     copy_vector(call_word(h.get_velocity, h.node_j), half, half, h.host_v)
     h.time = call_number(h.get_time, h.domain)
-    return number_at(h.step_size)
+    step = number_at(h.step_size)
+    return step if step > 0.0 else h.time - h.committed_time
 
 
 @kernel

@@ -85,28 +85,39 @@ def bearing_axes(orient: Sequence[float] | None, ndm: int) -> Floats:
     if orient is None:
         given = np.array([0.0, 0.0, 1.0] if ndm == 3 else [0.0, 1.0, 0.0])
     else:
-        given = np.asarray(orient, dtype=np.float64)
+        given = _numbers(orient)
     if given.shape not in {(3,), (6,)} or not np.isfinite(given).all():
         msg = (
             f"orient = {orient!r}: give the bearing's axis from node i to node j, 3 numbers, "
             "or the axis and its horizontal x direction, 6 numbers"
         )
         raise ValueError(msg)
-    up = given[:3]
-    side = given[3:] if given.size == 6 else _any_side(up)
-    normal = np.cross(up, side)
-    if np.linalg.norm(normal) < 1e-6 * np.linalg.norm(up) * np.linalg.norm(side):
-        msg = f"orient = {orient!r}: its axis has no length, or its x direction is parallel to it"
-        raise ValueError(msg)
-    if ndm == 2 and (abs(up[2]) > 1e-12 or abs(normal[0]) + abs(normal[1]) > 1e-12):
+    if ndm == 2 and np.abs(given[2::3]).max() > 1e-12:
         msg = f"orient = {orient!r}: in a model of two dimensions both vectors lie in its plane"
+        raise ValueError(msg)
+    up = given[:3]
+    side = given[3:] if given.size == 6 else _any_side(up, ndm)
+    normal = np.cross(up, side)
+    if np.linalg.norm(normal) <= 1e-6 * np.linalg.norm(up) * np.linalg.norm(side):
+        msg = f"orient = {orient!r}: its axis has no length, or its x direction is parallel to it"
         raise ValueError(msg)
     z, y = up / np.linalg.norm(up), normal / np.linalg.norm(normal)
     return np.array([np.cross(y, z), y, z])
 
 
-def _any_side(up: Floats) -> Floats:
+def _numbers(orient: Sequence[float]) -> Floats:
+    # Whatever is no list of numbers becomes an empty one, which the caller refuses.
+    try:
+        return np.asarray(orient, dtype=np.float64)
+    except (TypeError, ValueError):
+        return np.zeros(0)
+
+
+def _any_side(up: Floats, ndm: int) -> Floats:
     # Global x, or global z where the bearing's axis is nearly that: its x must be normal to it.
+    # In two dimensions there is one direction only.
+    if ndm == 2:
+        return np.array([up[1], -up[0], 0.0])
     length = float(np.linalg.norm(up))
     return np.array([0.0, 0.0, 1.0] if abs(up[0]) > 0.9 * length else [1.0, 0.0, 0.0])
 

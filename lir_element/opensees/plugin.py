@@ -15,12 +15,13 @@ from lir_element.opensees.fast import Grafted
 from lir_element.opensees.hosted import Hosted
 from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import Placement, place
-from lir_element.opensees.remote import Remote, Server
+from lir_element.opensees.remote import Orphans, Remote, Server, ServerError
 from lir_element.opensees.selftest import why_not_fast
 from lir_element.opensees.symbols import NotPossibleError
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")
+_LARGEST_TAG = 2**31 - 1
 
 
 class RouteWarning(UserWarning):
@@ -33,6 +34,7 @@ class _Session:
     def __init__(self) -> None:
         self.bearings: dict[int, Grafted | Remote] = {}
         self.server: Server | None = None
+        self.orphans: Orphans | None = None
         self.told = False
 
     def sweep(self) -> None:
@@ -43,8 +45,24 @@ class _Session:
                 bearing.release()
 
     def running_server(self) -> Server:
-        """Return the server, started if there is none."""
-        if self.server is None or not self.server.alive:
+        """Return the server, started if there is none.
+
+        Returns
+        -------
+        Server
+            Of all bearings of this process.
+
+        Raises
+        ------
+        ServerError
+            If it is gone, and the model still has bearings that it served.
+        """
+        if self.server is not None and not self.server.alive:
+            if any(each.is_served_by(self.server) for each in self._remotes()):
+                raise ServerError(self.server.end_message())
+            self.server.close()
+            self.server = None
+        if self.server is None:
             self.server = Server()
         return self.server
 
@@ -54,10 +72,23 @@ class _Session:
             bearing.detach()
         if self.server is not None:
             self.server.close()
+        if self.orphans is not None:
+            self.orphans.close()
 
     def forget(self) -> None:
         """Start anew in a forked process: connections and server are the parent's."""
-        self.bearings, self.server = {}, None
+        remotes = self._remotes()
+        self.bearings = {
+            tag: each for tag, each in self.bearings.items() if isinstance(each, Grafted)
+        }
+        if remotes:
+            self.orphans = Orphans(remotes)
+        if self.server is not None:
+            self.server.leave()
+            self.server = None
+
+    def _remotes(self) -> list[Remote]:
+        return [each for each in self.bearings.values() if isinstance(each, Remote)]
 
 
 _SESSION = _Session()
@@ -211,6 +242,9 @@ def _check(tag: object, bearing: object, level: str, route: str) -> None:
     if isinstance(tag, bool) or not isinstance(tag, int):
         msg = f"tag = {tag!r} must be an integer"
         raise TypeError(msg)
+    if abs(tag) > _LARGEST_TAG:
+        msg = f"tag = {tag} is beyond what OpenSees can hold: choose one up to {_LARGEST_TAG}"
+        raise ValueError(msg)
     if not isinstance(bearing, LIRBearing):
         msg = f"bearing = {bearing!r} is no LIRBearing: describe the device by one"
         raise TypeError(msg)
@@ -254,5 +288,12 @@ def _add_portable(
 ) -> Remote:
     server = _SESSION.running_server()
     remote = Remote(server, tag, bearing, level, placement)
-    remote.connect(add_host_element(ops, tag, placement))
+    connection = add_host_element(ops, tag, placement)
+    try:
+        remote.connect(connection)
+    except (ServerError, ValueError):
+        ops.remove("element", tag)
+        remote.release()
+        connection.close()
+        raise
     return remote

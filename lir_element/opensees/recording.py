@@ -134,11 +134,15 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     ValueError
         If there is no such bearing, or `every` is below 1.
     """
-    if every != int(every) or every < 1:
-        msg = f"every = {every!r} must be an integer of at least 1"
-        raise ValueError(msg)
+    _check_every(every)
     chosen = tags or bearing_tags()
     if not chosen:
         msg = "the current OpenSees model has no bearing: add one by bearing_element"
         raise ValueError(msg)
     return BearingRecording(chosen, every)
+
+
+def _check_every(every: object) -> None:
+    if not isinstance(every, (int, np.integer)) or every < 1:
+        msg = f"every = {every!r} must be an integer of at least 1"
+        raise ValueError(msg)

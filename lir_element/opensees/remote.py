@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import os
+import socket
 import subprocess  # noqa: S404  # our own server, by our own interpreter
 import sys
 import threading
 from multiprocessing import Pipe, reduction
 from typing import TYPE_CHECKING, Any
 
+import psutil
+
 from lir_element.opensees.guard import Guard
 from lir_element.opensees.protocol import vector_length
 
 if TYPE_CHECKING:
-    import socket
+    from collections.abc import Iterable
 
     from lir_element.bearing import LIRBearing
     from lir_element.opensees.placement import Placement
@@ -65,7 +68,14 @@ class Remote:
     @property
     def alive(self) -> bool:
         """Whether OpenSees still has the element, as far as can be told."""
-        return not self._server.alive or bool(self._server.ask("is_open", self._key))
+        try:
+            return bool(self._server.ask("is_open", self._key))
+        except ServerError:
+            return self._is_connected()
+
+    def is_served_by(self, server: Server) -> bool:
+        """Return whether its states are with this server."""
+        return self._server is server
 
     def response(self, name: str) -> Any:
         """Return a response of the committed state by name."""
@@ -84,18 +94,100 @@ class Remote:
 
     def release(self) -> None:
         """Give up the connection, once the element is gone."""
-        self.detach()
+        if self._sock is not None:
+            self._server.guard.drop(self._sock)
+            self._sock.close()
+            self._sock = None
         if self._server.alive:
             if self._recording:
                 self._records = self.recorded()
             self._server.ask("forget", self._key)
 
     def detach(self) -> None:
-        """Guard the connection no more, and close it."""
+        """Guard the connection no more, and leave it open for the farewell of OpenSees' exit.
+
+        The element's destructor would write to a closed end for ever.
+        """
         if self._sock is not None:
             self._server.guard.drop(self._sock)
-            self._sock.close()
+            self._sock.detach()
             self._sock = None
+
+    def abandon(self, own: dict[tuple[Any, Any], int], guard: Guard) -> socket.socket | None:
+        """Cut the element of a forked process off from the connection of its parent.
+
+        Parameters
+        ----------
+        own : dict
+            Descriptors of this process's connections by both their addresses.
+        guard : Guard
+            Answers the element from now on.
+
+        Returns
+        -------
+        socket or None
+            What the guard answers through, to be kept open.
+        """
+        if self._sock is None:
+            return None
+        place = own.get((self._sock.getpeername(), self._sock.getsockname()))
+        self._sock.close()
+        self._sock = None
+        if place is None:
+            return None
+        near, far = socket.socketpair()
+        os.dup2(near.fileno(), place, inheritable=False)
+        near.close()
+        guard.add(far, self._words)
+        return far
+
+    def _is_connected(self) -> bool:
+        # Without a server nobody else reads; the end of the stream is the element's end.
+        if self._sock is None:
+            return False
+        self._sock.setblocking(False)
+        try:
+            while self._sock.recv(4096):
+                pass
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return False
+
+
+class Orphans:
+    """Elements of the portable route that a forked process finds in its copy of the model.
+
+    Their server is the parent's. In this process they answer nothing, so that an analysis fails
+    and a wipe leaves the parent's bearings alone.
+
+    Parameters
+    ----------
+    remotes : iterable of Remote
+        The bearings behind them.
+    """
+
+    def __init__(self, remotes: Iterable[Remote]) -> None:
+        message = (
+            f"WARNING the bearings of this model are those of process {os.getppid()}, which this "
+            "one was forked from; the analysis cannot go on: wipe the model and build it again.\n"
+        )
+        self._guard = Guard(None, message)
+        own = {
+            (tuple(c.laddr), tuple(c.raddr)): c.fd
+            for c in psutil.Process(os.getpid()).net_connections("tcp4")
+            if c.raddr
+        }
+        self._kept = [remote.abandon(own, self._guard) for remote in remotes]
+        self._guard.start()
+
+    def close(self) -> None:
+        """End the guard; what it answered through stays open for the farewell of OpenSees' exit."""
+        self._guard.stop()
+        for sock in self._kept:
+            if sock is not None:
+                sock.detach()
 
 
 class Server:
@@ -119,7 +211,8 @@ class Server:
         self._pipe = ours
         self._lock = threading.Lock()
         self._keys = 0
-        self.guard = Guard(ours, f"WARNING {self._end()}; the analysis cannot go on.\n")
+        self.guard = Guard(ours, f"WARNING {self.end_message()}; the analysis cannot go on.\n")
+        self.guard.start()
 
     @property
     def pid(self) -> int:
@@ -166,9 +259,9 @@ class Server:
                 if sock is not None:
                     self._hand_over(sock)
                 good, answer = self._pipe.recv()
-        except (EOFError, ConnectionError) as cause:
+        except (EOFError, OSError) as cause:
             self._process.wait()
-            raise ServerError(self._end()) from cause
+            raise ServerError(self.end_message()) from cause
         if not good:
             raise answer
         return answer
@@ -183,7 +276,12 @@ class Server:
             self._process.kill()
             self._process.wait()
 
-    def _end(self) -> str:
+    def leave(self) -> None:
+        """Let go of the parent's server in a forked process: its pipe ends with the parent."""
+        self._pipe.close()
+
+    def end_message(self) -> str:
+        """Return what to tell the user of a server that is gone."""
         return (
             f"the server process {self.pid} of the bearings has ended: their states are lost, "
             "wipe the model and build it again"

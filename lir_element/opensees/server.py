@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
 _NO_FORCE = np.full(MOST_DOFS, np.nan)  # the protocol knows no failure; no test accepts this
+_GRACE = 1e-3
+"""How long a message may be on its way, in another stream than a request sent after it [s]."""
 _PATIENCE = 2.0
 """Time between two looks at whether the parent is still there [s]."""
 
@@ -87,6 +89,8 @@ class Channel:
     def _trial(self) -> None:
         hosted = self.hosted
         time = float(self._inbox[self._time])
+        if not time and not self._inbox[1 : self._time].any():
+            hosted.restart()  # `reset` has no message: no motion at all, at time 0
         # the model's clock may have been set back: then the step is not known, and counts as none
         self._status = hosted.trial(*self._motion, time - hosted.committed_time, time)
         if self._status is not RunStatus.OK and self._status is not self._told:
@@ -136,24 +140,26 @@ class Service:
     def run(self) -> None:
         """Serve until the pipe is closed."""
         threading.Thread(target=self._listen_to_pipe, daemon=True).start()
+        asked = False
         while os.getppid() == self._parent:
-            ready = self._selector.select(_PATIENCE)
-            served = False
+            ready = self._selector.select(_GRACE if asked else _PATIENCE)
             for key, _ in ready:
                 channel = key.data
-                if channel is not None:
-                    served = True
-                    if not channel.serve():
-                        self._selector.unregister(channel.sock)
-                        channel.close()
-            # what the model sent before a request was made lies in the sockets: it comes first
-            if ready and not served:
-                self._wake.recv(4096)
-                while self._requests:
-                    request = self._requests.popleft()
-                    if request[0] == "end":
-                        return
-                    self._answer(*request)
+                if channel is None:
+                    self._wake.recv(4096)
+                    asked = True
+                elif not channel.serve():
+                    self._selector.unregister(channel.sock)
+                    channel.close()
+            # what the model sent before a request was made comes first, though it may arrive later
+            if ready or not asked:
+                continue
+            asked = False
+            while self._requests:
+                request = self._requests.popleft()
+                if request[0] == "end":
+                    return
+                self._answer(*request)
 
     def _listen_to_pipe(self) -> None:
         # Requests, and the connections that come with some of them.

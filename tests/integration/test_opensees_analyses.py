@@ -1,0 +1,272 @@
+"""Bearings in OpenSees under its analyses: integrators, algorithms, constraints, time, removal."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lir_element.opensees import bearing_response, bearing_tags, record_bearings
+
+REFERENCE: dict[str, np.ndarray] = {}
+
+
+def shaken(stand: Any, steps: int = 100, dt: float = 0.01, **options: Any) -> np.ndarray:
+    stand.build()
+    stand.gravity()
+    stand.shaking(2.8, **options)
+    return stand.run(steps, dt)
+
+
+@pytest.fixture
+def reference(stand: Any) -> np.ndarray:
+    """Newmark and Newton, of the same route."""
+    if stand.route not in REFERENCE:
+        REFERENCE[stand.route] = shaken(stand)
+        assert np.abs(REFERENCE[stand.route][:, 0]).max() > 0.05
+    return REFERENCE[stand.route]
+
+
+def off(moved: np.ndarray, reference: np.ndarray) -> float:
+    """Largest difference, of the peak."""
+    return float(np.abs(moved - reference).max() / np.abs(reference).max())
+
+
+@pytest.mark.parametrize(
+    ("integrator", "limit"),
+    [
+        (("HHT", 0.9), 0.02),
+        (("GeneralizedAlpha", 0.9, 0.8), 0.03),
+        (("TRBDF2",), 0.03),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_implicit_integrators(
+    stand: Any, reference: np.ndarray, integrator: tuple[Any, ...], limit: float
+) -> None:
+    assert off(shaken(stand, integrator=integrator), reference) < limit
+
+
+@pytest.mark.parametrize("integrator", ["CentralDifference", "ExplicitDifference"])
+def test_explicit_integrators(stand: Any, reference: np.ndarray, integrator: str) -> None:
+    stand.build()
+    stand.gravity()
+    stand.shaking(2.8, integrator=(integrator,), algorithm="Linear")
+    moved = []
+    for _ in range(20):
+        assert stand.ops.analyze(250, 2e-4) == 0
+        moved.append(stand.ops.nodeDisp(2)[:3])
+    assert off(np.array(moved), reference[4::5]) < 0.03
+
+
+@pytest.mark.parametrize(
+    "algorithm", ["ModifiedNewton", "NewtonLineSearch", "KrylovNewton", "BFGS", "Broyden"]
+)
+def test_algorithms(stand: Any, reference: np.ndarray, algorithm: str) -> None:
+    moved = shaken(stand, algorithm=algorithm, tolerance=1e-8, iterations=500)
+    assert off(moved, reference) < 1e-3
+
+
+@pytest.mark.parametrize(
+    "handler", [("Transformation",), ("Penalty", 1e14, 1e14), ("Lagrange",)], ids=lambda h: h[0]
+)
+def test_constraint_handlers(stand: Any, reference: np.ndarray, handler: tuple[Any, ...]) -> None:
+    # the multipliers of Lagrange are forces: a norm of displacements would count them
+    moved = shaken(stand, handler=handler, test="EnergyIncr", tolerance=1e-11)
+    assert off(moved, reference) < 1e-3
+
+
+def pushed(stand: Any, integrator: tuple[Any, ...], steps: int) -> np.ndarray:
+    """Push sideways from rest under gravity; displacement and force of each step."""
+    ops = stand.ops
+    stand.build(fixed=(0, 1, 0, 1, 1, 1))
+    stand.gravity()
+    ops.timeSeries("Linear", 2)
+    ops.pattern("Plain", 2, 2)
+    ops.load(2, stand.LOAD, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stand.solver()
+    ops.integrator(*integrator)
+    ops.analysis("Static")
+    track = []
+    for _ in range(steps):
+        assert ops.analyze(1) == 0
+        track.append((ops.nodeDisp(2, 1), ops.eleForce(1, 7), ops.getTime()))
+    return np.array(track)
+
+
+def test_static_integrators_find_the_same_path(stand: Any) -> None:
+    by_displacement = pushed(stand, ("DisplacementControl", 2, 1, 1e-3), 100)
+    assert by_displacement[-1, 0] == pytest.approx(0.1)
+    # friction at rest plus the pendulum of length 1.33 m, up to its tilt
+    assert by_displacement[-1, 1] == pytest.approx(stand.LOAD * (0.033 + 0.1 / 1.415), rel=0.06)
+    assert by_displacement[:, 1] == pytest.approx(by_displacement[:, 2] * stand.LOAD, rel=1e-5)
+    by_load = pushed(stand, ("LoadControl", 1e-3), 100)
+    expected = np.interp(by_load[-1, 1], by_displacement[:, 1], by_displacement[:, 0])
+    assert by_load[-1, 0] == pytest.approx(expected, rel=1e-3)
+    by_arc = pushed(stand, ("ArcLength", 1e-3, 1e-3), 50)
+    assert by_arc[-1, 0] > 0.02
+    expected = np.interp(by_arc[-1, 1], by_displacement[:, 1], by_displacement[:, 0])
+    assert by_arc[-1, 0] == pytest.approx(expected, rel=1e-3)
+
+
+def test_eigen_has_the_sticking_stiffness(stand: Any) -> None:
+    stand.build(fixed=(0, 1, 0, 1, 1, 1))
+    options = stand.DEVICE.resolved()
+    stand.gravity()
+    values = sorted(stand.ops.eigen("-fullGenLapack", 2))
+    vertical = options["axial_stiffness"] / stand.MASS
+    # two elastic surfaces and the interface in series, in parallel with the pendulum; see theory
+    element = np.array(stand.ops.eleResponse(1, "force"))
+    assert element[8] == pytest.approx(-stand.LOAD, rel=1e-8)
+    assert values[1] == pytest.approx(vertical, rel=0.02)
+    sideways = stand.MASS * values[0]
+    before = bearing_response(1, "force")[6]
+    stand.ops.timeSeries("Linear", 2)
+    stand.ops.pattern("Plain", 2, 2)
+    stand.ops.load(2, 100.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stand.solver(tolerance=1e-13)
+    stand.ops.integrator("LoadControl", 1.0)
+    stand.ops.analysis("Static")
+    assert stand.ops.analyze(1) == 0
+    stiffness = (bearing_response(1, "force")[6] - before) / stand.ops.nodeDisp(2, 1)
+    assert sideways == pytest.approx(stiffness, rel=1e-3)
+    period = 2.0 * math.pi / math.sqrt(values[0])
+    assert period < 0.3  # it sticks; sliding it is the pendulum's, 2.3 s
+
+
+def test_gravity_starts_without_singular_equations(stand: Any, capfd: Any) -> None:
+    stand.build()
+    stand.gravity(steps=1)
+    assert "singular" not in capfd.readouterr().err.lower()
+    assert bearing_response(1, "axial_force") == pytest.approx(stand.LOAD, rel=1e-9)
+
+
+def test_setting_the_time_leaves_the_rates_sane(stand: Any) -> None:
+    plain = shaken(stand, 60, 0.005)
+    ops = stand.ops
+    for time in (100.0, -100.0):  # the shaking has period 1 s
+        stand.build()
+        stand.gravity()
+        ops.setTime(200.0)
+        stand.shaking(2.8)
+        begun = stand.run(30, 0.005)
+        speed = np.array(bearing_response(1, "sliding_speed"))
+        ops.setTime(ops.getTime() + time)
+        assert ops.analyze(1, 0.005) == 0
+        later = np.array(bearing_response(1, "sliding_speed"))
+        assert (later <= speed + 0.03).all(), time
+        moved = np.vstack([begun, ops.nodeDisp(2)[:3], stand.run(29, 0.005)])
+        assert off(moved, plain) < (1e-6 if stand.route == "fast" else 0.01), time
+
+
+def test_a_new_analysis_goes_on_from_the_state(stand: Any) -> None:
+    plain = shaken(stand, 60)
+    stand.build()
+    stand.gravity()
+    stand.shaking(2.8)
+    first = stand.run(30)
+    stand.solver()
+    stand.ops.integrator("Newmark", 0.5, 0.25)
+    stand.ops.analysis("Transient")
+    assert np.array_equal(np.vstack([first, stand.run(30)]), plain)
+
+
+def test_reset_goes_back_to_the_start(stand: Any) -> None:
+    ops = stand.ops
+    stand.build()
+    at_rest = {name: bearing_response(1, name) for name in ("slip", "axial_force", "axis")}
+    stand.gravity()
+    stand.shaking(2.8)
+    plain = stand.run()
+    ops.reset()
+    for name, value in at_rest.items():
+        assert np.array_equal(bearing_response(1, name), value), name
+    ops.remove("loadPattern", 1)
+    ops.remove("loadPattern", 2)
+    ops.remove("timeSeries", 1)
+    ops.remove("timeSeries", 2)
+    stand.gravity()
+    stand.shaking(2.8)
+    assert off(stand.run(), plain) < 1e-9
+
+
+def test_failed_steps_leave_no_trace(stand: Any) -> None:
+    plain = shaken(stand, 120, 0.005)
+    ops = stand.ops
+    stand.build()
+    stand.gravity()
+    stand.shaking(2.8)
+    moved = np.zeros((120, 3))
+    for k in range(120):
+        if k % 15 == 7:
+            ops.test("NormDispIncr", 1e-14, 1)
+            assert ops.analyze(1, 0.25) != 0
+            ops.test("NormDispIncr", 1e-9, 100)
+        assert ops.analyze(1, 0.005) == 0
+        moved[k] = ops.nodeDisp(2)[:3]
+    assert off(moved, plain) < 1e-9
+
+
+def test_rayleigh_damping_does_not_act_on_a_bearing(stand: Any, reference: np.ndarray) -> None:
+    stand.build()
+    stand.gravity()
+    stand.ops.rayleigh(0.0, 0.05, 0.05, 0.05)  # of the mass: none
+    stand.shaking(2.8)
+    assert off(stand.run(), reference) < 1e-9
+
+
+def test_element_loads_are_refused(stand: Any, capfd: Any) -> None:
+    stand.build()
+    stand.ops.timeSeries("Linear", 5)
+    stand.ops.pattern("Plain", 5, 5)
+    stand.ops.eleLoad("-ele", 1, "-type", "-beamUniform", 1.0, 1.0, 1.0)
+    stand.gravity()
+    message = capfd.readouterr().err
+    assert "load type unknown for element: 1" in message
+    assert bearing_response(1, "axial_force") == pytest.approx(stand.LOAD, rel=1e-9)
+
+
+def test_elements_are_removed_and_tags_used_again(stand: Any, reference: np.ndarray) -> None:
+    stand.build(count=3)
+    stand.ops.remove("element", 2)
+    assert bearing_tags() == (1, 3)
+    with pytest.raises(ValueError, match="element 2 is no bearing"):
+        bearing_response(2, "slip")
+    stand.put(2, 1, 3, level="contact")
+    assert sorted(bearing_tags()) == [1, 2, 3]
+    stand.gravity()
+    weight = bearing_response(2, "axial_force") - stand.LOAD  # of the sliders, at this level
+    assert 0.0 < weight < 0.005 * stand.LOAD
+    for _ in range(3):
+        assert np.array_equal(shaken(stand), reference)
+        assert bearing_tags() == (1,)
+
+
+def test_many_bearings(stand: Any, reference: np.ndarray) -> None:
+    stand.build(count=40)
+    recording = record_bearings()
+    stand.gravity()
+    stand.shaking(2.8)
+    assert off(stand.run(), reference) < 1e-6
+    data = recording.dataset()
+    assert data.sizes["bearing"] == 40
+    last = data["bearing_displacement"][-1].to_numpy()
+    assert np.ptp(last, axis=0) == pytest.approx(0.0, abs=1e-9)
+    stand.ops.wipe()
+    assert bearing_tags() == ()
+    assert len(recording.dataset().time) == 105
+
+
+def test_both_routes_in_one_model(stand: Any, reference: np.ndarray) -> None:
+    stand.build()
+    ops, own = stand.ops, stand.route
+    ops.node(3, 0.0, 0.0, 0.0)
+    ops.fix(3, 0, 0, 0, 1, 1, 1)
+    ops.mass(3, *[stand.MASS] * 3, *[0.0] * 3)
+    stand.route = "portable" if own == "fast" else "fast"
+    stand.put(2, 1, 3)
+    assert {bearing_response(tag, "route") for tag in (1, 2)} == {"fast", "portable"}
+    stand.gravity()
+    stand.shaking(2.8)
+    assert off(stand.run(), reference) < 1e-6
+    assert np.allclose(ops.nodeDisp(2), ops.nodeDisp(3), rtol=1e-6, atol=1e-7)

@@ -1,0 +1,357 @@
+"""Nothing hangs, nothing is left behind: killed processes, exits, forks, strangers, failures.
+
+Each case is a script in a process of its own, which has to end in time.
+"""
+
+import os
+import subprocess  # our own scripts, by our own interpreter  # noqa: S404
+import sys
+import textwrap
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("psutil")
+pytest.importorskip("openseespy")
+
+import psutil
+
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import bearing_response
+from lir_element.opensees.plugin import _SESSION
+from lir_element.opensees.selftest import why_not_fast
+
+ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
+LIMIT = 60.0  # s, of a script
+ROUTES = [
+    pytest.param("fast", marks=pytest.mark.skipif(bool(why_not_fast()), reason="not possible")),
+    "portable",
+]
+
+PREAMBLE = """
+import multiprocessing, os, signal, socket, subprocess, sys, time
+import psutil
+from tests.integration.conftest import Stand
+from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
+from lir_element.opensees import connection
+from lir_element.opensees.plugin import _SESSION
+
+ops = opensees()
+stand = Stand(ops, sys.argv[1])
+
+def begin(count=1):
+    stand.build(count=count)
+    stand.gravity()
+    stand.shaking(2.8)
+
+def advance(steps=20):
+    return [ops.analyze(1, 0.005) for _ in range(steps)]
+
+def listening(pid=None):
+    found = psutil.Process(pid).net_connections()
+    return {c.laddr.port for c in found if c.status == psutil.CONN_LISTEN}
+
+OWN = listening()  # of OpenSees itself
+"""
+
+
+def start(script: str, route: str) -> "subprocess.Popen[str]":
+    """Start a script in the background."""
+    return subprocess.Popen(  # noqa: S603
+        [sys.executable, "-c", PREAMBLE + textwrap.dedent(script), route],
+        env={**os.environ, "PYTHONPATH": str(ROOT)}, cwd=ROOT, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+def finish(process: "subprocess.Popen[str]") -> tuple[str, str]:
+    """Return what a script wrote; it has to end by itself."""
+    try:
+        return process.communicate(timeout=LIMIT)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        pytest.fail(f"the script hangs: {process.communicate()}")
+
+
+def run(script: str, route: str) -> str:
+    """Run a script that has to succeed; returns what it wrote to standard error."""
+    process = start(script, route)
+    _, errors = finish(process)
+    assert process.returncode == 0, errors
+    return errors
+
+
+def gone(pid: int, patience: float = 6.0) -> bool:
+    """Wait until a process is gone."""
+    end = time.monotonic() + patience
+    while time.monotonic() < end:
+        try:
+            if psutil.Process(pid).status() == psutil.STATUS_ZOMBIE:
+                return True
+        except psutil.NoSuchProcess:
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_a_server_killed_in_an_analysis_ends_it() -> None:
+    errors = run(
+        """
+        begin(20)
+        server = _SESSION.server
+        killer = "import os, sys, time; time.sleep(0.5); os.kill(int(sys.argv[1]), 9)"
+        child = subprocess.Popen([sys.executable, "-c", killer, str(server.pid)])
+        began = time.monotonic()
+        code = ops.analyze(1_000_000, 1e-4)
+        assert code != 0, code
+        assert time.monotonic() - began < 10.0
+        child.wait()
+        for _ in range(2):
+            try:
+                bearing_response(1, "slip")
+            except ServerError as error:
+                assert "wipe the model" in str(error)
+            else:
+                sys.exit("no error")
+            assert ops.analyze(1, 1e-4) != 0
+        try:
+            stand.put(99, 1, 2)  # the others of this model are lost: one more is no use
+        except ServerError as error:
+            assert 99 not in ops.getEleTags()
+        else:
+            sys.exit("no error")
+        ops.wipe()
+        assert bearing_tags() == ()
+        begin(3)
+        assert not any(advance()), "the new model"
+        assert _SESSION.server.pid != server.pid and bearing_tags() == (1, 2, 3)
+        ops.wipe()
+        """,
+        "portable",
+    )
+    assert errors.count("has ended: their states are lost") == 1
+
+
+@pytest.mark.parametrize("wipe", [True, False])
+def test_a_server_killed_while_idle_is_noticed(wipe: bool) -> None:
+    errors = run(
+        f"""
+        begin()
+        assert not any(advance())
+        os.kill(_SESSION.server.pid, signal.SIGKILL)
+        time.sleep(0.2)
+        began = time.monotonic()
+        assert ops.analyze(5, 0.005) != 0
+        assert time.monotonic() - began < 5.0
+        if {wipe}:
+            ops.wipe()
+            begin()
+            assert not any(advance())
+        """,
+        "portable",
+    )
+    assert "the analysis cannot go on" in errors
+
+
+@pytest.mark.parametrize(
+    "end", ["os.kill(os.getpid(), signal.SIGKILL)", "os._exit(3)", "sys.exit(0)", "1 / 0"]
+)
+def test_no_server_outlives_the_model(end: str) -> None:
+    process = start(
+        f"""
+        begin()
+        advance()
+        assert listening() == OWN and not listening(_SESSION.server.pid)
+        print(_SESSION.server.pid, flush=True)
+        {end}
+        """,
+        "portable",
+    )
+    output, errors = finish(process)
+    assert output.strip(), errors
+    assert gone(int(output))
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_exit_without_wipe_is_clean(route: str) -> None:
+    errors = run("begin(3); assert not any(advance())", route)
+    assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_stranger_who_connects_first_is_turned_away(route: str) -> None:
+    run(
+        """
+        strangers = []
+        element = ops.element
+        def knocked(kind, *arguments):
+            port = arguments[arguments.index("-server") + 1]
+            code = (f"import socket, time; s = socket.create_connection(('127.0.0.1', {port}));"
+                    "s.sendall(bytes(44)); print('in', flush=True); print(s.recv(8), flush=True)")
+            stranger = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
+                                        stderr=subprocess.STDOUT, text=True)
+            assert stranger.stdout.readline().strip() == "in"
+            strangers.append((stranger, port))
+            element(kind, *arguments)
+        ops.element = knocked
+        begin()
+        ops.element = element
+        assert not any(advance())
+        stranger, port = strangers[0]
+        stranger.wait(10.0)
+        assert stranger.stdout.read().strip().endswith(("b''", "Connection reset by peer"))
+        assert listening() == OWN
+        try:
+            socket.create_connection(("127.0.0.1", port), 1.0)
+        except ConnectionRefusedError:
+            pass
+        else:
+            sys.exit("somebody listens")
+        ops.wipe()
+        """,
+        route,
+    )
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_connection_that_never_arrives_leaves_no_element(route: str) -> None:
+    run(
+        """
+        class Blind:
+            def __init__(self, pid): pass
+            def net_connections(self, kind): return []
+        connection.psutil.Process = Blind
+        stand.begin()
+        ops.node(1, 0.0, 0.0, 0.0)
+        ops.node(2, 0.0, 0.0, 0.0)
+        try:
+            stand.put(1, 1, 2)
+        except ConnectionError as error:
+            assert "allow connections on the loopback interface" in str(error)
+        else:
+            sys.exit("no error")
+        assert not ops.getEleTags() and bearing_tags() == ()
+        """,
+        route,
+    )
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_forked_process_builds_its_own_model(route: str) -> None:
+    errors = run(
+        """
+        begin(2)
+        advance()
+        expected = ops.nodeDisp(2)
+        def work(queue):
+            code = ops.analyze(1, 0.005)  # of the model inherited
+            ops.wipe()
+            begin()
+            advance()
+            queue.put((code, ops.nodeDisp(2), bearing_tags()))
+        context = multiprocessing.get_context("fork")
+        queue = context.Queue()
+        child = context.Process(target=work, args=(queue,))
+        child.start()
+        code, moved, tags = queue.get(timeout=40)
+        child.join(10)
+        assert child.exitcode == 0
+        assert (code == 0) is (stand.route == "fast")
+        assert max(abs(a - b) for a, b in zip(moved, expected)) < 1e-9 and tags == (1,)
+        assert bearing_tags() == (1, 2) and not any(advance())
+        ops.wipe()
+        """,
+        route,
+    )
+    assert ("forked from" in errors) is (route == "portable")
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_exit_of_a_forked_process_leaves_the_parent_alone(route: str) -> None:
+    began = time.monotonic()
+    run(
+        """
+        begin()
+        pid = os.fork()
+        if pid == 0:
+            sys.exit(7)
+        assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7
+        assert not any(advance())
+        if os.fork() == 0:
+            time.sleep(3.0)  # outlives the parent, with its ends of pipes and sockets
+            os._exit(0)
+        """,
+        route,
+    )
+    assert time.monotonic() - began < LIMIT
+
+
+def fresh_server() -> None:
+    """End the server of this process: a new one writes to where standard error is captured."""
+    if _SESSION.server is not None:
+        _SESSION.server.close()
+        _SESSION.server = None
+
+
+FAILING = [
+    ({"slip_capacity": 0.01}, 2.8, "the interface slipped further", 3),
+    (
+        {"interface_friction": float("inf"), "rim_overrun": 1e-4},
+        2.8,
+        "overran a restraining rim",
+        4,
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "peak", "message", "code"), FAILING)
+def test_beyond_a_limit_the_next_step_fails(
+    stand: Any, capfd: Any, changes: dict[str, Any], peak: float, message: str, code: int
+) -> None:
+    options = {
+        "radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08, "capacity": 0.175,
+        "friction": CoulombFriction(0.05), "interface_friction": 0.126,
+    }  # fmt: skip
+    fresh_server()
+    stand.build(LIRBearing(**{**options, **changes}))
+    stand.gravity()
+    stand.shaking(peak)
+    capfd.readouterr()
+    for _ in range(400):
+        done = stand.ops.analyze(1, 0.005)
+        if done != 0:
+            break
+        assert bearing_response(1, "status") in {0, code}
+    assert done != 0
+    assert bearing_response(1, "status") == code
+    text = capfd.readouterr().err
+    assert "bearing element 1" in text
+    assert message in text
+    assert text.count("What to try") == 1  # once, not with every iteration
+    for name in ("displacement", "force", "slip"):
+        assert np.isfinite(bearing_response(1, name)).all()
+    assert stand.ops.analyze(1, 0.005) != 0
+
+
+def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None:
+    """An algorithm without a test goes on with any answer; the bearing does not."""
+    fresh_server()
+    stand.build()
+    stand.gravity()
+    ops = stand.ops
+    ops.timeSeries("Linear", 2)
+    ops.pattern("Plain", 2, 2)
+    ops.load(2, 1e9, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stand.solver(algorithm="Linear")
+    ops.integrator("LoadControl", 1.0)
+    ops.analysis("Static")
+    for _ in range(3):
+        ops.analyze(1)
+    for name in ("displacement", "force", "slip", "axis"):
+        assert np.isfinite(bearing_response(1, name)).all()
+    assert bearing_response(1, "axial_force") == pytest.approx(stand.LOAD, rel=1e-9)
+    assert "What to try" in capfd.readouterr().err
