@@ -39,8 +39,9 @@ class _Session:
 
     def sweep(self) -> None:
         """Release what belongs to bearings that OpenSees has deleted."""
+        present = element_tags()
         for tag, bearing in list(self.bearings.items()):
-            if not bearing.alive:
+            if tag not in present or not bearing.alive:
                 del self.bearings[tag]
                 bearing.release()
 
@@ -89,6 +90,11 @@ class _Session:
 
     def _remotes(self) -> list[Remote]:
         return [each for each in self.bearings.values() if isinstance(each, Remote)]
+
+
+def element_tags() -> frozenset[int]:
+    """Return the tags of all elements of the current OpenSeesPy model."""
+    return frozenset(opensees().getEleTags() or ())
 
 
 _SESSION = _Session()
@@ -168,7 +174,7 @@ def bearing_element(
     """
     _check(tag, bearing, level, route)
     ops = opensees()
-    if tag in (ops.getEleTags() or []):
+    if tag in element_tags():
         msg = f"element {tag} is in the model already: choose another tag"
         raise ValueError(msg)
     _SESSION.sweep()
@@ -232,7 +238,7 @@ def bearing_at(tag: int) -> Grafted | Remote:
         If there is no such bearing in the model.
     """
     found = _SESSION.bearings.get(tag)
-    if found is None or not found.alive:
+    if found is None or tag not in element_tags() or not found.alive:
         msg = f"element {tag} is no bearing of the current model: it has {bearing_tags()}"
         raise ValueError(msg)
     return found

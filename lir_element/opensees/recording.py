@@ -34,6 +34,7 @@ class BearingRecording:
         self._every = every
         self._bearings = [bearing_at(tag) for tag in tags]
         self._started = time.perf_counter()
+        self._loads = np.array([bearing.response("axial_force") for bearing in self._bearings])
         for bearing in self._bearings:
             bearing.start_recording(every)
 
@@ -74,6 +75,9 @@ class BearingRecording:
             interface_eccentricity(props, states),
             "m",
             "offset of the resultant between the sliders from their axes, the larger; 0 lifted",
+        )
+        variables["static_axial_force"] = labelled(
+            ("bearing",), self._loads, "N", "axial force when the recording began"
         )
         with_points = np.array([bearing.level == "contact" for bearing in self._bearings])
         if with_points.any():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from frames.plot_loops import orbits
+from frames.plot_loops import hysteresis, orbits
 from lir_element import Element
 from lir_element.opensees import bearing_response, record_bearings
 
@@ -116,7 +116,7 @@ def test_a_recording_is_the_dataset_of_frames(stand: Any) -> None:
     assert attributes["status"] == "ok"
     assert (attributes["level"], attributes["route"]) == ("pendulum", stand.route)
     assert attributes["opensees_version"].startswith("3.")
-    assert {"message", "lir_dcfp_version", "record_every", "wall_time"} <= set(attributes)
+    assert {"message", "lir_dcfp_version", "record_every", "seconds"} <= set(attributes)
 
 
 def test_every_so_many_steps_and_after_a_wipe(stand: Any) -> None:
@@ -129,7 +129,7 @@ def test_every_so_many_steps_and_after_a_wipe(stand: Any) -> None:
     stand.ops.wipe()
     stand.build()  # the old bearing is released here
     after = recording.dataset()
-    del before.attrs["wall_time"], after.attrs["wall_time"]
+    del before.attrs["seconds"], after.attrs["seconds"]
     assert after.identical(before)
     assert after.attrs["record_every"] == 7
     assert after.time.to_numpy() == pytest.approx(0.01 + 0.07 * np.arange(8))
@@ -170,10 +170,13 @@ def test_figures_read_a_recording(stand: Any) -> None:
     begin(stand)
     recording = record_bearings()
     stand.run(100)
-    figure = orbits(recording.dataset(), "1")
-    lines = figure.axes[0].get_lines()
-    assert max(len(line.get_xdata()) for line in lines) >= 100
-    plt.close(figure)
+    data = recording.dataset()
+    assert float(data["static_axial_force"][0]) == pytest.approx(float(data["axial_force"][0, 0]))
+    for draw in (orbits, hysteresis):
+        figure = draw(data, "1")
+        lines = figure.axes[0].get_lines()
+        assert max(len(line.get_xdata()) for line in lines) >= 100
+        plt.close(figure)
 
 
 def test_a_failed_bearing_is_told_in_the_attributes(stand: Any) -> None:
