@@ -15,6 +15,7 @@ import selectors
 import socket
 import sys
 import threading
+import time
 from multiprocessing import connection, reduction
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,9 @@ _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messag
 _NO_FORCE = np.full(MOST_DOFS, np.nan)  # the protocol knows no failure; no test accepts this
 _GRACE = 1e-3
 """How long a message may be on its way, in another stream than a request sent after it [s]."""
+_AWAKE = 2e-3
+"""How long to look for the next message without sleeping [s]: waking up costs more than answering,
+and an analysis asks again at once."""
 _PATIENCE = 2.0
 """Time between two looks at whether the parent is still there [s]."""
 
@@ -88,11 +92,11 @@ class Channel:
 
     def _trial(self) -> None:
         hosted = self.hosted
-        time = float(self._inbox[self._time])
-        if not time and not self._inbox[1 : self._time].any():
+        clock = float(self._inbox[self._time])
+        if not clock and not self._inbox[1 : self._time].any():
             hosted.restart()  # `reset` has no message: no motion at all, at time 0
         # the model's clock may have been set back: then the step is not known, and counts as none
-        self._status = hosted.trial(*self._motion, time - hosted.committed_time, time)
+        self._status = hosted.trial(*self._motion, clock - hosted.committed_time, clock)
         if self._status is not RunStatus.OK and self._status is not self._told:
             print(f"WARNING {hosted.message(self._status)}", file=sys.stderr, flush=True)
         self._told = self._status
@@ -140,9 +144,12 @@ class Service:
     def run(self) -> None:
         """Serve until the pipe is closed."""
         threading.Thread(target=self._listen_to_pipe, daemon=True).start()
-        asked = False
+        asked, busy_until = False, 0.0
         while os.getppid() == self._parent:
-            ready = self._selector.select(_GRACE if asked else _PATIENCE)
+            busy = time.perf_counter() < busy_until
+            ready = self._selector.select(_GRACE if asked else 0.0 if busy else _PATIENCE)
+            if ready:
+                busy_until = time.perf_counter() + _AWAKE
             for key, _ in ready:
                 channel = key.data
                 if channel is None:
