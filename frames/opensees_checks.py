@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._validate import ModelError
+from frames.superelement import asymmetry
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -44,14 +45,11 @@ def refuse_unsymmetric(model: OpenSeesModel) -> None:
         If one is not; the message names a node.
     """
     for word in ("mass", "damping", "stiffness"):
-        matrix = getattr(model, word)
-        apart = abs(matrix - matrix.T)
-        largest = abs(matrix).max() if matrix.nnz else 0.0
-        if apart.nnz and apart.max() > _SYMMETRY * largest:
-            row = int(np.argmax(apart.max(axis=1).toarray()))
+        apart, largest, row = asymmetry(getattr(model, word))
+        if apart > _SYMMETRY * largest:
             message = (
                 f"the {word} of the OpenSees model is not symmetric near node "
-                f"{model.tags[row // model.ndf]} (entries differ by {apart.max():.3g} of "
+                f"{model.tags[row // model.ndf]} (entries differ by {apart:.3g} of "
                 f"{largest:.3g}): an element with friction or follower forces is there; remove it"
             )
             raise ModelError(message)

@@ -22,6 +22,7 @@ from frames.opensees_checks import (
 from frames.opensees_loads import light_base, permanent_load, rigid_damping
 from frames.opensees_model import read_model
 from frames.parts import DOFS, bearing_height
+from frames.superelement import lumped
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
@@ -261,9 +262,7 @@ def _add_levels(frame: Frame, structure: Structure, options: Options) -> None:
         for name, tags in given:
             frame.add_level(name, [str(tag) for tag in tags])
         return
-    count = len(structure.tags)
-    unit = np.tile(np.eye(6)[0], count)
-    mass = np.asarray(structure.matrices["mass"] @ unit)[0::6]
+    mass = lumped(structure.matrices["mass"])[:, 0]
     at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
     heavy = dict(zip(at, mass.tolist(), strict=True))
     rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))

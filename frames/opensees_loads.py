@@ -9,6 +9,7 @@ import numpy as np
 
 from frames._validate import ModelError
 from frames.contents import STANDARD_GRAVITY
+from frames.superelement import lumped
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -126,8 +127,7 @@ def light_base(structure: Structure, options: Options) -> list[str]:
     list of str
         A note where that is so.
     """
-    unit = np.tile(np.eye(6)[0], len(structure.tags))
-    moved = np.asarray(structure.matrices["mass"] @ unit)[0::6]
+    moved = lumped(structure.matrices["mass"])[:, 0]
     bases = [structure.tags.index(tag) for tag in options.base_nodes]
     if moved[bases].sum() > _LIGHT * moved.sum():
         return []

@@ -112,16 +112,22 @@ def _symmetric(what: str, given: MatrixLike, nodes: tuple[str, ...]) -> SparseMa
             f"its {len(nodes)} nodes"
         )
         raise ModelError(message)
-    apart = abs(matrix - matrix.T)
-    largest = float(abs(matrix).max()) if matrix.nnz else 0.0
-    if apart.nnz and apart.max() > _SYMMETRY * largest:
-        row = int(np.argmax(apart.max(axis=1).toarray()))
+    apart, largest, row = asymmetry(matrix)
+    if apart > _SYMMETRY * largest:
         message = (
-            f"{what} is not symmetric: entries differ by {apart.max():.3g}, {_SYMMETRY:g} of the "
+            f"{what} is not symmetric: entries differ by {apart:.3g}, {_SYMMETRY:g} of the "
             f'largest, {largest:.3g}, is allowed; look at node "{nodes[row // 6]}"'
         )
         raise ModelError(message)
     return sparse.csr_array(0.5 * (matrix + matrix.T))
+
+
+def asymmetry(matrix: SparseMatrix) -> tuple[float, float, int]:
+    """Return how far entries differ from those across the diagonal, the largest entry, the row."""
+    if not matrix.nnz:
+        return 0.0, 0.0, 0
+    apart = abs(matrix - matrix.T)
+    return float(apart.max()), float(abs(matrix).max()), int(np.argmax(apart.max(axis=1).toarray()))
 
 
 class Placed(NamedTuple):

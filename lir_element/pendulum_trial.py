@@ -218,7 +218,7 @@ def trial(
         )
     aim_axis(p, old, w)
     count = solve_axis(p, old, w, zero)
-    if count < 0 and not p.fused:
+    if count < 0:
         count = solve_from_elsewhere(p, old, w, zero)
     for k in range(12):
         new.displacement[k] = u[k]

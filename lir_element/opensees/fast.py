@@ -84,7 +84,7 @@ class Grafted:
 
     def response(self, name: str) -> Any:
         """Return a response of the committed state by name."""
-        return self.hosted.deformation() if name == "deformation" else self.hosted.response(name)
+        return self.hosted.response(name)
 
     def start_recording(self, every: int) -> None:
         """Record every so many commits from now on; 0: none."""

@@ -129,7 +129,9 @@ class Hosted:
         return self._columns
 
     def response(self, name: str) -> Any:
-        """Return a response of the committed state, in bearing axes and SI units, by its name."""
+        """Return a response of the committed state by its name, as `bearing_response` does."""
+        if name == "deformation":
+            return self.deformation()
         if name not in STATE_BY_NAME:
             known = ", ".join(sorted({*STATE_BY_NAME, "deformation", "route"}))
             msg = f"response {name!r} is not known: choose one of {known}"
@@ -226,7 +228,6 @@ class Hosted:
         self.trial(host, np.zeros(count), 0.0)
         self._initial[:] = self.tangent_by_columns()
         self.trial(np.zeros(count), np.zeros(count), 0.0)
-        self.block["trials"] = 0
 
 
 def _free_records(block: Records) -> None:

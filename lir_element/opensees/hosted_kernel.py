@@ -97,7 +97,6 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     """
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
-    h.trials += 1
     if old[0].status != _OK:
         h.last_status = old[0].status
         return h.last_status

@@ -29,7 +29,6 @@ SHARED_FIELDS = (
     Field("refused", "-", "", "RunStatus code told to the user since the last commit", (), "i8"),
     Field("has_tangent", "-", "", "0 to make from the trial, 1 made, 2 from the commit", (), "i8"),
     Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
-    Field("trials", "-", "", "trials since the start", (), "i8"),
     Field("commits", "-", "", "commits since the start", (), "i8"),
     Field("at", "", "", "spare: zero vector", (3,)),
     Field("axes", "", "", "unit vectors", (3, 3)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import importlib
 import importlib.util
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,12 @@ def opensees() -> Any:
         version = ".".join(map(str, sys.version_info[:3]))
         msg = f"openseespy cannot be loaded by Python {version} ({cause}): reinstall it by pip"
         raise ImportError(msg) from cause
+
+
+def child_environment() -> dict[str, str]:
+    """Return the environment in which a child process finds the modules that this one finds."""
+    paths = [path or os.getcwd() for path in sys.path]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
 
 
 def _load_bundled_libraries() -> None:

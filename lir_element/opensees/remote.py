@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import psutil
 
 from lir_element.opensees.guard import Guard
+from lir_element.opensees.library import child_environment
 from lir_element.opensees.protocol import vector_length
 
 if TYPE_CHECKING:
@@ -202,10 +203,8 @@ class Server:
             os.set_handle_inheritable(theirs.fileno(), True)
             handles = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [theirs.fileno()]})
             options = {"startupinfo": handles}
-        paths = [path or os.getcwd() for path in sys.path]
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
         self._process = subprocess.Popen(  # noqa: S603
-            command, stdin=subprocess.DEVNULL, env=environment, **options
+            command, stdin=subprocess.DEVNULL, env=child_environment(), **options
         )
         theirs.close()
         self._pipe = ours

@@ -25,7 +25,7 @@ from lir_element._jit import cache_folder
 from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.fast import Grafted
 from lir_element.opensees.hosted import Hosted
-from lir_element.opensees.library import opensees
+from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.placement import place
 from lir_element.opensees.symbols import NotPossibleError, addresses, library_path
 
@@ -66,11 +66,10 @@ def _fingerprint(path: Path) -> str:
 
 def _run_child() -> str:
     # The verdict of a self-test in a process of its own, which may crash.
-    paths = [path or os.getcwd() for path in sys.path]
     try:
         done = subprocess.run(
             [sys.executable, "-m", "lir_element.opensees.selftest"],
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+            env=child_environment(),
             capture_output=True, text=True, timeout=_LONGEST, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
@@ -135,11 +134,7 @@ def _settle(ops: Any) -> list[float]:
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
     ops.load(2, 0.0, 0.0, -_MASS * _GRAVITY, 0.0, 0.0, 0.0)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormDispIncr", 1e-14, 20)
-    ops.algorithm("Newton")
+    _solver(ops)
     ops.integrator("LoadControl", 0.25)
     ops.analysis("Static")
     if ops.analyze(4) != 0:
@@ -153,11 +148,7 @@ def _shake(ops: Any) -> list[float]:
     ops.wipeAnalysis()
     ops.timeSeries("Trig", 2, 0.0, 100.0, 0.4, "-factor", 0.5 * _GRAVITY)
     ops.pattern("UniformExcitation", 2, 3, "-accel", 2)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormDispIncr", 1e-14, 20)
-    ops.algorithm("Newton")
+    _solver(ops)
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
     moves = []
@@ -167,6 +158,14 @@ def _shake(ops: Any) -> list[float]:
             raise NotPossibleError(msg)
         moves.append(ops.nodeDisp(2, 3))
     return moves
+
+
+def _solver(ops: Any) -> None:
+    ops.constraints("Plain")
+    ops.numberer("Plain")
+    ops.system("FullGeneral")
+    ops.test("NormDispIncr", 1e-14, 20)
+    ops.algorithm("Newton")
 
 
 if __name__ == "__main__":

@@ -201,8 +201,7 @@ class Service:
         return key in self._channels and self._channels[key].is_open
 
     def _do_response(self, key: int, name: str) -> Any:
-        hosted = self._hosted[key]
-        return hosted.deformation() if name == "deformation" else hosted.response(name)
+        return self._hosted[key].response(name)
 
     def _do_record(self, key: int, every: int) -> None:
         self._hosted[key].start_recording(every)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lir_element import CoulombFriction, LIRBearing
+from validation.cases import static_bearing
 
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
@@ -14,14 +14,7 @@ pytest.importorskip("psutil")
 from lir_element.opensees import bearing_element, bearing_tags, opensees
 from lir_element.opensees.placement import bearing_axes, place
 
-DEVICE = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.175,
-    friction=CoulombFriction(0.066),
-    interface_friction=0.126,
-)
+DEVICE = static_bearing()
 
 
 @pytest.fixture

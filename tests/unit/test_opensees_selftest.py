@@ -10,21 +10,14 @@ from typing import Any
 
 import pytest
 
-from lir_element import CoulombFriction, LIRBearing
+from validation.cases import static_bearing
 
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
 from lir_element.opensees import RouteWarning, bearing_element, opensees, plugin, selftest, symbols
 
-DEVICE = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.175,
-    friction=CoulombFriction(0.066),
-    interface_friction=0.126,
-)
+DEVICE = static_bearing()
 ABORT = "import os; os.abort()"
 EXCEPTION = "raise RuntimeError('the spring is off')"
 
