@@ -24,7 +24,7 @@ from frames import (
     storey_drift,
     time_history,
 )
-from frames.summary import table_of
+from frames.results.summary import table_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, RunStatus, cyclic_test
 from lir_element.layout import STATE_FIELDS
 

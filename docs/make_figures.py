@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from frames import demo, moment_frame, time_history
-from frames.bearing_geometry import Posture, contact_points, outlines
 from frames.plots import bearing_sections, worst_bearing
+from frames.plots.bearing_geometry import Posture, contact_points, outlines
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 
 if TYPE_CHECKING:

@@ -17,9 +17,11 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from frames.contents import STANDARD_GRAVITY
-from frames.ground_motion import GroundMotion
-from frames.moment_frames import moment_frame
+from frames.analysis.static import gravity
+from frames.analysis.transient import time_history
+from frames.model.contents import STANDARD_GRAVITY
+from frames.model.moment_frames import moment_frame
+from frames.motion.ground_motion import GroundMotion
 from frames.plots import (
     bearing_sections,
     energy,
@@ -29,9 +31,7 @@ from frames.plots import (
     storey_profiles,
     worst_bearing,
 )
-from frames.static import gravity
-from frames.summary import status_of, table_of, write_results
-from frames.transient import time_history
+from frames.results.summary import status_of, table_of, write_results
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 

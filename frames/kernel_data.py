@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.basis import bearing_rows
-from lir_element.contact_data import Contacts, as_rows, contact_arrays
+from frames.assembly.basis import bearing_rows
+from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
+from lir_element.device.features import apply
 from lir_element.element import initial_state
-from lir_element.features import apply
 from lir_element.layout import BODIES, STATE, WORK
 
 if TYPE_CHECKING:
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from frames.assembly import System
-    from frames.basis import Basis
+    from frames.assembly.assemble import System
+    from frames.assembly.basis import Basis
 
     Array = npt.NDArray[Any]
 

@@ -1,12 +1,12 @@
 """The LIR-DCFP bearing and its element; see docs/conventions.md for axes and signs."""
 
-from lir_element.bearing import LIRBearing as LIRBearing
-from lir_element.bearing_checks import DesignWarning as DesignWarning
-from lir_element.cyclic_test import cyclic_test as cyclic_test
+from lir_element.device.bearing import LIRBearing as LIRBearing
+from lir_element.device.bearing_checks import DesignWarning as DesignWarning
+from lir_element.device.features import Features as Features
+from lir_element.device.friction import CoulombFriction as CoulombFriction
+from lir_element.device.friction import VelocityFriction as VelocityFriction
 from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError
 from lir_element.errors import AnalysisWarning as AnalysisWarning
 from lir_element.errors import RunStatus as RunStatus
-from lir_element.features import Features as Features
-from lir_element.friction import CoulombFriction as CoulombFriction
-from lir_element.friction import VelocityFriction as VelocityFriction
+from lir_element.rig.cyclic_test import cyclic_test as cyclic_test

@@ -1,8 +1,8 @@
 """The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash.
 
 numba's own cache does not notice an edit in a *callee* of another file and would go on
-running the old code. The cache folder is therefore named by a hash over the sources of every
-package whose kernels may be inlined.
+running the old code. The cache folder is therefore named by a hash over all sources that can end
+up in compiled code: the kernels of every package involved, and what they import.
 """
 
 from __future__ import annotations
@@ -29,11 +29,21 @@ class KernelDecorator(Protocol):
         ...
 
 
+COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
+            "bundles/*.py", "opensees/block/*.py", "opensees/portable/*.py")  # fmt: skip
+"""Patterns of the sources, in a package, that kernels consist of or import."""
+
+
+def compiled_sources(folder: Path) -> list[Path]:
+    """Return the sources of the package in `folder` that compiled code depends on, sorted."""
+    return sorted({path for pattern in COMPILED for path in folder.glob(pattern)})
+
+
 def source_hash(*folders: Path) -> str:
-    """Return a short hash over the Python sources below `folders` (contents and names)."""
+    """Return a short hash over the sources of the packages in `folders` that kernels depend on."""
     digest = hashlib.sha256()
     for folder in folders:
-        for path in sorted(folder.rglob("*.py")):
+        for path in compiled_sources(folder):
             digest.update(path.relative_to(folder).as_posix().encode())
             digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

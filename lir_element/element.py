@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lir_element import levels
-from lir_element.bearing import STANDARD_GRAVITY
-from lir_element.contact_data import as_rows, contact_arrays, reset
+from lir_element.bundles.contact_data import as_rows, contact_arrays, reset
+from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.device.features import Features, apply
 from lir_element.errors import AnalysisError, RunStatus
-from lir_element.features import Features, apply
+from lir_element.kernels import levels
+from lir_element.kernels.pendulum.trial import has_no_state
 from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
-from lir_element.pendulum_trial import has_no_state
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from lir_element.bearing import LIRBearing
+    from lir_element.device.bearing import LIRBearing
 
 Level = Literal["pendulum", "contact"]
 AnyLevel = Literal["pendulum", "contact", "rigid_body"]

@@ -17,7 +17,7 @@ def main() -> int:
     """Run all claims; return how many do not hold."""
     failed = 0
     for name in CLAIMS:
-        module = import_module(f"validation.{name}")
+        module = import_module(f"validation.claims.{name}")
         page = run(module.CLAIM, module.page)
         failed += page is not None and page.holds != "yes"
     print(f"written to {FOLDER}")

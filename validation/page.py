@@ -118,7 +118,7 @@ class Page:
         needs = f", which reads the record `{claim.record}`" if claim.record else ""
         parts = [
             f"# {claim.title}",
-            f"Written by `python -m validation.{claim.name}`{needs}. "
+            f"Written by `python -m validation.claims.{claim.name}`{needs}. "
             "All claims: [README.md](README.md).",
             table(SUMMARY_HEAD, [summary]),
             table(CHECK_HEAD, rows),
@@ -221,16 +221,19 @@ def index(folder: Path = FOLDER) -> str:
     return "\n\n".join([
         "# Validation: one script a claim",
         "Written by `python -m validation`, which runs all of them; each runs alone, too "
-        "(`python -m validation.static_test`). Claims that need a recorded ground motion are "
+        "(`python -m validation.claims.static_test`). Claims that need a recorded ground motion "
+        "are "
         "skipped where `LIR_RECORDS` names no folder that holds it: the record is not part of "
         "this repository.",
         head + "\n" + "\n".join(rows),
         "Besides: [speed_error.md](speed_error.md), error over cost of every level and step in "
-        "nine scenes (`python -m validation.speed_error`), [hard_cases.md](hard_cases.md), "
-        "what is hard to compute (`python -m validation.hard_cases`), "
+        "nine scenes (`python -m validation.measurements.speed_error`), "
+        "[hard_cases.md](hard_cases.md), "
+        "what is hard to compute (`python -m validation.measurements.hard_cases`), "
         "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
-        "(`python -m validation.opensees_hard_cases`), and [opensees_cost.md](opensees_cost.md), "
-        "what a bearing costs inside OpenSees (`python -m validation.opensees_cost`).",
+        "(`python -m validation.measurements.opensees_hard_cases`), and "
+        "[opensees_cost.md](opensees_cost.md), "
+        "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.validation import require_positive
+from lir_element.door import require_positive
 
 if TYPE_CHECKING:
-    from lir_element.bearing import LIRBearing
+    from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats
 
 _TOLERANCE = 1e-3

@@ -8,16 +8,16 @@ import warnings
 from collections.abc import Sequence
 from typing import Any, Literal
 
-from lir_element.bearing import LIRBearing
+from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
-from lir_element.opensees.connection import add_host_element
-from lir_element.opensees.fast import Grafted
-from lir_element.opensees.hosted import Hosted
+from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.fast.grafted import Grafted
+from lir_element.opensees.fast.selftest import why_not_fast
+from lir_element.opensees.fast.symbols import NotPossibleError
 from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import Placement, place
-from lir_element.opensees.remote import Orphans, Remote, Server, ServerError
-from lir_element.opensees.selftest import why_not_fast
-from lir_element.opensees.symbols import NotPossibleError
+from lir_element.opensees.portable.connection import add_host_element
+from lir_element.opensees.portable.remote import Orphans, Remote, Server, ServerError
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")

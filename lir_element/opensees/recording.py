@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from lir_element.eccentricity import interface_eccentricity
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus, failure_message
 from lir_element.opensees.library import opensees
 from lir_element.opensees.plugin import bearing_at, bearing_tags
-from lir_element.results import (
+from lir_element.results.dataset import (
     bearing_coordinates,
     bearing_variables,
     device_variables,
@@ -21,6 +20,7 @@ from lir_element.results import (
     package_version,
     some_bodies,
 )
+from lir_element.results.eccentricity import interface_eccentricity
 
 if TYPE_CHECKING:
     from lir_element.layout import Records

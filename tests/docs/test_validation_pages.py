@@ -22,7 +22,7 @@ def text_of(name: str) -> str:
 def test_every_script_is_listed():
     found = {
         path.stem
-        for path in PACKAGE.glob("*.py")
+        for path in (PACKAGE / "claims").glob("*.py")
         if re.search(r"^CLAIM = ", path.read_text(encoding="utf-8"), re.MULTILINE)
     }
     assert found == set(CLAIMS)
@@ -30,19 +30,19 @@ def test_every_script_is_listed():
 
 @claims
 def test_a_script_names_its_claim(name):
-    module = import_module(f"validation.{name}")
+    module = import_module(f"validation.claims.{name}")
     claim = module.CLAIM
     assert claim.name == name
     assert claim.statement
     assert claim.source
     assert callable(module.page)
-    assert f"python -m validation.{name}" in module.__doc__
+    assert f"python -m validation.claims.{name}" in module.__doc__
     assert "Source" in module.__doc__
 
 
 @claims
 def test_a_script_has_its_page(name):
-    claim = import_module(f"validation.{name}").CLAIM
+    claim = import_module(f"validation.claims.{name}").CLAIM
     text = text_of(name)
     assert text.startswith(f"# {claim.title}\n")
     assert f"| {claim.statement} | {claim.source} |" in text
@@ -63,7 +63,7 @@ def test_the_index_is_that_of_the_pages():
 @pytest.mark.parametrize("name", MEASUREMENTS)
 def test_measurements_are_in_the_index(name):
     assert f"({name}.md)" in text_of("README")
-    assert f"python -m validation.{name}" in text_of(name)
+    assert f"python -m validation.claims.{name}" in text_of(name)
 
 
 def test_pages_and_figures_belong_to_claims():

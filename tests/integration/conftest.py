@@ -10,7 +10,7 @@ import xarray as xr
 from frames import Frame, GroundMotion, energy_error, time_history
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.opensees import bearing_element, bearing_tags, opensees
-from lir_element.opensees.selftest import why_not_fast
+from lir_element.opensees.fast.selftest import why_not_fast
 
 LEDGER = 1e-3  # of the input
 

@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame, GroundMotion, Section, gravity, lumped_mass
-from frames.parts import DOFS
+from frames.model.parts import DOFS
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.rotation import rotate
+from lir_element.kernels.rotation import rotate
 
 DT, MASS, HEIGHT, G = 0.005, 1e5, 4.0, 9.80665
 E, I_COLUMN = 2e11, 6e-4

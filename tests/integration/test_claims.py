@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames.bearing_geometry import slider_axis
-from validation import (
+from frames.plots.bearing_geometry import slider_axis
+from validation.articulated import Articulated
+from validation.body_motion import body_motion
+from validation.cases import LEVELS_HISTORY, LEVELS_STATIC, example_bearing
+from validation.claims import (
     bouc_wen_drift,
     double_pendulum,
     newhall,
@@ -17,9 +20,6 @@ from validation import (
     shake_table,
     static_test,
 )
-from validation.articulated import Articulated
-from validation.body_motion import body_motion
-from validation.cases import LEVELS_HISTORY, LEVELS_STATIC, example_bearing
 from validation.page import records, run, write
 
 

@@ -22,7 +22,7 @@ from frames import (
     time_history,
 )
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
-from lir_element.rotation import rotate
+from lir_element.kernels.rotation import rotate
 
 DT = 0.005
 EACH = ("time", "bearing")

@@ -15,7 +15,7 @@ from frames import (
     moment_frame,
     shear_building,
 )
-from frames.scene import exact_features, plane_coupling
+from frames.analysis.scene import exact_features, plane_coupling
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 DT = 0.004

@@ -18,14 +18,14 @@ from frames import (
     storey_drift,
     transient,
 )
-from frames.summary import table_of
+from frames.results.summary import table_of
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
-from lir_element.bearing import STANDARD_GRAVITY as G
-from validation.opensees_frames import add_loads, build
-from validation.opensees_isolators import add_ground, damp, put_on_isolators, spring, waves
-from validation.opensees_model import gravity_analysis, solver, static_steps
-from validation.opensees_runs import respond
-from validation.opensees_superstructure import BEAM, COLUMN, PENDULUM
+from lir_element.device.bearing import STANDARD_GRAVITY as G
+from validation.claims.opensees_superstructure import BEAM, COLUMN, PENDULUM
+from validation.opensees.frames import add_loads, build
+from validation.opensees.isolators import add_ground, damp, put_on_isolators, spring, waves
+from validation.opensees.model import gravity_analysis, solver, static_steps
+from validation.opensees.runs import respond
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"

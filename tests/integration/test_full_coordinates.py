@@ -8,8 +8,9 @@ definition (it acts on the motion relative to what follows the bearings quasi-st
 import numpy as np
 from numpy.testing import assert_allclose
 
-from frames import Frame, GroundMotion, RayleighDamping, gravity, moment_frame, transient
-from frames.basis import bearing_rows
+from frames import Frame, GroundMotion, RayleighDamping, gravity, moment_frame
+from frames.analysis import transient
+from frames.assembly.basis import bearing_rows
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction
 
 DT, STEPS = 0.005, 240

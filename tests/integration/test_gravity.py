@@ -17,7 +17,7 @@ from frames import (
     lumped_mass,
     moment_frame,
 )
-from frames.basis import bearing_rows
+from frames.assembly.basis import bearing_rows
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 
 G = 9.80665

@@ -6,8 +6,8 @@ import pytest
 
 from frames import time_history
 from lir_element.errors import AnalysisWarning
-from validation.hard_cases import compare, outcome
-from validation.hard_scenes import (
+from validation.measurements.hard_cases import compare, outcome
+from validation.measurements.hard_scenes import (
     creeping,
     impact,
     pulsed,

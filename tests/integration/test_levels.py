@@ -32,7 +32,7 @@ from lir_element import (
     VelocityFriction,
     cyclic_test,
 )
-from lir_element.sliders import slider_record
+from lir_element.device.sliders import slider_record
 
 W = 150e3
 PAPER: dict[str, Any] = {

@@ -1,13 +1,13 @@
-"""The levels against rigid bodies in the scenes of validation.speed_error, at one step."""
+"""The levels against rigid bodies in the scenes of the speed-error measurement, at one step."""
 
 from dataclasses import replace
 
 import pytest
 
+from validation.measurements.speed_error import GOALS
+from validation.measurements.speed_runs import history
 from validation.measures import errors
 from validation.scenes import made_scenes
-from validation.speed_error import GOALS
-from validation.speed_runs import history
 
 STEP = 5e-3
 SCENES = {scene.name: scene for scene in made_scenes()}

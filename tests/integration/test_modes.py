@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy import linalg
 
 from frames import ModelError, gravity, lumped_mass, modes, moment_frame, shear_building
-from frames.basis import bearing_rows
+from frames.assembly.basis import bearing_rows
 from lir_element import CoulombFriction, Element, LIRBearing
 
 G = 9.80665

@@ -23,7 +23,7 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
-from validation.opensees_model import (
+from validation.opensees.model import (
     gravity_analysis,
     lead,
     solver,
@@ -32,7 +32,7 @@ from validation.opensees_model import (
     transient_steps,
     weigh_down,
 )
-from validation.opensees_runs import cycle, lumped
+from validation.opensees.runs import cycle, lumped
 
 LOAD = 500e3
 MASS = LOAD / 9.80665

@@ -10,13 +10,10 @@ pytest.importorskip("openseespy")
 
 from frames import GroundMotion
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
-from lir_element.bearing import STANDARD_GRAVITY
+from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
-from validation import static_test
-from validation.hard_scenes import impact, vertical
-from validation.opensees_devices import DEVICES, macro
-from validation.opensees_hard_cases import cases, energies, kinds
-from validation.opensees_macro_model import (
+from validation.claims import static_test
+from validation.claims.opensees_macro_model import (
     Loop,
     element_force,
     loops,
@@ -24,9 +21,12 @@ from validation.opensees_macro_model import (
     series_with_mu_h,
     static_checks,
 )
-from validation.opensees_model import ABOVE, BELOW, stand
-from validation.opensees_trials import PLAIN, ROBUST, load_down, pull, shake, take_back
-from validation.opensees_worker import Worker
+from validation.measurements.hard_scenes import impact, vertical
+from validation.measurements.opensees_hard_cases import cases, energies, kinds
+from validation.opensees.devices import DEVICES, macro
+from validation.opensees.model import ABOVE, BELOW, stand
+from validation.opensees.trials import PLAIN, ROBUST, load_down, pull, shake, take_back
+from validation.opensees.worker import Worker
 from validation.scenes import MASS
 
 LOAD = 150e3

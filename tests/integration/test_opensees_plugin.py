@@ -8,7 +8,7 @@ import pytest
 from frames import GroundMotion, lumped_mass, time_history
 from lir_element import Element
 from lir_element.opensees import bearing_response
-from validation.opensees_runs import lumped
+from validation.opensees.runs import lumped
 
 LEVELS = ("pendulum", "contact")
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from frames.plot_loops import hysteresis, orbits
+from frames.plots.plot_loops import hysteresis, orbits
 from lir_element import Element
 from lir_element.opensees import bearing_response, record_bearings
 

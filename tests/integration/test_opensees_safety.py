@@ -21,8 +21,8 @@ import psutil
 
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_response
+from lir_element.opensees.fast.selftest import why_not_fast
 from lir_element.opensees.plugin import _SESSION
-from lir_element.opensees.selftest import why_not_fast
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
@@ -37,7 +37,7 @@ import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
 from tests.integration.conftest import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
-from lir_element.opensees import connection
+from lir_element.opensees.portable import connection
 from lir_element.opensees.plugin import _SESSION
 
 ops = opensees()

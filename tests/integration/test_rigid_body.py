@@ -13,11 +13,11 @@ from scipy.spatial.transform import Rotation
 
 from frames import Frame, GroundMotion, energy_error, gravity, lumped_mass, time_history
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.contact_data import as_rows
+from lir_element.bundles.contact_data import as_rows
+from lir_element.bundles.rigid_data import RigidInput, rigid_run, rigid_setup, state_words
+from lir_element.device.sliders import slider_record
+from lir_element.kernels.rigid_body.march import march, start
 from lir_element.layout import BODIES
-from lir_element.rigid_data import RigidInput, rigid_run, rigid_setup, state_words
-from lir_element.rigid_march import march, start
-from lir_element.sliders import slider_record
 
 MASS, G = 15e3, 9.80665
 OPTIONS: dict[str, Any] = {

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import lir_element
+from lir_element._jit import compiled_sources
 
 ROOT = Path(lir_element.__file__).parents[1]
 PACKAGES = ("lir_element", "frames", "validation")
@@ -20,14 +21,12 @@ ALLOWED = {
     "frames": {"frames", "lir_element"},
     "validation": set(PACKAGES),
 }
-KERNEL_MODULES = {
-    "lir_element": [
-        "condensed", "contact", "contact_pairs", "contact_state", "cyclic_kernel", "levels",
-        "linear", "pendulum", "pendulum_axial", "pendulum_nodes", "pendulum_solve",
-        "pendulum_tangent", "pendulum_trial", "pendulum_work", "rigid_body", "rigid_march",
-        "rotation", "sampling", "slider_motion", "slip",
-    ],
-}  # fmt: skip
+KERNELS = [path for path in MODULES if "kernels" in path.relative_to(ROOT).parts]
+# What makes pointers of addresses: code generators, which kernels call like kernels.
+ADDRESSES = [ROOT / "lir_element/opensees/block/pointers.py"]
+FOREIGN = {"numba.carray"}
+DECORATORS = {"kernel", "inlined", "intrinsic", "entry_point"}
+BUNDLES = {"lir_element.errors.RunStatus", "lir_element.bundles.contact_data.Contacts"}
 
 modules = pytest.mark.parametrize(
     "path", MODULES, ids=[p.relative_to(ROOT).as_posix() for p in MODULES]
@@ -55,9 +54,8 @@ def functions(tree: ast.AST) -> list[ast.FunctionDef]:
 
 
 def is_kernel(function: ast.FunctionDef) -> bool:
-    return any(
-        isinstance(d, ast.Name) and d.id in {"kernel", "inlined"} for d in function.decorator_list
-    )
+    decorators = [d.func if isinstance(d, ast.Call) else d for d in function.decorator_list]
+    return any(isinstance(d, ast.Name) and d.id in DECORATORS for d in decorators)
 
 
 def test_there_is_something_to_check() -> None:
@@ -72,41 +70,61 @@ def test_imports_point_one_way(path: Path) -> None:
     assert own <= ALLOWED[package]
 
 
-@pytest.mark.parametrize("name", KERNEL_MODULES["lir_element"])
-def test_kernels_know_no_classes(name: str) -> None:
-    """Kernel files hold kernels alone; of the package they import other kernels, and RunStatus."""
-    tree = parse(ROOT / "lir_element" / f"{name}.py")
+def dotted(path: Path) -> str:
+    """Return the name by which a file is imported."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def at_runtime(path: Path) -> ast.Module:
+    """Return the module without what only annotations need."""
+    tree = parse(path)
+    tree.body = [
+        n for n in tree.body if not (isinstance(n, ast.If) and "TYPE_CHECKING" in ast.dump(n.test))
+    ]
+    return tree
+
+
+def needed_modules(path: Path) -> set[Path]:
+    """Return the files of the packages that a module imports at runtime."""
+    files = {dotted(p): p for p in MODULES}
+    names = imported(at_runtime(path), "")
+    return {files[m] for n in names for m in (n, n.rpartition(".")[0]) if m in files}
+
+
+@pytest.mark.parametrize("path", KERNELS, ids=[dotted(p) for p in KERNELS])
+def test_kernels_know_no_classes(path: Path) -> None:
+    """Kernel files hold kernels alone; of the packages they import other kernels and constants."""
+    tree = at_runtime(path)
     kernels = {
-        f"lir_element.{other}.{f.name}"
-        for other in KERNEL_MODULES["lir_element"]
-        for f in functions(parse(ROOT / "lir_element" / f"{other}.py"))
+        f"{dotted(other)}.{f.name}"
+        for other in (*KERNELS, *ADDRESSES)
+        for f in functions(parse(other))
         if is_kernel(f)
     }
-    types_only = [
-        node for node in tree.body if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node)
-    ]
-    for node in types_only:
-        tree.body.remove(node)
-    own = {n for n in imported(tree, "lir_element") if n.startswith("lir_element")}
-    allowed = kernels | {"lir_element._jit.kernel", "lir_element.errors.RunStatus"}
-    constants = {n for n in own if n.rsplit(".", 1)[-1].isupper()}
-    assert own - constants <= allowed
+    own = {n for n in imported(tree, "") if n.split(".")[0] in PACKAGES}
+    named = {n for n in own if n.rsplit(".", 1)[-1].isupper()}
+    decorators = {n for n in own if n.split(".")[1] == "_jit"}
+    assert own - named - decorators - kernels <= BUNDLES
     assert not [n for n in ast.walk(tree) if isinstance(n, ast.ClassDef)]
     assert all(is_kernel(f) for f in functions(tree))
-    others = imported(tree, "lir_element") - own
-    assert others <= {"math", "typing.TYPE_CHECKING", "__future__.annotations"}
+    others = {n for n in imported(tree, "") if n not in own}
+    assert others <= {"math", "typing.TYPE_CHECKING", "__future__.annotations", *FOREIGN}
     # no exceptions, no allocation in the step
     forbidden = (ast.Raise, ast.Try, ast.ListComp, ast.Dict, ast.Lambda, ast.JoinedStr)
     assert not [n for n in ast.walk(tree) if isinstance(n, forbidden)]
 
 
-def test_every_kernel_module_is_listed() -> None:
-    found = [
-        path.stem
-        for path in sorted((ROOT / "lir_element").glob("*.py"))
-        if any(is_kernel(f) for f in functions(parse(path)))
-    ]
-    assert found == KERNEL_MODULES["lir_element"]
+def test_every_kernel_is_in_a_room_of_kernels() -> None:
+    product = [path for path in MODULES if path.relative_to(ROOT).parts[0] in PACKAGES[:2]]
+    found = {path for path in product if any(is_kernel(f) for f in functions(parse(path)))}
+    assert found <= {*KERNELS, *ADDRESSES}
+
+
+def test_the_cache_depends_on_all_that_kernels_import() -> None:
+    hashed = {p for name in PACKAGES[:2] for p in compiled_sources(ROOT / name)}
+    needed = {needed for path in KERNELS for needed in needed_modules(path)}
+    assert {*KERNELS, *needed} <= hashed
 
 
 @modules

@@ -15,16 +15,16 @@ import scipy.linalg
 from numpy.testing import assert_allclose
 from scipy.sparse.linalg import spsolve
 
-from frames.assembly import (
+from frames.assembly.assemble import (
     System,
     assemble,
     geometric_stiffness,
     member_axial_forces,
     member_end_forces,
 )
-from frames.library import moment_frame
-from frames.model import Frame
-from frames.sections import Section
+from frames.model.frame import Frame
+from frames.model.library import moment_frame
+from frames.model.sections import Section
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

@@ -21,9 +21,9 @@ from frames import (
     save,
     time_history,
 )
-from frames.auditing import centre_shift, is_missing, needed_level
+from frames.results.auditing import centre_shift, is_missing, needed_level
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
-from lir_element.eccentricity import interface_eccentricity
+from lir_element.results.eccentricity import interface_eccentricity
 
 DT = 0.005
 MASS = 3e4

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lir_element import CoulombFriction, Element, LIRBearing
-from lir_element.levels import bearing_trial
+from lir_element.kernels.levels import bearing_trial
 
 BEARING = LIRBearing(
     radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.25, design_load=286.73e3,

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from lir_element.device.sliders import point_records, slider_record
 from lir_element.layout import PROPS_FIELDS
-from lir_element.sliders import point_records, slider_record
 
 PAPER: dict[str, Any] = {  # static cyclic test, section 2.2 of the paper
     "radius": 0.75,

@@ -14,11 +14,11 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from lir_element import LIRBearing, VelocityFriction
-from lir_element.contact import bond, clear_pair, plane, rim, sphere
-from lir_element.contact_data import contact_arrays
-from lir_element.contact_pairs import locate, matrix_of, press, turn_between, turn_by
+from lir_element.bundles.contact_data import contact_arrays
+from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
+from lir_element.kernels.contact.pairs import locate, matrix_of, press, turn_between, turn_by
+from lir_element.kernels.linear import solve_many
 from lir_element.layout import BODIES, SCRATCH, TOUCH
-from lir_element.linear import solve_many
 
 OPTIONS: dict[str, Any] = {
     "radius": (0.75, 1.1),

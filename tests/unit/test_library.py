@@ -14,12 +14,12 @@ import scipy.linalg
 from numpy.testing import assert_allclose
 
 from frames._validate import ModelError
-from frames.assembly import System, assemble, member_axial_forces
-from frames.damping import ModalDamping, RayleighDamping
-from frames.library import lumped_mass, moment_frame, shear_building
-from frames.model import Frame
-from frames.parts import bearing_axial_stiffness
-from frames.sections import Section
+from frames.assembly.assemble import System, assemble, member_axial_forces
+from frames.model.damping import ModalDamping, RayleighDamping
+from frames.model.frame import Frame
+from frames.model.library import lumped_mass, moment_frame, shear_building
+from frames.model.parts import bearing_axial_stiffness
+from frames.model.sections import Section
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

@@ -13,8 +13,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from frames._validate import ModelError
-from frames.axes import default_up, local_axes, matrix_to_global, to_global, to_local
-from frames.members import (
+from frames.assembly.members import (
     MemberArrays,
     fixed_end_forces,
     local_geometric_stiffness,
@@ -22,7 +21,8 @@ from frames.members import (
     member_arrays,
     spring_stiffness,
 )
-from frames.sections import Section
+from frames.model.axes import default_up, local_axes, matrix_to_global, to_global, to_local
+from frames.model.sections import Section
 
 Array = npt.NDArray[np.float64]
 

@@ -12,10 +12,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames._validate import ModelError
-from frames.damping import ModalDamping, RayleighDamping
-from frames.model import Frame
-from frames.parts import bearing_axial_stiffness
-from frames.sections import Section
+from frames.model.damping import ModalDamping, RayleighDamping
+from frames.model.frame import Frame
+from frames.model.parts import bearing_axial_stiffness
+from frames.model.sections import Section
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

@@ -10,12 +10,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from frames import check
-from frames.assembly import assemble
-from frames.check import ModelError, free_motions
-from frames.library import lumped_mass, moment_frame
-from frames.model import Frame
-from frames.sections import Section
+from frames.assembly import check
+from frames.assembly.assemble import assemble
+from frames.assembly.check import ModelError, free_motions
+from frames.model.frame import Frame
+from frames.model.library import lumped_mass, moment_frame
+from frames.model.sections import Section
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

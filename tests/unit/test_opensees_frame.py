@@ -10,10 +10,10 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 
 from frames import Frame, ModelError, ModelWarning
-from frames.opensees_checks import refuse_unsymmetric
-from frames.opensees_model import read_model
+from frames.opensees.checks import refuse_unsymmetric
+from frames.opensees.model import read_model
 from lir_element import CoulombFriction, LIRBearing
-from validation.opensees_model import gravity_analysis, permanent_loads
+from validation.opensees.model import gravity_analysis, permanent_loads
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"

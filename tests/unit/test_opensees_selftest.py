@@ -15,7 +15,8 @@ from validation.cases import static_bearing
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
-from lir_element.opensees import RouteWarning, bearing_element, opensees, plugin, selftest, symbols
+from lir_element.opensees import RouteWarning, bearing_element, opensees, plugin
+from lir_element.opensees.fast import selftest, symbols
 
 DEVICE = static_bearing()
 ABORT = "import os; os.abort()"

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
 from frames import GroundMotion, moment_frame, plots, time_history
-from frames.bearing_drawing import impact_direction, impact_instants
-from frames.bearing_geometry import (
+from frames.plots.bearing_drawing import impact_direction, impact_instants
+from frames.plots.bearing_geometry import (
     Posture,
     area_of,
     contact_points,
@@ -23,7 +23,7 @@ from frames.bearing_geometry import (
     rim_height,
     slider_axis,
 )
-from frames.plot_style import PALETTE, as_systems, engineering, label_of, worst_bearing
+from frames.plots.plot_style import PALETTE, as_systems, engineering, label_of, worst_bearing
 from lir_element import CoulombFriction, LIRBearing
 
 BEARING = LIRBearing(
@@ -286,7 +286,7 @@ def test_energy_areas_add_up_to_the_input(results: dict[str, xr.Dataset]) -> Non
 
 
 def _groups() -> dict:
-    from frames.plot_summaries import ENERGY_GROUPS
+    from frames.plots.plot_summaries import ENERGY_GROUPS
 
     return ENERGY_GROUPS
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from lir_element.rotation import coefficients, rotate
+from lir_element.kernels.rotation import coefficients, rotate
 
 SEAM = 2.5e-3  # of the squared angle: below it a series, above it closed forms
 ANGLE = st.floats(-3.0, 3.0)

@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import dblquad, quad
 
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.contact_data import as_rows, contact_arrays
-from lir_element.sliders import (
+from lir_element.bundles.contact_data import as_rows, contact_arrays
+from lir_element.device.sliders import (
     half_slider,
     initial_touches,
     lower_height,

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from lir_element.slip import (
+from lir_element.kernels.slip import (
     friction_coefficient,
     friction_map,
     kelvin_voigt,

@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 
 from frames import Frame, ModelError, Section
-from frames.assembly import assemble
-from frames.elimination import eliminate, separate_massless
+from frames.assembly.assemble import assemble
+from frames.assembly.elimination import eliminate, separate_massless
 
 SECTION = Section.box(0.3, 0.3, 0.01)
 

@@ -1,0 +1,1 @@
+"""Gravity, modes, time histories."""

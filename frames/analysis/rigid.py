@@ -1,0 +1,258 @@
+"""The level 'rigid_body': one bearing and what stands on it, as a time history."""
+
+from __future__ import annotations
+
+import math
+from time import perf_counter
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from frames._validate import ModelError
+from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.static import gravity
+from frames.assembly.basis import bearing_rows
+from frames.kernel_data import ENERGY_TERMS, Output, output_arrays
+from frames.results.auditing import audit_report
+from lir_element.bundles.contact_data import as_rows
+from lir_element.bundles.rigid_data import (
+    DEFAULT_TOLERANCE,
+    FIRST_STEP,
+    RigidInput,
+    rigid_run,
+    rigid_setup,
+    stable_step,
+    state_words,
+)
+from lir_element.element import limit_detail
+from lir_element.errors import RunStatus
+from lir_element.kernels.rigid_body.march import march, start
+from lir_element.layout import BODIES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+    from frames._types import FloatArray, IntArray
+    from frames.analysis.static import GravityState
+    from frames.model.frame import Frame
+    from frames.motion.ground_motion import GroundMotion
+    from lir_element.bundles.rigid_data import RigidRun, RigidSetup
+    from lir_element.layout import Records
+
+LARGEST_STEP = 0.005
+"""Largest time between outputs that the program chooses [s]."""
+
+Outcome: TypeAlias = tuple[RunStatus, float, str, str]
+"""Status, time [s], place and detail."""
+
+_CHUNKS = 50
+_TERMS = {"input": 0, "gravity": 1, "kinetic": 2, "numerical": 3}
+_WORKS = {
+    "high_friction": "work_interface",
+    "friction_elastic": "work_elastic",
+    "contact": "work_contact",
+    "sliders": "work_sliders",
+}
+
+
+def rigid_time_history(
+    model: Frame,
+    motion: GroundMotion,
+    length: float,
+    dt: float | None,
+    *,
+    integrator: str | None,
+    tolerance: float | None,
+    record_every: int,
+    progress: Callable[[float], None] | None,
+) -> tuple[xr.Dataset, Outcome]:
+    """Analyse one bearing with a mass on it as rigid bodies in contact.
+
+    Parameters
+    ----------
+    model : Frame
+        One bearing on the ground and the mass on it.
+    motion : GroundMotion
+        Acceleration of the ground.
+    length : float
+        Length of the analysis [s].
+    dt : float or None
+        Implicit: largest step, and time between outputs; None: that of the motion, at most 5 ms.
+        Explicit: the step; None: half the stability limit.
+    integrator : {None, "explicit"}
+        None: Bossak's method with control of the error.
+    tolerance : float or None
+        Error of a step over the effective radius [-]; None: 1e-8.
+    record_every, progress
+        As for `time_history`; in the explicit mode outputs are those of the motion's step.
+
+    Returns
+    -------
+    tuple
+        The Dataset (docs/results.md), and status, time, place and detail of its end.
+
+    Raises
+    ------
+    ModelError
+        If the model is more than one bearing on the ground with a mass on it.
+    ValueError
+        If the integrator is not one of this level, or the explicit step is not stable.
+    """
+    if integrator not in (None, "explicit"):
+        msg = f'integrator = {integrator!r}: level="rigid_body" has None (implicit) or "explicit"'
+        raise ValueError(msg)
+    own_step = min(motion.dt, LARGEST_STEP)
+    interval = record_every * (own_step if dt is None or integrator == "explicit" else dt)
+    steps = max(1, math.ceil(length / interval - 1e-9))
+    began = perf_counter()
+    state = gravity(model, level="contact")
+    run = _prepare(state)
+    explicit = _explicit_step(state, run, dt) if integrator == "explicit" else 0.0
+    given, states, bodies = _input(state, motion, interval, steps + 1)
+    chosen = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    length_scale = state.system.bearings[0][3].effective_radius
+    setup = rigid_setup(length_scale, interval / record_every, tolerance=chosen, explicit=explicit)
+    run.clock[1] = min(FIRST_STEP, interval)
+    prepared = perf_counter()
+    code = _march(run, given, setup, progress)
+    finished = perf_counter()
+    count = int(run.counters[3])
+    out = _output(state, given, states, bodies)
+    peak = peak_velocity(motion, float(out.time[count - 1]))
+    data = build_dataset(model, state, motion, peak, out, states[:, None], bodies[:, None], count)
+    data.attrs |= {
+        "title": f"time history of {model.name}",
+        "motion": motion.name,
+        "level": "rigid_body",
+        "method": "direct",
+        "integrator": "explicit" if explicit else "bossak",
+        "dt": float(explicit or interval / record_every),
+        "step_control": "fixed" if explicit else "error",
+        "tolerance": float(chosen),
+        "steps": int(run.counters[0]),
+        "refused_steps": int(run.counters[1]),
+        "degrees_of_freedom": 12 + int(run.free[12:].sum()),
+        "seconds_gravity": prepared - began,
+        "seconds_loop": finished - prepared,
+        "features_left_out": "none",
+        "plane_coupling": 0.0,
+    }
+    data.attrs["audit"] = audit_report(data)
+    where = f'bearing "{state.system.bearings[0][0]}"'
+    detail = limit_detail(run.props, run.states[2:], 0)
+    return data, (RunStatus(code), float(run.clock[0]), where, detail)
+
+
+def _march(
+    run: RigidRun, given: RigidInput, setup: RigidSetup, progress: Callable[[float], None] | None
+) -> int:
+    # The compiled loop in chunks; returns the status code.
+    start(run, given)
+    count = len(given.times)
+    chunk = count if progress is None else max(1, -(-count // _CHUNKS))
+    for first in range(1, count, chunk):
+        last = min(first + chunk, count)
+        code = march(run, given, setup, first, last)
+        if code != int(RunStatus.OK):
+            return code
+        if progress is not None:
+            progress((last - 1) / (count - 1))
+    return int(RunStatus.OK)
+
+
+def _prepare(state: GravityState) -> RigidRun:
+    mass, inertia, free = _top_plate(state)
+    if state.contacts is None:
+        msg = "the equilibrium is not at the level 'contact'"
+        raise AssertionError(msg)
+    return rigid_run(
+        state.model.props, state.contacts, state.run.old.copy(), mass, inertia, free, driven=False
+    )
+
+
+def _input(
+    state: GravityState, motion: GroundMotion, interval: float, count: int
+) -> tuple[RigidInput, Records, Records]:
+    # What the run is given, and where it writes: states and bodies (count,).
+    states, words = state_words(count)
+    bodies = np.zeros(count, dtype=BODIES)
+    node = state.system.bearings[0][2]
+    load = np.tile(state.system.node_load[6 * node : 6 * node + 6], (count, 1))
+    given = RigidInput(
+        motion=np.ascontiguousarray(motion.components), motion_dt=float(motion.dt),
+        times=np.arange(count, dtype=np.float64) * interval, drive=np.zeros((count, 2)),
+        load=load, words=words, bodies=as_rows(bodies), energy=np.zeros((count, 6)),
+    )  # fmt: skip
+    return given, states, bodies
+
+
+def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
+    # Mass, inertia and free degrees of freedom of the node above; refuses anything else.
+    system = state.system
+    message = ""
+    if len(system.bearings) != 1:
+        message = f"it has {len(system.bearings)} bearings, the level takes one"
+    elif system.stiffness.nnz and np.abs(system.stiffness.data).max() > 0.0:
+        message = "it has members or springs, the level takes a mass on a bearing"
+    elif system.damping.nnz:
+        message = "it has a damping matrix, the level takes a mass on a bearing"
+    rows = bearing_rows(system).toarray()
+    if not message and rows[:6].any():
+        message = "node i of its bearing is not fixed"
+    if not message and len(state.basis.bearing_dofs) != rows.shape[1]:
+        message = "it has degrees of freedom away from its bearing"
+    if message:
+        msg = (
+            f'level = "rigid_body" cannot take this model: {message}; use level="contact" or '
+            "lumped_mass(bearing, mass)"
+        )
+        raise ModelError(msg)
+    free: IntArray = np.array([row.any() for row in rows[6:]], dtype=np.int64)
+    node = system.bearings[0][2]
+    masses = system.node_mass[node]
+    lacking = [name for a, name in enumerate("xyzxyz") if free[a] and not masses[a] > 0.0]
+    if lacking:
+        msg = (
+            f'level = "rigid_body": node "{system.node_names[node]}" is free but has no mass or '
+            f"rotational inertia along or about {lacking[0]}: give it with add_mass, or fix it"
+        )
+        raise ModelError(msg)
+    return np.where(masses[:3] > 0.0, masses[:3], 1.0), masses[3:].copy(), free
+
+
+def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -> float:
+    load = 4.0 * float(np.abs(state.system.load).sum())
+    limit = stable_step(run.sliders, run.props, load)
+    if explicit is None:
+        return limit
+    if explicit > 2.0 * limit:
+        msg = (
+            f"dt = {explicit:g} s is too large for the explicit mode: at most {2.0 * limit:.3g} s "
+            "is stable with these sliders and contacts; take less, or leave dt out"
+        )
+        raise ValueError(msg)
+    return float(explicit)
+
+
+def _output(state: GravityState, given: RigidInput, states: Records, bodies: Records) -> Output:
+    count = len(given.times)
+    out, _, _ = output_arrays(state.model, None, count)
+    rows = bearing_rows(state.system).toarray()[6:]
+    dofs = [int(np.flatnonzero(rows[:, k])[0]) for k in state.basis.bearing_dofs]
+    plate = np.concatenate([bodies["velocity"][:, 2], bodies["spin"][:, 2]], axis=1)
+    rates = np.concatenate([bodies["acceleration"][:, 2], bodies["spin_rate"][:, 2]], axis=1)
+    out.time[:] = given.times
+    out.b[:] = states["displacement"][:, 6:][:, dofs]
+    out.v_b[:], out.a_b[:] = plate[:, dofs], rates[:, dofs]
+    for k, term in enumerate(ENERGY_TERMS):
+        if term in _TERMS:
+            out.energy[:, k] = given.energy[:, _TERMS[term]]
+        elif term in _WORKS:
+            out.energy[:, k] = states[_WORKS[term]]
+    places = {term: k for k, term in enumerate(ENERGY_TERMS)}
+    out.energy[:, places["low_friction_bottom"]] = states["work_friction"][:, 0]
+    out.energy[:, places["low_friction_top"]] = states["work_friction"][:, 1]
+    out.energy[:, places["rims"]] = states["work_rim"].sum(axis=1)
+    return out

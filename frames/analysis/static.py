@@ -1,0 +1,351 @@
+"""Gravity and modes: the state a time history starts from, and the periods an engineer checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from scipy import linalg, sparse
+from scipy.sparse.linalg import spsolve
+
+from frames._validate import ModelError
+from frames.assembly.assemble import assemble, geometric_stiffness, member_axial_forces
+from frames.assembly.basis import Basis, bearing_rows, build_basis
+from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
+from frames.kernels.stepping import solve_gravity
+from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
+from lir_element.element import ALL_LEVELS, LEVELS, limit_detail
+from lir_element.errors import AnalysisError, RunStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.assemble import System
+    from frames.model.frame import Frame
+    from lir_element import Features
+    from lir_element.bundles.contact_data import Contacts
+
+_FORCE_TOLERANCE = 1e-9  # of the total weight
+_MAX_ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class GravityState:
+    """A frame in equilibrium under its permanent loads.
+
+    Attributes
+    ----------
+    system : System
+        Matrices over the free degrees of freedom.
+    geometric : csr_array, (n_free, n_free)
+        Geometric stiffness of the members under gravity.
+    member_forces : ndarray, (n_members,)
+        The members' axial forces it was made with, tension positive [N].
+    basis : Basis
+        The frame in bearing coordinates.
+    model, run : Model, Run
+        What the kernels work on; `run` holds the equilibrium as committed state.
+    contacts : Contacts or None
+        Sliders of the bearings at the level 'contact'.
+    displacement : ndarray, (n_free,)
+        Displacements q under gravity.
+    axial_forces : ndarray, (n_bearings,)
+        Axial forces of the bearings, compression positive [N].
+    """
+
+    system: System
+    geometric: SparseMatrix
+    member_forces: FloatArray
+    basis: Basis
+    model: Model
+    run: Run
+    contacts: Contacts | None
+    displacement: FloatArray
+    axial_forces: FloatArray
+
+
+def gravity(
+    frame: Frame,
+    features: Features | None = None,
+    level: str | Mapping[str, str] = "pendulum",
+) -> GravityState:
+    """Bring a frame into equilibrium under its permanent loads.
+
+    The members' axial forces of a first, linear solution give the geometric stiffness; the
+    bearings are then solved with all their nonlinearity, so that their axial forces are those of
+    the equilibrium.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model, with at least one bearing.
+    features : Features, optional
+        What is modelled; everything if None. Without vertical coupling the equilibrium is sought
+        again, the bearings' axial forces of the first one being their constant loads.
+    level : str or mapping
+        Level of fidelity of the bearings, one for all or by name of bearing ("pendulum" for those
+        that it does not name).
+
+    Returns
+    -------
+    GravityState
+        The equilibrium.
+
+    Raises
+    ------
+    ModelError
+        If the model cannot work, or is unstable under its permanent loads.
+    AnalysisError
+        If there is no equilibrium, or a bearing carries no compression.
+    """
+    levels = levels_of(tuple(frame.bearings), level)
+    points = [name for name, own in levels.items() if own == "contact"]
+    system = assemble(frame, features, points)
+    if not system.bearings:
+        message = "the frame has no bearing: add one with add_bearing"
+        raise ModelError(message)
+    springs = guessed_springs(system, points)
+    linear = spsolve(sparse.csc_array(system.stiffness + springs), system.load)
+    member_forces = member_axial_forces(system, linear)
+    geometric = geometric_stiffness(system, member_forces)
+    basis = build_basis(system, geometric, frame.damping)
+    model, run, contacts = _equilibrium(system, basis, linear, levels, None)
+    axial_forces = np.array(run.old["axial_force"])
+    if not system.features.vertical_coupling:
+        load = -run.old["force"][:, 8]
+        model, run, contacts = _equilibrium(system, basis, linear, levels, load)
+    return GravityState(
+        system=system,
+        geometric=geometric,
+        member_forces=member_forces,
+        basis=basis,
+        model=model,
+        run=run,
+        contacts=contacts,
+        displacement=expand(basis, run.b, run.e),
+        axial_forces=axial_forces,
+    )
+
+
+def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
+    """Look up the level of each bearing.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the bearings.
+    level : str or mapping
+        One level for all bearings, or levels by name of bearing.
+
+    Returns
+    -------
+    dict of str to str
+        Levels by name.
+
+    Raises
+    ------
+    ValueError
+        If a level or the name of a bearing is unknown.
+    TypeError
+        If `level` is neither a name nor a mapping.
+    """
+    if isinstance(level, str) and level not in LEVELS:
+        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
+        raise ValueError(msg)
+    if not isinstance(level, (str, Mapping)):
+        msg = f"level = {level!r}: give a level, or a mapping of levels by name of bearing"
+        raise TypeError(msg)
+    given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
+    unknown = sorted(set(given) - set(names))
+    if unknown:
+        msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
+        raise ValueError(msg)
+    for value in given.values():
+        if value not in LEVELS:
+            msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
+            raise ValueError(msg)
+    return {name: given.get(name, "pendulum") for name in names}
+
+
+def _equilibrium(
+    system: System, basis: Basis, linear: FloatArray, levels: Mapping[str, str],
+    static_load: FloatArray | None,
+) -> tuple[Model, Run, Contacts | None]:  # fmt: skip
+    model = model_arrays(system, basis, static_load)
+    run = run_arrays(model)
+    contacts = contacts_of(system, [levels[name] for name, _, _, _ in system.bearings])
+    run.b[:] = linear[basis.bearing_dofs]
+    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
+    _raise_gravity_failure(system, run, status, linear)
+    return model, run, contacts
+
+
+def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
+    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits.
+    lifted = np.flatnonzero(run.new["axial_force"] <= 0.0)
+    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
+    props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
+    place = int(run.counters[3])
+    detail = ""
+    if len(lifted):
+        # Newton's last trial may lift others: the linear solution tells which one is pulled
+        moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
+        pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
+        status, place = RunStatus.UPLIFTED, int(np.argmax(pull))
+    elif len(beyond):
+        place = int(beyond[0])
+        status = RunStatus(int(run.new["status"][place]))
+        detail = limit_detail(props, run.new, place)
+    if status is not RunStatus.OK:
+        name = system.bearings[place][0]
+        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"', detail)
+
+
+def force_tolerance(system: System, relative: float) -> float:
+    """Return a tolerance in N (and N m at 1 m) relative to the weight of the structure."""
+    weight = float(np.abs(system.load).sum())
+    return relative * max(weight, 1e-3 * system.gravity * float(system.node_mass[:, :3].sum()))
+
+
+def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -> FloatArray:
+    """Return displacements q (..., n_free) of the free DOFs from b (..., n_b) and eta."""
+    q: FloatArray = b @ basis.expand_b.T + e @ basis.expand_e.T
+    return q + basis.offset if offset else q
+
+
+def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
+    """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    with_points : collection of str
+        Bearings with contact points, which resist the rotation of their plates.
+
+    Returns
+    -------
+    csr_array, (n_free, n_free)
+        Their stiffness.
+    """
+    values = np.zeros((len(system.bearings), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
+    values[:, :2] = 0.01 * values[:, 2:3]
+    for k, (name, _, _, bearing) in enumerate(system.bearings):
+        if name in with_points:
+            values[k, 3:] = bearing_rocking_stiffness(bearing)
+    return _spring_matrix(system, values)
+
+
+def _spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
+    # Springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs.
+    rows = bearing_rows(system)
+    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
+    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
+
+
+BearingStiffness = Literal["sliding", "sticking", "fixed"]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Natural modes of a frame on its bearings.
+
+    Attributes
+    ----------
+    periods : ndarray, (n,)
+        Periods, longest first [s].
+    shapes : ndarray, (n_nodes, 6, n)
+        Nodal displacements of each mode, scaled to a modal mass of 1 kg.
+    mass_ratios : ndarray, (n, 3)
+        Share of the total mass that takes part along x, y, z.
+    """
+
+    periods: FloatArray
+    shapes: FloatArray
+    mass_ratios: FloatArray
+
+
+def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+    """Return the first natural modes under gravity.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    count : int
+        Number of modes, at least 1; at most those that have mass.
+    bearings : {"sliding", "sticking", "fixed"}
+        How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
+        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together).
+
+    Returns
+    -------
+    Modes
+        Periods, shapes and participating masses (scipy.linalg.eigh, dense).
+
+    Raises
+    ------
+    ModelError
+        If `count` or `bearings` is out of bounds, or a mode has no positive stiffness.
+    """
+    if count < 1:
+        message = f"count = {count} must be at least 1"
+        raise ModelError(message)
+    if bearings not in {"sliding", "sticking", "fixed"}:
+        message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
+        raise ModelError(message)
+    state = gravity(frame)
+    system = state.system
+    k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
+    m = system.mass.toarray()
+    massive = np.flatnonzero(m.any(axis=1))
+    massless = np.setdiff1d(np.arange(len(m)), massive)
+    follow = np.zeros((len(massless), len(massive)))
+    if len(massless):
+        follow = -linalg.solve(k[np.ix_(massless, massless)], k[np.ix_(massless, massive)])
+    condensed = k[np.ix_(massive, massive)] + k[np.ix_(massive, massless)] @ follow
+    count = min(count, len(massive))
+    omega2, vectors = linalg.eigh(
+        0.5 * (condensed + condensed.T),
+        m[np.ix_(massive, massive)],
+        subset_by_index=[0, count - 1],
+    )
+    if omega2[0] <= 0.0:
+        message = (
+            f"the first mode has no positive stiffness (eigenvalue {omega2[0]:.4g} 1/s2): with "
+            f'bearings="{bearings}" the frame is unstable under its permanent loads'
+        )
+        raise ModelError(message)
+    q = np.zeros((len(m), count))
+    q[massive], q[massless] = vectors, follow @ vectors
+    shapes = np.asarray(system.transform @ q).reshape(-1, 6, count)
+    shares = (system.inertia_load.T @ q) ** 2
+    total = system.node_mass[:, :3].sum(axis=0)
+    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
+
+
+def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
+    devices = [bearing for _, _, _, bearing in state.system.bearings]
+    values = np.zeros((len(devices), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
+    if bearings == "sliding":
+        length = np.array([bearing.effective_radius for bearing in devices])
+        values[:, :2] = (state.axial_forces / length)[:, None]
+    elif bearings == "sticking":
+        # the slider turns by 1/L a metre and slides R/L on both surfaces: exact at rest
+        per_load = [
+            sum(f.f_min * r * r for f, r in zip(b.frictions, b.radii, strict=True))
+            / (b.yield_displacement * b.effective_radius**2)
+            + 1.0 / b.effective_radius
+            for b in devices
+        ]
+        values[:, :2] = (state.axial_forces * np.array(per_load))[:, None]
+    else:
+        values[:, :3] = 1e3 * values[:, 2:3]
+    return _spring_matrix(state.system, values)

@@ -1,0 +1,1 @@
+"""From the described model to matrices, checked."""

@@ -1,0 +1,324 @@
+"""From the frame to matrices: degrees of freedom, stiffness, mass, loads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from frames.assembly.check import check_connections, check_mass, check_restraint
+from frames.assembly.constraints import free_dofs
+from frames.assembly.elimination import eliminate, separate_massless
+from frames.assembly.members import (
+    fixed_end_forces,
+    local_geometric_stiffness,
+    local_stiffness,
+    member_arrays,
+    spring_stiffness,
+)
+from frames.assembly.system import MemberTable as MemberTable
+from frames.assembly.system import System as System
+from frames.assembly.system import element_dofs
+from frames.model.axes import default_up, matrix_to_global, to_global, to_local
+from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.model.superelement import Placed, lumped, placed
+from lir_element.device.features import Features
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.model.contents import FrameContents
+
+
+def assemble(
+    frame: FrameContents,
+    features: Features | None = None,
+    with_points: Collection[str] = (),
+) -> System:
+    """Check a frame and turn it into matrices.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model; it is not changed.
+    features : Features, optional
+        What is modelled; everything if None.
+    with_points : collection of str
+        Bearings with contact points, which resist the rotation of their plates.
+
+    Returns
+    -------
+    System
+        The matrices over the free degrees of freedom.
+
+    Notes
+    -----
+    A model that cannot work is refused with a `ModelError` that names the culprit: nothing to
+    compute, parts without connection or support, no mass, or a mechanism (see
+    `frames.assembly.check`).
+    """
+    check_connections(frame)
+    features = Features.all() if features is None else features
+    names = tuple(frame.nodes)
+    index = {name: place for place, name in enumerate(names)}
+    coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
+    members = _member_table(frame, index, coordinates)
+    own_mass = _node_mass(frame, index, members)
+    parts = placed(frame, index)
+    node_mass = own_mass + lumped(parts.mass)
+    transform, labels = free_dofs(
+        frame, coordinates, node_mass, planar=not features.second_direction
+    )
+    mass = sparse.csr_array(sparse.diags_array(own_mass.ravel()))
+    inert = np.ones(len(labels))
+    if frame.superelements:
+        mass = sparse.csr_array(mass + parts.mass)
+        transform, labels, inert = _reduced(transform, labels, parts, mass, coordinates)
+    node_stiffness = sparse.csr_array(
+        _node_stiffness(frame, index, coordinates, members) + parts.stiffness
+    )
+    node_load = _node_load(frame, index, members, own_mass) + parts.load
+    translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
+    masked = sparse.csr_array(transform @ sparse.diags_array(inert))
+    system = System(
+        node_names=names,
+        coordinates=coordinates,
+        dof_labels=labels,
+        transform=transform,
+        stiffness=_project(transform, node_stiffness),
+        mass=_project(masked, mass),
+        damping=_project(transform, parts.damping),
+        node_mass=node_mass,
+        load=np.asarray(transform.T @ node_load),
+        inertia_load=np.asarray(masked.T @ (mass @ translations)),
+        bearings=tuple(
+            (link.name, index[link.i], index[link.j], link.bearing)
+            for link in frame.bearings.values()
+        ),
+        gravity=frame.gravity,
+        node_stiffness=node_stiffness,
+        node_load=node_load,
+        members=members,
+        features=features,
+    )
+    check_mass(system)
+    levers = [coordinates[j] - coordinates[i] for _, i, j, _ in system.bearings]
+    ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
+    pushes = [
+        [bearing_axial_stiffness(bearing)] * 3
+        + [bearing_rocking_stiffness(bearing) if name in with_points else 0.0] * 3
+        for name, _, _, bearing in system.bearings
+    ]
+    supported = node_stiffness + scatter(
+        spring_stiffness(np.array(levers).reshape(-1, 3), np.array(pushes).reshape(-1, 6)),
+        ends,
+        len(names),
+    )
+    check_restraint(system, _project(transform, sparse.csr_array(supported)))
+    return system
+
+
+def member_axial_forces(system: System, q: FloatArray) -> FloatArray:
+    """Return the axial forces of the members, tension positive.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+    q : ndarray, (..., n_free)
+        Displacements of the free DOFs.
+
+    Returns
+    -------
+    ndarray, (..., n_members)
+        Axial force [N]; with a load along the member, the mean over its length.
+    """
+    table = system.members
+    u = np.asarray(system.transform @ q.T).T
+    local = to_local(u[..., table.dofs], table.arrays.axes)
+    elongation = local[..., 6] - local[..., 0]
+    forces: FloatArray = (
+        table.arrays.elastic_modulus * table.arrays.area / table.arrays.length * elongation
+    )
+    return forces
+
+
+def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
+    """Assemble the geometric stiffness of the members over all nodal displacements.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+    axial_forces : ndarray, (n_members,)
+        Axial forces, tension positive [N].
+
+    Returns
+    -------
+    csr_array, (6 n_nodes, 6 n_nodes)
+        Before elimination of supports and diaphragms; for reactions.
+    """
+    table = system.members
+    local = local_geometric_stiffness(table.arrays, axial_forces)
+    blocks = matrix_to_global(local, table.arrays.axes)
+    return scatter(blocks, table.nodes, len(system.node_names))
+
+
+def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
+    """Assemble the geometric stiffness of the members over the free DOFs.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+    axial_forces : ndarray, (n_members,)
+        Axial forces, tension positive [N].
+
+    Returns
+    -------
+    csr_array, (n_free, n_free)
+        To be added to `system.stiffness`. The bearings' own second-order effect is not in it.
+    """
+    return _project(system.transform, node_geometric_stiffness(system, axial_forces))
+
+
+def member_end_forces(
+    system: System, u: FloatArray, axial_forces: FloatArray | None = None
+) -> FloatArray:
+    """Return the forces on both ends of each member in local axes.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+    u : ndarray, (..., 6 n_nodes)
+        Nodal displacements, `transform @ q`.
+    axial_forces : ndarray, (n_members,), optional
+        Axial forces, tension positive [N], of the geometric stiffness in the analysis, if it had
+        one; the end forces are then in equilibrium with its loads.
+
+    Returns
+    -------
+    ndarray, (..., n_members, 12)
+        Forces and moments on ends i and j, positive along positive local displacements, with the
+        fixed-end forces of the uniform loads [N, N m].
+    """
+    table = system.members
+    stiffness = table.stiffness
+    if axial_forces is not None:
+        stiffness = stiffness + local_geometric_stiffness(table.arrays, axial_forces)
+    local = to_local(u[..., table.dofs], table.arrays.axes)
+    forces: FloatArray = np.einsum("mab,...mb->...ma", stiffness, local) + table.fixed_end
+    return forces
+
+
+def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:
+    """Sum element matrices into a matrix over all nodal displacements.
+
+    Parameters
+    ----------
+    blocks : ndarray, (n, 12, 12)
+        Element matrices in global axes.
+    nodes : ndarray, (n, 2)
+        Node indices of the elements.
+    n_nodes : int
+        Number of nodes.
+
+    Returns
+    -------
+    csr_array, (6 n_nodes, 6 n_nodes)
+        The sum.
+    """
+    dofs = element_dofs(nodes)
+    rows = np.repeat(dofs, 12, axis=1).ravel()
+    columns = np.tile(dofs, (1, 12)).ravel()
+    size = 6 * n_nodes
+    return sparse.csr_array(sparse.coo_array((blocks.ravel(), (rows, columns)), shape=(size, size)))
+
+
+def _member_table(
+    frame: FrameContents, index: dict[str, int], coordinates: FloatArray
+) -> MemberTable:
+    members = tuple(frame.members.values())
+    nodes = np.array([(index[m.i], index[m.j]) for m in members], dtype=np.int64).reshape(-1, 2)
+    start, end = coordinates[nodes[:, 0]], coordinates[nodes[:, 1]]
+    up = default_up(start, end)
+    for place, member in enumerate(members):
+        if member.up is not None:
+            up[place] = member.up
+    arrays = member_arrays([member.section for member in members], start, end, up)
+    load = np.array([frame.uniform_loads.get(m.name, np.zeros(3)) for m in members])
+    return MemberTable(
+        names=tuple(frame.members),
+        arrays=arrays,
+        nodes=nodes,
+        stiffness=local_stiffness(arrays),
+        fixed_end=fixed_end_forces(arrays, load.reshape(-1, 3)),
+    )
+
+
+def _node_mass(frame: FrameContents, index: dict[str, int], members: MemberTable) -> FloatArray:
+    mass = np.zeros((len(index), 6))
+    for name, values in frame.masses.items():
+        mass[index[name]] += values
+    half = 0.5 * members.arrays.density * members.arrays.area * members.arrays.length
+    for end in (0, 1):
+        np.add.at(mass[:, :3], members.nodes[:, end], half[:, None])
+    return mass
+
+
+def _node_stiffness(
+    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, members: MemberTable
+) -> SparseMatrix:
+    springs = tuple(frame.springs.values())
+    ends = np.array([(index[s.i], index[s.j]) for s in springs], dtype=np.int64).reshape(-1, 2)
+    lever = coordinates[ends[:, 1]] - coordinates[ends[:, 0]]
+    values = np.array([s.stiffness for s in springs]).reshape(-1, 6)
+    blocks = np.concatenate(
+        [
+            matrix_to_global(members.stiffness, members.arrays.axes),
+            spring_stiffness(lever, values),
+        ]
+    )
+    return scatter(blocks, np.concatenate([members.nodes, ends]), len(index))
+
+
+def _node_load(
+    frame: FrameContents, index: dict[str, int], members: MemberTable, mass: FloatArray
+) -> FloatArray:
+    load = np.zeros((len(index), 6))
+    load[:, 2] -= frame.gravity * mass[:, 2]
+    for name, values in frame.loads.items():
+        load[index[name]] += values
+    flat = load.ravel()
+    np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
+    return flat
+
+
+def _reduced(
+    transform: SparseMatrix,
+    labels: tuple[str, ...],
+    parts: Placed,
+    mass: SparseMatrix,
+    coordinates: FloatArray,
+) -> tuple[SparseMatrix, tuple[str, ...], FloatArray]:
+    # The superelements' ties eliminated, and displacements without mass apart from the rest;
+    # besides, 1 for each displacement with mass and 0 for each without.
+    extent = float(np.linalg.norm(np.ptp(coordinates, axis=0))) or 1.0
+    turns = np.array([label.rsplit(" ", 1)[1].startswith("r") for label in labels])
+    scale = np.where(turns, 1.0 / extent, 1.0)
+    kept, follow = eliminate(sparse.csr_array(parts.equations @ transform), scale)
+    labels = tuple(labels[place] for place in kept)
+    transform = sparse.csr_array(transform @ follow)
+    turn, massless = separate_massless(_project(transform, mass), labels)
+    inert = np.ones(len(labels))
+    inert[massless] = 0.0
+    return sparse.csr_array(transform @ turn), labels, inert
+
+
+def _project(transform: SparseMatrix, matrix: SparseMatrix) -> SparseMatrix:
+    # transform.T @ matrix @ transform, exactly symmetric.
+    product = sparse.csr_array(transform.T @ matrix @ transform)
+    return sparse.csr_array(0.5 * (product + product.T))

@@ -1,0 +1,221 @@
+"""Change of basis: bearing degrees of freedom kept, the linear rest as fixed-interface modes.
+
+With the bearings' degrees of freedom b held, the rest of the structure is linear. Writing its
+motion as the quasi-static one that follows b plus all modes with b fixed (Hurty 1965; Craig and
+Bampton 1968), ``q_r = Psi q_b + Phi eta``, makes stiffness and damping of the rest diagonal: a
+time step of any size costs a small dense solve in b and a division a mode. All modes are kept, so
+this is the full model in other coordinates, not an approximation. Degrees of freedom without mass
+follow statically and are eliminated first, which is exact too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import linalg, sparse
+
+from frames._validate import ModelError
+from frames.assembly.matrix_damping import with_matrix_damping
+from frames.model.damping import ModalDamping, RayleighDamping
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.assembly.assemble import System
+    from frames.model.damping import Damping
+
+
+@dataclass(frozen=True)
+class Basis:
+    """A frame in bearing coordinates b (n_b) and fixed-interface modes eta (n_e).
+
+    Attributes
+    ----------
+    bearing_dofs : ndarray, (n_b,)
+        Places of b among the free DOFs q.
+    expand_b, expand_e : ndarray, (n_free, n_b), (n_free, n_e)
+        ``q = expand_b @ b + expand_e @ eta + offset``.
+    offset : ndarray, (n_free,)
+        Static displacement of massless DOFs under their own loads.
+    mass_b, mass_be : ndarray, (n_b, n_b), (n_b, n_e)
+        Mass of b, and what couples it with eta.
+    mass_e : ndarray, (n_e,)
+        Mass of eta: 1 of the modes, 0 of what lags behind (frames/assembly/matrix_damping.py).
+    stiffness_b : ndarray, (n_b, n_b)
+        Stiffness without bearings, geometric part included.
+    damping_b : ndarray, (n_b, n_b)
+        Damping of the base's own deformation.
+    omega2, damping_e : ndarray, (n_e,)
+        Squared circular frequencies and damping constants (2 zeta omega) of the modes.
+    damping_be, damping_ee : ndarray, (n_b, n_e), (n_e, n_e)
+        Damping besides that is given as a matrix; of no size where there is none.
+    load_b, load_e : ndarray
+        Permanent loads.
+    inertia_b, inertia_e : ndarray, (n_b, 3), (n_e, 3)
+        Loads per unit ground acceleration, with positive sign.
+    """
+
+    bearing_dofs: IntArray
+    expand_b: FloatArray
+    expand_e: FloatArray
+    offset: FloatArray
+    mass_b: FloatArray
+    mass_be: FloatArray
+    mass_e: FloatArray
+    stiffness_b: FloatArray
+    damping_b: FloatArray
+    omega2: FloatArray
+    damping_e: FloatArray
+    damping_be: FloatArray
+    damping_ee: FloatArray
+    load_b: FloatArray
+    load_e: FloatArray
+    inertia_b: FloatArray
+    inertia_e: FloatArray
+
+
+def bearing_rows(system: System) -> SparseMatrix:
+    """Return the rows of the transform that give the bearings' displacements, (12 n, n_free)."""
+    # those of rotations are empty where plate rotation is left out: neither do the nodes' rotations
+    # reach a bearing, nor its moments the nodes
+    nodes = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
+    rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
+    if system.features.plate_rotation:
+        return system.transform[rows]
+    kept = sparse.diags_array((rows % 6 < 3).astype(np.float64))
+    picked = sparse.csr_array(kept @ system.transform[rows])
+    picked.eliminate_zeros()
+    return picked
+
+
+def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
+    """Change a frame to bearing coordinates and all fixed-interface modes.
+
+    Parameters
+    ----------
+    system : System
+        Matrices over the free degrees of freedom.
+    geometric : csr_array, (n_free, n_free)
+        Geometric stiffness of the members.
+    damping : Damping or None
+        Damping of the structure. It acts on its motion relative to the one that follows the
+        bearings quasi-statically: what moves with the isolation is not damped. The damping matrix
+        of the system acts besides, as it is.
+
+    Returns
+    -------
+    Basis
+        The same frame in other coordinates.
+
+    Raises
+    ------
+    ModelError
+        If the structure over held bearings is unstable under its permanent loads.
+    """
+    elastic = system.stiffness.toarray()
+    stiffness = elastic + geometric.toarray()
+    mass = system.mass.toarray()
+    n_free = len(stiffness)
+    touched = np.unique(bearing_rows(system).tocoo().coords[1]).astype(np.int64)
+    rest = np.setdiff1d(np.arange(n_free), touched)
+    massless = rest[~mass[rest].any(axis=1)]
+    massive = np.setdiff1d(rest, massless)
+    kept = np.concatenate([touched, massive])
+    n_b = len(touched)
+    follow, offset_m = _static_following(system, stiffness, massless, kept)
+    k = stiffness[np.ix_(kept, kept)] + stiffness[np.ix_(kept, massless)] @ follow
+    m = mass[np.ix_(kept, kept)]
+    load = system.load[kept] + follow.T @ system.load[massless]
+    inertia = system.inertia_load[kept]
+    psi, phi, omega2 = _interface_modes(system, k, m, kept, n_b)
+    to_kept_b = np.vstack([np.eye(n_b), psi])
+    to_kept_e = np.vstack([np.zeros((n_b, phi.shape[1])), phi])
+    expand_b, expand_e = np.zeros((n_free, n_b)), np.zeros((n_free, phi.shape[1]))
+    offset = np.zeros(n_free)
+    offset[massless] = offset_m
+    for expand, part in ((expand_b, to_kept_b), (expand_e, to_kept_e)):
+        expand[kept] = part
+        expand[massless] = follow @ part
+    damping_e, beta = _damping(damping, omega2)
+    basis = Basis(
+        bearing_dofs=touched,
+        expand_b=expand_b,
+        expand_e=expand_e,
+        offset=offset,
+        mass_b=_symmetric(to_kept_b.T @ m @ to_kept_b),
+        mass_be=to_kept_b.T @ m @ to_kept_e,
+        mass_e=np.ones(len(omega2)),
+        stiffness_b=_symmetric(to_kept_b.T @ k @ to_kept_b),
+        damping_b=_symmetric(beta * (expand_b.T @ elastic @ expand_b)),
+        omega2=omega2,
+        damping_e=damping_e,
+        damping_be=np.zeros((0, 0)),
+        damping_ee=np.zeros((0, 0)),
+        load_b=to_kept_b.T @ load,
+        load_e=to_kept_e.T @ load,
+        inertia_b=to_kept_b.T @ inertia,
+        inertia_e=to_kept_e.T @ inertia,
+    )
+    if not system.damping.nnz:
+        return basis
+    return with_matrix_damping(basis, system.damping.toarray(), stiffness, massless)
+
+
+def _static_following(
+    system: System, stiffness: FloatArray, massless: IntArray, kept: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    # How massless DOFs follow the kept ones, and where their own loads put them.
+    if not len(massless):
+        return np.zeros((0, len(kept))), np.zeros(0)
+    block = stiffness[np.ix_(massless, massless)]
+    right = np.column_stack([-stiffness[np.ix_(massless, kept)], system.load[massless]])
+    try:
+        solution = linalg.solve(block, right, assume_a="pos")
+    except linalg.LinAlgError as error:
+        label = system.dof_labels[massless[int(np.argmin(np.diag(block)))]]
+        message = (
+            f'the structure is unstable under its permanent loads near "{label}" (a degree of '
+            "freedom without mass): reduce the loads or stiffen the members there"
+        )
+        raise ModelError(message) from error
+    return solution[:, :-1], solution[:, -1]
+
+
+def _interface_modes(
+    system: System, k: FloatArray, m: FloatArray, kept: IntArray, n_b: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    # Quasi-static following of b, mass-normalised modes with b held, squared frequencies.
+    if len(kept) == n_b:
+        return np.zeros((0, n_b)), np.zeros((0, 0)), np.zeros(0)
+    inner = k[n_b:, n_b:]
+    omega2, phi = linalg.eigh(_symmetric(inner), _symmetric(m[n_b:, n_b:]))
+    if omega2[0] <= 0.0:
+        label = system.dof_labels[kept[n_b + int(np.argmax(np.abs(phi[:, 0])))]]
+        message = (
+            "the structure buckles under its permanent loads with its bearings held: lowest "
+            f'eigenvalue {omega2[0]:.4g} 1/s2 at "{label}"; reduce the loads or stiffen columns'
+        )
+        raise ModelError(message)
+    psi = -linalg.solve(_symmetric(inner), k[n_b:, :n_b], assume_a="pos")
+    return psi, phi, omega2
+
+
+def _damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:
+    # Damping constants of the modes, and the factor of stiffness for the base's deformation.
+    omega = np.sqrt(omega2)
+    if isinstance(damping, ModalDamping):
+        ratios = np.full(len(omega), damping.ratios[-1])
+        first = min(len(omega), len(damping.ratios))
+        ratios[:first] = damping.ratios[:first]
+        return 2.0 * ratios * omega, 0.0
+    if isinstance(damping, RayleighDamping):
+        w1, w2 = (2.0 * np.pi / period for period in damping.periods)
+        beta = 2.0 * damping.ratio / (w1 + w2)
+        alpha = beta * w1 * w2
+        return alpha + beta * omega2, float(beta)
+    return np.zeros(len(omega)), 0.0
+
+
+def _symmetric(matrix: FloatArray) -> FloatArray:
+    return np.ascontiguousarray(0.5 * (matrix + matrix.T))

@@ -1,0 +1,156 @@
+r"""Supports and diaphragms: the matrix that carries the free DOFs to all nodal displacements.
+
+A diaphragm moves as X, Y, RZ of its master point; each of its nodes follows with
+
+.. math:: u_x = X - (y - y_c) R_Z, \quad u_y = Y + (x - x_c) R_Z, \quad r_z = R_Z
+
+and keeps its own uz, rx and ry. A support in the plane of a diaphragm's node is a linear equation
+on X, Y and RZ; Gaussian elimination decides which of the three it removes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from frames.model.parts import DOFS, Diaphragm
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.model.contents import FrameContents
+
+IN_PLANE = (0, 1, 5)
+"""Places of ux, uy and rz, the displacements a diaphragm ties, among a node's six."""
+
+OUT_OF_PLANE = ("uy", "rx", "rz")
+"""Displacements held where the second horizontal direction is left out."""
+
+
+def free_dofs(
+    frame: FrameContents, coordinates: FloatArray, node_mass: FloatArray, *, planar: bool = False
+) -> tuple[SparseMatrix, tuple[str, ...]]:
+    """Eliminate supports and diaphragms.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    coordinates : ndarray, (n_nodes, 3)
+        Coordinates [m].
+    node_mass : ndarray, (n_nodes, 6)
+        Lumped masses; the masters of diaphragms sit at the centroid of their nodes' masses.
+    planar : bool
+        Hold uy, rx and rz of all nodes: the x-z plane alone.
+
+    Returns
+    -------
+    transform : csr_array, (6 n_nodes, n_free)
+        Nodal displacements are `transform @ q`.
+    labels : tuple of str, (n_free,)
+        Name of each free DOF, as "node ux" or "diaphragm (diaphragm) rz".
+    """
+    index = {name: place for place, name in enumerate(frame.nodes)}
+    held = held_dofs(frame, planar=planar)
+    tied = {node for diaphragm in frame.diaphragms.values() for node in diaphragm.nodes}
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[float] = []
+    labels: list[str] = []
+    for name, place in index.items():
+        fixed = held[name]
+        for dof, word in enumerate(DOFS):
+            if word in fixed or (name in tied and dof in IN_PLANE):
+                continue
+            rows.append(6 * place + dof)
+            columns.append(len(labels))
+            values.append(1.0)
+            labels.append(f"{name} {word}")
+    for diaphragm in frame.diaphragms.values():
+        places = np.array([index[node] for node in diaphragm.nodes])
+        block, kept = _diaphragm_block(held, diaphragm, coordinates[places], node_mass[places])
+        places_in_plane = (6 * places[:, None] + np.array(IN_PLANE)).ravel()
+        at_row, at_column = np.nonzero(block)
+        rows.extend(places_in_plane[at_row].tolist())
+        columns.extend((at_column + len(labels)).tolist())
+        values.extend(block[at_row, at_column].tolist())
+        labels.extend(f"{diaphragm.name} (diaphragm) {DOFS[IN_PLANE[k]]}" for k in kept)
+    transform = sparse.csr_array(
+        sparse.coo_array(
+            (np.array(values), (np.array(rows, dtype=np.int64), np.array(columns, dtype=np.int64))),
+            shape=(6 * len(index), len(labels)),
+        )
+    )
+    return transform, tuple(labels)
+
+
+def held_dofs(frame: FrameContents, *, planar: bool = False) -> dict[str, frozenset[str]]:
+    """Return the names of the displacements held at each node, all out of the plane if `planar`."""
+    more = frozenset(OUT_OF_PLANE if planar else ())
+    return {name: frame.fixed_dofs.get(name, frozenset()) | more for name in frame.nodes}
+
+
+def in_plane_rows(position: FloatArray, centre: FloatArray) -> FloatArray:
+    """Return the matrix from (X, Y, RZ) of a diaphragm to (ux, uy, rz) of its nodes.
+
+    Parameters
+    ----------
+    position : ndarray, (n, 3)
+        Coordinates of the nodes [m].
+    centre : ndarray, (2,)
+        Coordinates x, y of the master point [m].
+
+    Returns
+    -------
+    ndarray, (n, 3, 3)
+        One 3 x 3 block per node [-], [m].
+    """
+    block = np.zeros((position.shape[0], 3, 3))
+    block[:] = np.eye(3)
+    block[:, 0, 2] = -(position[:, 1] - centre[1])
+    block[:, 1, 2] = position[:, 0] - centre[0]
+    return block
+
+
+def _diaphragm_block(
+    held: dict[str, frozenset[str]], diaphragm: Diaphragm, position: FloatArray, mass: FloatArray
+) -> tuple[FloatArray, IntArray]:
+    # Matrix (3 n, n_kept) from the kept ones of (X, Y, RZ) to (ux, uy, rz) of every node.
+    weight = mass[:, 0] if mass[:, 0].any() else np.ones(len(diaphragm.nodes))
+    centre = weight @ position[:, :2] / weight.sum()
+    rows = in_plane_rows(position, centre)
+    fixed = np.array([[DOFS[dof] in held[node] for dof in IN_PLANE] for node in diaphragm.nodes])
+    span = float(np.linalg.norm(position[:, :2] - centre, axis=1).max()) or 1.0
+    scale = np.array([1.0, 1.0, 1.0 / span])
+    kept, solution = _solve_homogeneous(rows[fixed] * scale)
+    block = (rows.reshape(-1, 3) * scale) @ solution / scale[kept]
+    block[fixed.ravel()] = 0.0
+    block[np.abs(block) < 1e-12 * span] = 0.0
+    return block, kept
+
+
+def _solve_homogeneous(equations: FloatArray) -> tuple[IntArray, FloatArray]:
+    # Solves equations @ x = 0 for three unknowns of like size: the places of the unknowns kept
+    # free, and the matrix (3, n_kept) that gives all three from them.
+    reduced = equations.copy()
+    pivots: list[int] = []
+    row = 0
+    for column in range(3):
+        if row == reduced.shape[0]:
+            break
+        best = row + int(np.argmax(np.abs(reduced[row:, column])))
+        if abs(reduced[best, column]) < 1e-9:
+            continue
+        reduced[[row, best]] = reduced[[best, row]]
+        reduced[row] /= reduced[row, column]
+        others = np.arange(reduced.shape[0]) != row
+        reduced[others] -= np.outer(reduced[others, column], reduced[row])
+        pivots.append(column)
+        row += 1
+    kept = np.array([column for column in range(3) if column not in pivots], dtype=np.int64)
+    solution = np.zeros((3, kept.size))
+    solution[kept, np.arange(kept.size)] = 1.0
+    if pivots:
+        solution[pivots] = -reduced[: len(pivots)][:, kept]
+    return kept, solution

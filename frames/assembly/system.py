@@ -1,0 +1,120 @@
+"""The assembled frame: matrices over the free degrees of freedom, and its members."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.assembly.members import MemberArrays
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray, SparseMatrix
+    from lir_element import Features, LIRBearing
+
+
+@dataclass(frozen=True)
+class MemberTable:
+    """What force recovery and the geometric stiffness need of the `n` members.
+
+    Attributes
+    ----------
+    names : tuple of str, (n,)
+        Names, in the order of all member arrays.
+    arrays : MemberArrays
+        Section constants, lengths and local axes.
+    nodes : ndarray, (n, 2)
+        Node indices of the ends i and j.
+    stiffness : ndarray, (n, 12, 12)
+        Elastic stiffness in local axes.
+    fixed_end : ndarray, (n, 12)
+        Fixed-end forces of the uniform loads in local axes [N, N m].
+    """
+
+    names: tuple[str, ...]
+    arrays: MemberArrays
+    nodes: IntArray
+    stiffness: FloatArray
+    fixed_end: FloatArray
+
+    @property
+    def dofs(self) -> IntArray:
+        """Places of each member's 12 displacements among all nodal ones, (n, 12)."""
+        return element_dofs(self.nodes)
+
+
+@dataclass(frozen=True)
+class System:
+    """A frame as matrices over its free degrees of freedom q; SI units.
+
+    Attributes
+    ----------
+    node_names : tuple of str, (n_nodes,)
+        Names, in the order of all node arrays.
+    coordinates : ndarray, (n_nodes, 3)
+        Coordinates [m].
+    dof_labels : tuple of str, (n_free,)
+        Name of each free DOF: "base-1 ux"; of a diaphragm "floor-2 (diaphragm) rz".
+    transform : csr_array, (6 n_nodes, n_free)
+        Nodal displacements (ux, uy, uz, rx, ry, rz of each node) are `transform @ q`.
+    stiffness : csr_array, (n_free, n_free)
+        Elastic stiffness of members, springs and superelements, without bearings.
+    mass : csr_array, (n_free, n_free)
+        Mass; rows of a DOF without mass are zero.
+    damping : csr_array, (n_free, n_free)
+        Damping matrix of the superelements; empty without. `Frame.damping` is not in it.
+    node_mass : ndarray, (n_nodes, 6)
+        Masses by node: diagonal of the lumped ones, of superelements what a unit translation
+        moves [kg, kg m2].
+    load : ndarray, (n_free,)
+        Weights and permanent loads.
+    inertia_load : ndarray, (n_free, 3)
+        transform.T @ M @ unit translation along x, y, z [kg]: a ground acceleration a_g acts as
+        the load `-inertia_load @ a_g`.
+    bearings : tuple of (name, i, j, LIRBearing)
+        Bearings with the indices of the nodes below and above.
+    gravity : float
+        Acceleration of gravity [m/s2].
+    node_stiffness : csr_array, (6 n_nodes, 6 n_nodes)
+        Elastic stiffness before elimination, for reactions: `node_stiffness @ u - node_load`.
+    node_load : ndarray, (6 n_nodes,)
+        Weights and permanent loads before elimination [N, N m].
+    members : MemberTable
+        The members.
+    features : Features
+        What is modelled.
+    """
+
+    node_names: tuple[str, ...]
+    coordinates: FloatArray
+    dof_labels: tuple[str, ...]
+    transform: SparseMatrix
+    stiffness: SparseMatrix
+    mass: SparseMatrix
+    damping: SparseMatrix
+    node_mass: FloatArray
+    load: FloatArray
+    inertia_load: FloatArray
+    bearings: tuple[tuple[str, int, int, LIRBearing], ...]
+    gravity: float
+    node_stiffness: SparseMatrix
+    node_load: FloatArray
+    members: MemberTable
+    features: Features
+
+
+def element_dofs(nodes: IntArray) -> IntArray:
+    """Return the places of two-node elements' displacements among all nodal ones.
+
+    Parameters
+    ----------
+    nodes : ndarray, (n, 2)
+        Node indices.
+
+    Returns
+    -------
+    ndarray, (n, 12)
+        Places in the vector of 6 displacements per node.
+    """
+    return (6 * nodes[:, :, None] + np.arange(6)).reshape(-1, 12)

@@ -1,0 +1,1 @@
+"""Compiled kernels of the analysis: equilibrium, one step, the time loop."""

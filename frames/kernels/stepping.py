@@ -1,0 +1,206 @@
+"""Kernels of the equilibrium: bearing forces in frame coordinates, Newton's method, gravity.
+
+The frame's unknowns are b (bearing coordinates) and eta (fixed-interface modes). The modes enter
+linearly, so Newton's method runs over b alone: `reduced` is the linear effective stiffness of b
+after the modes were eliminated, which depends on the step size only.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._jit import inlined, kernel
+from lir_element.errors import RunStatus
+from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
+from lir_element.kernels.linear import solve_many
+from lir_element.kernels.pendulum.trial import has_no_state
+
+if TYPE_CHECKING:
+    from frames.kernel_data import Model, Run
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Floats
+
+_OK = int(RunStatus.OK)
+_NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
+_SINGULAR = int(RunStatus.SINGULAR)
+
+
+@inlined
+def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
+    """Set `out` (12,) to the displacements (or velocities) of bearing `k`'s nodes."""
+    for row in range(12):
+        total = 0.0
+        for entry in range(model.start[k, row], model.start[k, row + 1]):
+            total += model.values[entry] * b[model.columns[entry]]
+        out[row] = total
+
+
+@inlined
+def bearing_forces(
+    model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats, time: float
+) -> int:
+    """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
+    n_b = b.shape[0]
+    for a in range(n_b):
+        run.force[a] = 0.0
+    worst = _OK
+    for k in range(model.props.shape[0]):
+        gather(model, k, b, run.u)
+        gather(model, k, v_b, run.v)
+        code = bearing_trial(
+            model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time, run.zero
+        )
+        if code != _OK:
+            worst = code
+            run.counters[3] = k
+            if has_no_state(code):
+                return code
+        force = run.new[k].force
+        for row in range(12):
+            for entry in range(model.start[k, row], model.start[k, row + 1]):
+                run.force[model.columns[entry]] += model.values[entry] * force[row]
+    return worst
+
+
+@inlined
+def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
+    """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
+    for k in range(model.props.shape[0]):
+        element = run.element_k[k]
+        bearing_tangent(model.props, run.new, run.work, contacts, k, element, run.zero, run.axes)
+        for row in range(12):
+            for i in range(model.start[k, row], model.start[k, row + 1]):
+                for col in range(12):
+                    value = factor * model.values[i] * element[row, col]
+                    for j in range(model.start[k, col], model.start[k, col + 1]):
+                        run.tangent[model.columns[i], model.columns[j]] += value * model.values[j]
+
+
+@kernel
+def norm(x: Floats) -> float:
+    """Return the largest absolute entry; infinite if one is not finite."""
+    largest = 0.0
+    for a in range(x.shape[0]):
+        if not math.isfinite(x[a]):
+            return math.inf
+        largest = max(largest, abs(x[a]))
+    return largest
+
+
+@inlined
+def set_residual(
+    model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, time: float,
+    share: float,
+) -> float:  # fmt: skip
+    """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
+
+    residual = rhs - linear step - share force; infinite where the bearings have no state.
+    """
+    n_b = step.shape[0]
+    dt = time - run.clock[0]
+    for a in range(n_b):
+        run.trial_b[a] = run.b[a] + step[a]
+        run.v_b_new[a] = step[a] / dt if dt > 0.0 else 0.0
+    code = bearing_forces(model, run, contacts, run.trial_b, run.v_b_new, time)
+    run.counters[4] = code
+    if has_no_state(code):
+        return math.inf
+    for a in range(n_b):
+        total = run.rhs_b[a] - share * run.force[a]
+        for c in range(n_b):
+            total -= linear[a, c] * step[c]
+        run.residual[a] = total
+    return norm(run.residual)
+
+
+@inlined
+def newton(
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    linear: Floats,
+    time: float,
+    share: float,
+    tolerance: float,
+    max_iterations: int,
+) -> int:
+    """Find ``run.step`` with a residual below `tolerance`; returns a status code.
+
+    `run.step` holds the first guess. A step that does not reduce the residual is shortened.
+    """
+    n_b = run.step.shape[0]
+    size = set_residual(model, run, contacts, linear, run.step, time, share)
+    if size == math.inf:  # start from rest instead
+        for a in range(n_b):
+            run.step[a] = 0.0
+        size = set_residual(model, run, contacts, linear, run.step, time, share)
+        if size == math.inf:
+            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+    for _ in range(max_iterations):
+        if size <= tolerance:
+            return _OK
+        run.counters[1] += 1
+        for a in range(n_b):
+            run.h_b[a] = run.residual[a]
+            for c in range(n_b):
+                run.tangent[a, c] = linear[a, c]
+        bearing_tangents(model, run, contacts, share)
+        if not solve_many(run.tangent, run.h_b.reshape((n_b, 1)), n_b, 1):
+            return _SINGULAR
+        factor = 1.0
+        for attempt in range(6):
+            for a in range(n_b):
+                run.g_b[a] = run.step[a] + factor * run.h_b[a]
+            new = set_residual(model, run, contacts, linear, run.g_b, time, share)
+            if new < size or (attempt >= 3 and new < 2.0 * size):
+                break
+            factor *= 0.4
+        if new == math.inf:
+            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+        for a in range(n_b):
+            run.step[a] = run.g_b[a]
+        size = new
+    return _NEWTON_FAILED
+
+
+@kernel
+def solve_gravity(
+    model: Model, run: Run, contacts: Contacts | None, tolerance: float, max_iterations: int
+) -> int:
+    """Bring the frame into equilibrium under its permanent loads; returns a status code.
+
+    `run.b` holds the first guess; `run.step` is used. On success the state is committed.
+    """
+    n_b = run.b.shape[0]
+    for a in range(n_b):
+        run.step[a] = run.b[a]
+        run.b[a] = 0.0
+        run.rhs_b[a] = model.load_b[a]
+    code = newton(model, run, contacts, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
+    if code != _OK:
+        return code
+    for a in range(n_b):
+        run.b[a] = run.step[a]
+    for a in range(run.e.shape[0]):
+        run.e[a] = model.load_e[a] / model.omega2[a]
+    commit_bearings(model, run, contacts)
+    for k in range(run.old.shape[0]):  # works count from here
+        for side in range(2):
+            run.old[k].work_friction[side] = 0.0
+            run.old[k].work_rim[side] = 0.0
+            run.old[k].travel[side] = 0.0
+        run.old[k].work_interface = 0.0
+        run.old[k].work_elastic = 0.0
+        run.old[k].work_contact = 0.0
+        run.old[k].work_sliders = 0.0
+    return _OK
+
+
+@inlined
+def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
+    """Accept the trial states and forces of all bearings."""
+    for k in range(run.old.shape[0]):
+        bearing_commit(model.props, run.old, run.new, run.old_words, run.new_words, contacts, k)
+    for a in range(run.force.shape[0]):
+        run.force_old[a] = run.force[a]

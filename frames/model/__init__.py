@@ -1,0 +1,1 @@
+"""What stands on the bearings, as the engineer describes it."""

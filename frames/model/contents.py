@@ -1,0 +1,131 @@
+"""What a frame holds, read-only for those who analyse it; `Frame` adds the verbs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from frames._validate import new_name, non_negative
+from frames.model.damping import Damping
+from frames.model.parts import BearingLink, Diaphragm, Level, Member, Node, Spring
+from frames.model.superelement import Superelement
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity [m/s2]."""
+
+
+class FrameContents:
+    """Parts of a frame by name, in the order added.
+
+    Parameters
+    ----------
+    name : str
+        Name of the model.
+    gravity : float
+        Acceleration of gravity [m/s2], >= 0.
+    """
+
+    def __init__(self, name: str = "frame", gravity: float = STANDARD_GRAVITY) -> None:
+        """Start an empty frame."""
+        self._name = new_name(name, (), "frame")
+        self._gravity = non_negative(gravity, "Frame.gravity [m/s2]")
+        self._nodes: dict[str, Node] = {}
+        self._members: dict[str, Member] = {}
+        self._springs: dict[str, Spring] = {}
+        self._superelements: dict[str, Superelement] = {}
+        self._diaphragms: dict[str, Diaphragm] = {}
+        self._bearings: dict[str, BearingLink] = {}
+        self._levels: dict[str, Level] = {}
+        self._fixed: dict[str, frozenset[str]] = {}
+        self._masses: dict[str, FloatArray] = {}
+        self._loads: dict[str, FloatArray] = {}
+        self._uniform_loads: dict[str, FloatArray] = {}
+        self._damping: Damping | None = None
+
+    def __repr__(self) -> str:
+        """Return the name and counts of the parts.
+
+        Returns
+        -------
+        str
+            One line.
+        """
+        parts = ["nodes", "members", "springs", "diaphragms", "bearings"]
+        if self._superelements:
+            parts.append("superelements")
+        counts = ", ".join(f"{len(getattr(self, part))} {part}" for part in parts)
+        return f'Frame("{self._name}": {counts})'
+
+    @property
+    def name(self) -> str:
+        """Name of the model."""
+        return self._name
+
+    @property
+    def gravity(self) -> float:
+        """Acceleration of gravity [m/s2]."""
+        return self._gravity
+
+    @property
+    def damping(self) -> Damping | None:
+        """Damping of the structure, None without."""
+        return self._damping
+
+    @property
+    def nodes(self) -> Mapping[str, Node]:
+        """Nodes by name, in the order added."""
+        return MappingProxyType(self._nodes)
+
+    @property
+    def members(self) -> Mapping[str, Member]:
+        """Members by name, in the order added."""
+        return MappingProxyType(self._members)
+
+    @property
+    def springs(self) -> Mapping[str, Spring]:
+        """Springs by name, in the order added."""
+        return MappingProxyType(self._springs)
+
+    @property
+    def superelements(self) -> Mapping[str, Superelement]:
+        """Superelements by name, in the order added."""
+        return MappingProxyType(self._superelements)
+
+    @property
+    def diaphragms(self) -> Mapping[str, Diaphragm]:
+        """Diaphragms by name, in the order added."""
+        return MappingProxyType(self._diaphragms)
+
+    @property
+    def bearings(self) -> Mapping[str, BearingLink]:
+        """Bearings by name, in the order added."""
+        return MappingProxyType(self._bearings)
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """Storey levels in the order added: (name, z [m], nodes) each."""
+        return tuple(self._levels.values())
+
+    @property
+    def fixed_dofs(self) -> Mapping[str, frozenset[str]]:
+        """Fixed degrees of freedom by node."""
+        return MappingProxyType(self._fixed)
+
+    @property
+    def masses(self) -> Mapping[str, FloatArray]:
+        """Lumped masses by node, (6,) each: 3 x kg, 3 x kg m2; members not included."""
+        return MappingProxyType(self._masses)
+
+    @property
+    def loads(self) -> Mapping[str, FloatArray]:
+        """Permanent forces by node, (6,) each: 3 x N, 3 x N m; weights not included."""
+        return MappingProxyType(self._loads)
+
+    @property
+    def uniform_loads(self) -> Mapping[str, FloatArray]:
+        """Permanent loads by member, (3,) each in global axes [N/m]."""
+        return MappingProxyType(self._uniform_loads)

@@ -1,0 +1,107 @@
+"""Bearings on a regular grid, shared by the ready-made models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+from frames._validate import ModelError, positive
+from frames.model.frame import Frame
+
+if TYPE_CHECKING:
+    from lir_element import LIRBearing
+
+    Bearings: TypeAlias = LIRBearing | Mapping[tuple[int, int], LIRBearing]
+    """One bearing for every place of a grid, or one for each place (ix, iy)."""
+
+
+def bearing_grid(
+    frame: Frame,
+    bearing: Bearings,
+    places: Sequence[tuple[int, int]],
+    width: tuple[float, float],
+    corner: tuple[float, float],
+) -> float:
+    """Add a bearing at every place of a grid, between a ground and a base node.
+
+    The base is level: ground nodes under bearings of less height stand higher.
+
+    Parameters
+    ----------
+    frame : Frame
+        The frame under construction.
+    bearing : LIRBearing or mapping
+        One bearing for every place, or one for each.
+    places : sequence of (ix, iy)
+        The grid.
+    width : tuple of two floats
+        Bay widths along x and y [m].
+    corner : tuple of two floats
+        Coordinates of place (0, 0) [m].
+
+    Returns
+    -------
+    float
+        Elevation of the nodes "base-<ix>-<iy>" [m].
+
+    Raises
+    ------
+    ModelError
+        If the mapping lacks a place of the grid or has one outside.
+    """
+    chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(places, bearing)
+    missing = [place for place in places if place not in chosen]
+    unused = [place for place in chosen if place not in places]
+    if missing or unused:
+        message = (
+            f"bearing: the grid has the places {places[0]} to {places[-1]}; without a bearing: "
+            f"{missing or 'none'}, not of the grid: {unused or 'none'}: give one LIRBearing for "
+            "all, or a mapping with every place (ix, iy)"
+        )
+        raise ModelError(message)
+    level = max(chosen[place].height for place in places)
+    for ix, iy in places:
+        device = chosen[ix, iy]
+        x, y = corner[0] + ix * width[0], corner[1] + iy * width[1]
+        frame.add_node(f"ground-{ix}-{iy}", x, y, level - device.height)
+        frame.fix(f"ground-{ix}-{iy}", "all")
+        frame.add_node(f"base-{ix}-{iy}", x, y, level)
+        frame.add_bearing(f"bearing-{ix}-{iy}", f"ground-{ix}-{iy}", f"base-{ix}-{iy}", device)
+    return level
+
+
+def pair(
+    value: float | tuple[float, float], what: str, *, count: bool = False
+) -> tuple[float, float]:
+    """Accept one number for both horizontal directions, or two.
+
+    Parameters
+    ----------
+    value : float or tuple of two floats
+        What the caller gave, > 0.
+    what : str
+        What it is, as the message should call it.
+    count : bool
+        Whether the numbers must be whole.
+
+    Returns
+    -------
+    tuple of two floats
+        The numbers for x and y.
+
+    Raises
+    ------
+    ModelError
+        If there are not one or two numbers, or a count is not whole.
+    """
+    values = tuple(value) if isinstance(value, Sequence) else (value, value)
+    if len(values) != 2:
+        message = f"{what} = {value!r} must be one number, or two for x and y"
+        raise ModelError(message)
+    first, second = (
+        positive(number, what, "give one number, or two for x, y") for number in values
+    )
+    if count and not (first.is_integer() and second.is_integer()):
+        message = f"{what} = {value!r} must be whole: give counts of 1 or more"
+        raise ModelError(message)
+    return first, second

@@ -1,0 +1,246 @@
+"""Ready-made models: a mass on one bearing, a storey stick on bearings, a steel moment frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from frames._validate import ModelError, positive
+from frames.model.contents import STANDARD_GRAVITY
+from frames.model.damping import Damping
+from frames.model.frame import Frame
+from frames.model.grid import bearing_grid, pair
+from frames.model.moment_frames import DEFAULT_DAMPING
+from frames.model.moment_frames import moment_frame as moment_frame
+from frames.model.parts import bearing_axial_stiffness
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.model.grid import Bearings
+    from lir_element import LIRBearing
+
+    Storeys: TypeAlias = float | Sequence[float] | FloatArray
+    """One number for every storey, or one for each from below."""
+
+    Plan: TypeAlias = tuple[int | tuple[int, int], float | tuple[float, float]]
+    """Numbers of bays and bay widths [m], each one number or a pair for x and y."""
+
+VERTICAL_PERIOD = 0.05
+"""Period that fixes the default axial stiffness of a stick's storeys [s]."""
+
+RIGID_RATIO = 1e3
+"""Stiffness of the base slab's vertical ties over that of a bearing [-]."""
+
+
+def lumped_mass(
+    bearing: LIRBearing,
+    mass: float,
+    *,
+    inertia: tuple[float, float, float] | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    name: str = "lumped mass",
+) -> Frame:
+    """Build a mass on one bearing.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    mass : float
+        Mass above the bearing [kg], > 0.
+    inertia : (float, float, float), optional
+        Rotational inertia of the mass about x, y, z through the top node [kg m2], > 0: it is then
+        free to rotate, for the levels "contact" and "rigid_body" (at the level "pendulum" a
+        bearing does not hold its plate's tilt). None: the plates stay parallel.
+    gravity : float
+        Acceleration of gravity [m/s2].
+    name : str
+        Name of the model.
+
+    Returns
+    -------
+    Frame
+        Nodes "ground" (fixed) and "mass" (ux, uy, uz free), bearing "bearing", no damping.
+    """
+    frame = Frame(name, gravity)
+    frame.add_node("ground", 0.0, 0.0, 0.0)
+    frame.add_node("mass", 0.0, 0.0, bearing.height)
+    frame.fix("ground", "all")
+    checked = positive(mass, "lumped_mass: mass [kg]", "give the isolated mass")
+    if inertia is None:
+        frame.fix("mass", "rx", "ry", "rz")
+        frame.add_mass("mass", checked)
+    else:
+        moments = [positive(value, "lumped_mass: inertia [kg m2]") for value in inertia]
+        frame.add_mass("mass", checked, moments)
+    frame.add_bearing("bearing", "ground", "mass", bearing)
+    return frame
+
+
+def shear_building(
+    bearing: Bearings,
+    storey_mass: Storeys,
+    storey_stiffness: Storeys,
+    *,
+    storeys: int | None = None,
+    storey_height: float = 3.0,
+    base_mass: float | None = None,
+    axial_stiffness: Storeys | None = None,
+    plan: Plan | None = None,
+    damping: Damping | None = DEFAULT_DAMPING,
+    gravity: float = STANDARD_GRAVITY,
+    name: str = "shear building",
+) -> Frame:
+    """Build a stick of storeys whose floors stay horizontal, on one bearing or a grid of them.
+
+    Parameters
+    ----------
+    bearing : LIRBearing or mapping
+        One bearing for every place, or with a plan one for each place (ix, iy).
+    storey_mass : float or sequence of floats
+        Mass of each floor from below [kg], > 0.
+    storey_stiffness : float or sequence of floats
+        Lateral stiffness of each storey from below, the same along x and y [N/m], > 0.
+    storeys : int, optional
+        Number of storeys; default the length of the sequences, 1 without any.
+    storey_height : float
+        Height of each storey [m].
+    base_mass : float, optional
+        Mass of the slab on the bearings [kg]; default that of the first floor.
+    axial_stiffness : float or sequence of floats, optional
+        Vertical stiffness of each storey [N/m]; default so that the floors it carries, alone on
+        it, vibrate with a period of 0.05 s.
+    plan : (bays, bay width), optional
+        Numbers of bays along x and y and their widths [m], one number for both or a pair. Puts a
+        bearing under every grid point, distributes the mass over the plan and the storey stiffness
+        over columns at the grid points, and frees the floors' rotation about z. Without it there
+        is one bearing and no rotation.
+    damping : RayleighDamping, ModalDamping or None
+        Damping of the structure; default 2 per cent in every mode.
+    gravity : float
+        Acceleration of gravity [m/s2].
+    name : str
+        Name of the model.
+
+    Returns
+    -------
+    Frame
+        Nodes "base", "floor-1", ... with ux, uy, uz (and rz) free; bearing "bearing" on node
+        "ground", or "bearing-0-0", ... between "ground-0-0" and "base-0-0", ...
+
+    Notes
+    -----
+    Limits: floors and base do not tilt, hence no overturning: bearings alike carry equal vertical
+    loads. Use `moment_frame` where overturning matters.
+    """
+    chains = _storeys(storey_mass, storey_stiffness, axial_stiffness, storeys)
+    height = positive(storey_height, "shear_building: storey_height [m]")
+    base = chains[0][0] if base_mass is None else base_mass
+    base = positive(base, "shear_building: base_mass [kg]", "give the mass of the base slab")
+    frame = Frame(name, gravity)
+    if plan is None:
+        held: tuple[str, ...] = ("rx", "ry", "rz")
+        polar = gyration = 0.0
+        level = _one_bearing(frame, bearing)
+    else:
+        held = ("rx", "ry")
+        polar, gyration, level = _base_grid(frame, bearing, plan)
+    frame.fix("base", *held)
+    frame.add_mass("base", base, (0.0, 0.0, base * gyration))
+    frame.add_level("base", ["base"])
+    for k, values in enumerate(zip(*chains, strict=True), start=1):
+        _add_storey(frame, k, level + k * height, values, polar, gyration, held)
+    frame.set_damping(damping)
+    return frame
+
+
+def _add_storey(
+    frame: Frame,
+    number: int,
+    z: float,
+    values: tuple[float, float, float],
+    polar: float,
+    gyration: float,
+    held: tuple[str, ...],
+) -> None:
+    # Floor `number` at elevation z on the storey below it; mass, lateral and axial stiffness.
+    mass, lateral, axial = values
+    floor, below = f"floor-{number}", f"floor-{number - 1}" if number > 1 else "base"
+    frame.add_node(floor, 0.0, 0.0, z)
+    frame.fix(floor, *held)
+    frame.add_mass(floor, mass, (0.0, 0.0, mass * gyration))
+    stiffness = (lateral, lateral, axial, 0.0, 0.0, lateral * polar)
+    frame.add_spring(f"storey-{number}", below, floor, stiffness)
+    frame.add_level(floor, [floor])
+
+
+def _one_bearing(frame: Frame, bearing: Bearings) -> float:
+    # Nodes "ground" and "base" with a bearing between; returns z of the base.
+    if isinstance(bearing, Mapping):
+        message = (
+            f"shear_building: bearing is a mapping of {len(bearing)} places, without a plan it "
+            "must be one LIRBearing: give plan=(bays, bay_width)"
+        )
+        raise ModelError(message)
+    frame.add_node("ground", 0.0, 0.0, 0.0)
+    frame.fix("ground", "all")
+    frame.add_node("base", 0.0, 0.0, bearing.height)
+    frame.add_bearing("bearing", "ground", "base", bearing)
+    return bearing.height
+
+
+def _base_grid(frame: Frame, bearing: Bearings, plan: Plan) -> tuple[float, float, float]:
+    # Node "base" tied to a grid of bearings around it. Returns the mean of x^2 + y^2 over the grid
+    # points and over the plan's area [m2], and z of the base.
+    bays = tuple(int(n) for n in pair(plan[0], "shear_building: bays", count=True))
+    width = pair(plan[1], "shear_building: bay width [m]")
+    side = (bays[0] * width[0], bays[1] * width[1])
+    gyration = (side[0] ** 2 + side[1] ** 2) / 12.0
+    places = [(ix, iy) for ix in range(bays[0] + 1) for iy in range(bays[1] + 1)]
+    level = bearing_grid(frame, bearing, places, width, (-0.5 * side[0], -0.5 * side[1]))
+    frame.add_node("base", 0.0, 0.0, level)
+    stiffest = max(bearing_axial_stiffness(link.bearing) for link in frame.bearings.values())
+    tie = (0.0, 0.0, RIGID_RATIO * stiffest, 0.0, 0.0, 0.0)
+    nodes = [f"base-{ix}-{iy}" for ix, iy in places]
+    for node in nodes:
+        frame.fix(node, "rx", "ry")
+        frame.add_spring(f"tie-{node}", "base", node, tie)
+    frame.add_diaphragm("base", ["base", *nodes])
+    squares = [frame.nodes[node].x ** 2 + frame.nodes[node].y ** 2 for node in nodes]
+    return sum(squares) / len(squares), gyration, level
+
+
+def _storeys(
+    mass: Storeys,
+    stiffness: Storeys,
+    axial: Storeys | None,
+    storeys: int | None,
+) -> tuple[list[float], list[float], list[float]]:
+    given = {"storey_mass": mass, "storey_stiffness": stiffness, "axial_stiffness": axial}
+    sizes = {
+        key: np.size(value) for key, value in given.items() if value is not None and np.ndim(value)
+    }
+    if storeys is not None:
+        sizes["storeys"] = int(pair(storeys, "shear_building: storeys", count=True)[0])
+    if len(set(sizes.values())) > 1 or 0 in sizes.values():
+        message = (
+            f"shear_building: the numbers of storeys differ or are 0: {sizes}: "
+            "give sequences of one length, or single numbers and storeys=n"
+        )
+        raise ModelError(message)
+    count = next(iter(sizes.values()), 1)
+    masses = _storey_values(mass, count, "storey_mass [kg]")
+    if axial is None:
+        square = (2.0 * math.pi / VERTICAL_PERIOD) ** 2
+        axials = [square * sum(masses[k:]) for k in range(count)]
+    else:
+        axials = _storey_values(axial, count, "axial_stiffness [N/m]")
+    return masses, _storey_values(stiffness, count, "storey_stiffness [N/m]"), axials
+
+
+def _storey_values(value: Storeys, count: int, what: str) -> list[float]:
+    values = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,))
+    return [positive(number, f"shear_building: {what}") for number in values.tolist()]

@@ -1,0 +1,142 @@
+"""The ready-made steel moment frame on bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from frames._validate import ModelError, non_negative, positive
+from frames.model.contents import STANDARD_GRAVITY
+from frames.model.damping import Damping, ModalDamping
+from frames.model.frame import Frame
+from frames.model.grid import bearing_grid, pair
+from frames.model.sections import Section
+
+if TYPE_CHECKING:
+    from frames.model.grid import Bearings
+
+DEFAULT_DAMPING = ModalDamping(0.02)
+"""Two per cent in every mode of the structure, customary for steel above an isolation level."""
+
+DEFAULT_FLOOR_LOAD = 1450.0
+"""Mass of a floor besides its steel [kg/m2]: slab, finishes, cladding, part of the live load."""
+
+DEFAULT_COLUMN = Section.box(0.40, 0.40, 0.025)
+DEFAULT_BEAM = Section.i_shape(0.55, 0.22, 0.020, 0.012)
+DEFAULT_BASE_BEAM = Section.i_shape(0.80, 0.30, 0.030, 0.016)
+
+
+def moment_frame(
+    bays: tuple[int, int] = (2, 2),
+    storeys: int = 3,
+    *,
+    bearing: Bearings,
+    bay_width: float | tuple[float, float] = 6.0,
+    storey_height: float = 3.5,
+    floor_mass: float | None = None,
+    floor_load: float | None = None,
+    column: Section | None = None,
+    beam: Section | None = None,
+    base_beam: Section | None = None,
+    damping: Damping | None = DEFAULT_DAMPING,
+    gravity: float = STANDARD_GRAVITY,
+    name: str = "moment frame",
+) -> Frame:
+    """Build a regular 3-D steel moment frame with a bearing under every column.
+
+    Parameters
+    ----------
+    bays : tuple of two ints
+        Numbers of bays along x and y, >= 1.
+    storeys : int
+        Number of storeys above the base, >= 1.
+    bearing : LIRBearing or mapping
+        One bearing for every column, or one for each place (ix, iy).
+    bay_width : float or tuple of two floats
+        Bay widths along x and y [m].
+    storey_height : float
+        Height of each storey [m].
+    floor_mass : float, optional
+        Mass of every level, the base among them, besides its steel [kg].
+    floor_load : float, optional
+        The same by area [kg/m2]; default 1450. Give one of the two. The mass goes to the nodes by
+        tributary area.
+    column, beam, base_beam : Section, optional
+        Sections; default a box 400 x 25 mm, an I of 550 mm and, above the bearings, an I of
+        800 mm. Their density adds the mass of the steel: set it to 0 to leave that out.
+    damping : RayleighDamping, ModalDamping or None
+        Damping of the structure; default 2 per cent in every mode.
+    gravity : float
+        Acceleration of gravity [m/s2].
+    name : str
+        Name of the model.
+
+    Returns
+    -------
+    Frame
+        Levels "base", "floor-1", ..., each with a diaphragm of its name and nodes
+        "<level>-<ix>-<iy>"; fixed nodes "ground-<ix>-<iy>", bearings "bearing-<ix>-<iy>", members
+        "column-<storey>-<ix>-<iy>", "beam-x-<level>-<ix>-<iy>" and "beam-y-...".
+
+    Notes
+    -----
+    Refused with a `ModelError` if both `floor_mass` and `floor_load` are given, or a number is
+    out of bounds. The members are rigidly joined; the steel's mass is at the nodes.
+    """
+    count = tuple(int(number) for number in pair(bays, "moment_frame: bays", count=True))
+    levels = int(pair(storeys, "moment_frame: storeys", count=True)[0])
+    width = pair(bay_width, "moment_frame: bay_width [m]")
+    height = positive(storey_height, "moment_frame: storey_height [m]")
+    area = count[0] * width[0] * count[1] * width[1]
+    per_area = _mass_per_area(floor_mass, floor_load, area)
+    frame = Frame(name, gravity)
+    places = [(ix, iy) for ix in range(count[0] + 1) for iy in range(count[1] + 1)]
+    z = bearing_grid(frame, bearing, places, width, (0.0, 0.0))
+    below = "base"
+    _add_floor(frame, below, places, base_beam or DEFAULT_BASE_BEAM, per_area, width)
+    for storey in range(1, levels + 1):
+        floor = f"floor-{storey}"
+        for ix, iy in places:
+            foot, head = f"{below}-{ix}-{iy}", f"{floor}-{ix}-{iy}"
+            frame.add_node(head, ix * width[0], iy * width[1], z + storey * height)
+            frame.add_member(f"column-{storey}-{ix}-{iy}", foot, head, column or DEFAULT_COLUMN)
+        _add_floor(frame, floor, places, beam or DEFAULT_BEAM, per_area, width)
+        below = floor
+    frame.set_damping(damping)
+    return frame
+
+
+def _add_floor(
+    frame: Frame,
+    level: str,
+    places: Sequence[tuple[int, int]],
+    beam: Section,
+    per_area: float,
+    width: tuple[float, float],
+) -> None:
+    # Beams, masses by tributary area, diaphragm and level on the nodes of one floor.
+    n_x, n_y = places[-1]
+    for ix, iy in places:
+        node = f"{level}-{ix}-{iy}"
+        share = (0.5 if ix in {0, n_x} else 1.0) * (0.5 if iy in {0, n_y} else 1.0)
+        frame.add_mass(node, per_area * share * width[0] * width[1])
+        if ix < n_x:
+            frame.add_member(f"beam-x-{node}", node, f"{level}-{ix + 1}-{iy}", beam)
+        if iy < n_y:
+            frame.add_member(f"beam-y-{node}", node, f"{level}-{ix}-{iy + 1}", beam)
+    nodes = [f"{level}-{ix}-{iy}" for ix, iy in places]
+    frame.add_diaphragm(level, nodes)
+    frame.add_level(level, nodes)
+
+
+def _mass_per_area(floor_mass: float | None, floor_load: float | None, area: float) -> float:
+    if floor_mass is not None and floor_load is not None:
+        message = (
+            f"moment_frame: floor_mass = {floor_mass!r} kg and floor_load = {floor_load!r} kg/m2 "
+            "both give the mass of the floors: give one of them"
+        )
+        raise ModelError(message)
+    if floor_mass is not None:
+        return non_negative(floor_mass, "moment_frame: floor_mass [kg]") / area
+    chosen = DEFAULT_FLOOR_LOAD if floor_load is None else floor_load
+    return non_negative(chosen, "moment_frame: floor_load [kg/m2]")

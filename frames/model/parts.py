@@ -1,0 +1,134 @@
+"""Records of what a frame is made of; `frames.model.frame.Frame` checks and creates them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames._validate import non_negative, positive
+from frames.model.sections import Section
+
+if TYPE_CHECKING:
+    from lir_element import LIRBearing
+
+DOFS = ("ux", "uy", "uz", "rx", "ry", "rz")
+"""Names of a node's degrees of freedom: translations along and rotations about global x, y, z."""
+
+
+@dataclass(frozen=True)
+class Node:
+    """A point of the structure: name and coordinates [m], z up."""
+
+    name: str
+    x: float
+    y: float
+    z: float
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """Coordinates (x, y, z) [m]."""
+        return (self.x, self.y, self.z)
+
+
+@dataclass(frozen=True)
+class Member:
+    """A beam-column from node `i` to node `j`; `up` fixes its local axes, None the default."""
+
+    name: str
+    i: str
+    j: str
+    section: Section
+    up: tuple[float, float, float] | None
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A linear spring from node `i` to node `j`: 3 x N/m and 3 x N m/rad in global axes."""
+
+    name: str
+    i: str
+    j: str
+    stiffness: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Diaphragm:
+    """Nodes that move in their horizontal plane as one rigid body."""
+
+    name: str
+    nodes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BearingLink:
+    """A bearing between node `i` below and node `j` above."""
+
+    name: str
+    i: str
+    j: str
+    bearing: LIRBearing
+
+
+@dataclass(frozen=True)
+class Level:
+    """A storey level for drifts: name, elevation [m] and its nodes."""
+
+    name: str
+    z: float
+    nodes: tuple[str, ...]
+
+
+def bearing_axial_stiffness(bearing: LIRBearing) -> float:
+    """Return the axial stiffness of a bearing, its own default where none was specified.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        Axial stiffness in compression [N/m].
+    """
+    given = bearing.axial_stiffness
+    return float(bearing.resolved()["axial_stiffness"] if given is None else given)
+
+
+def bearing_rocking_stiffness(bearing: LIRBearing) -> float:
+    """Return a measure of how contact points resist the tilt of a plate, full disc [N m/rad]."""
+    return 0.25 * bearing_axial_stiffness(bearing) * float(bearing.slider_radius) ** 2
+
+
+def bearing_height(name: str, bearing: LIRBearing) -> float:
+    """Check that a device can be placed, and return its height.
+
+    Parameters
+    ----------
+    name : str
+        Name of the bearing in the frame, for the message.
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        Vertical distance from node i to node j [m].
+
+    Raises
+    ------
+    TypeError
+        If it is a class or lacks what a bearing has.
+    """
+    if isinstance(bearing, type):
+        message = f'bearing "{name}" is the class {bearing.__name__}: pass an instance of it'
+        raise TypeError(message)
+    missing = [word for word in ("axial_stiffness", "height") if not hasattr(bearing, word)]
+    if missing:
+        message = (
+            f'bearing "{name}" = {bearing!r} has no {" and no ".join(missing)}: '
+            "pass a lir_element.LIRBearing"
+        )
+        raise TypeError(message)
+    positive(bearing_axial_stiffness(bearing), f'axial_stiffness [N/m] of bearing "{name}"')
+    return non_negative(bearing.height, f'height [m] of bearing "{name}"')

@@ -1,0 +1,269 @@
+"""Cross-sections of members: the constants of an elastic prismatic bar."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+from frames._validate import ModelError, finite, non_negative, positive, real
+
+STEEL_ELASTIC_MODULUS = 200e9
+"""Elastic modulus of structural steel [Pa]."""
+
+STEEL_POISSON_RATIO = 0.3
+"""Poisson ratio of structural steel [-]."""
+
+STEEL_DENSITY = 7850.0
+"""Density of structural steel [kg/m3]."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """Cross-section and material of an elastic member, in the member's local axes.
+
+    Local x runs along the member, local y and z are the principal axes of the section
+    (`frames.model.axes.local_axes`). The *depth* of the ready-made shapes lies along local z, which
+    is vertical for a horizontal member: `inertia_y` then carries the gravity loads.
+
+    Parameters
+    ----------
+    area : float
+        Cross-sectional area [m2], > 0.
+    inertia_y, inertia_z : float
+        Second moments of area about local y and local z [m4], > 0.
+    torsion_constant : float
+        Saint-Venant torsion constant [m4], > 0.
+    elastic_modulus, shear_modulus : float
+        Moduli of the material [Pa], > 0.
+    density : float
+        Mass density [kg/m3], >= 0. Set it to 0 where a floor mass already contains the members.
+    shear_area_y, shear_area_z : float
+        Areas that carry the shear force along local y and z [m2], > 0. Infinity, the default,
+        leaves the shear deformation out (Euler-Bernoulli).
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its bounds; the message names it.
+
+    Examples
+    --------
+    >>> column = Section.box(0.4, 0.4, 0.02)
+    >>> round(column.area, 6), round(column.inertia_y * 1e4, 4)
+    (0.0304, 7.3365)
+    """
+
+    area: float
+    inertia_y: float
+    inertia_z: float
+    torsion_constant: float
+    elastic_modulus: float
+    shear_modulus: float
+    density: float = 0.0
+    shear_area_y: float = math.inf
+    shear_area_z: float = math.inf
+
+    def __post_init__(self) -> None:
+        """Check every number.
+
+        Raises
+        ------
+        ModelError
+            If a number is out of its bounds.
+        """
+        for field in fields(self):
+            value = getattr(self, field.name)
+            what = f"Section.{field.name}"
+            if field.name == "density":
+                number = non_negative(value, what, "give kg/m3, or 0 for a member without mass")
+            elif field.name.startswith("shear_area"):
+                number = real(value, what)
+                if math.isnan(number) or number <= 0.0:
+                    message = (
+                        f"{what} = {number:g} must be greater than 0: give m2, "
+                        "or leave it out (infinity) to neglect the shear deformation"
+                    )
+                    raise ModelError(message)
+            else:
+                number = positive(value, what, "a member needs every stiffness; give SI units")
+            object.__setattr__(self, field.name, number)
+
+    @classmethod
+    def box(
+        cls,
+        width: float,
+        depth: float,
+        thickness: float,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Build a rectangular hollow section of constant wall thickness.
+
+        The torsion constant is Bredt's for the closed wall line; the shear areas are those of the
+        two walls parallel to the shear force, taken between the centre lines of the other two.
+
+        Parameters
+        ----------
+        width, depth : float
+            Outer dimensions along local y and along local z [m].
+        thickness : float
+            Wall thickness [m], less than half the smaller outer dimension.
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
+
+        Returns
+        -------
+        Section
+            The section.
+
+        Raises
+        ------
+        ModelError
+            If a dimension is not positive or the walls overlap.
+        """
+        b, d, t = _dimensions("Section.box", width=width, depth=depth, thickness=thickness)
+        if 2.0 * t >= min(b, d):
+            message = (
+                f"Section.box: thickness = {t:g} m must be less than half the smaller side, "
+                f"{min(b, d) / 2.0:g} m: the walls overlap, use Section.rectangle for a solid bar"
+            )
+            raise ModelError(message)
+        inner_b, inner_d = b - 2.0 * t, d - 2.0 * t
+        return cls(
+            area=b * d - inner_b * inner_d,
+            inertia_y=(b * d**3 - inner_b * inner_d**3) / 12.0,
+            inertia_z=(d * b**3 - inner_d * inner_b**3) / 12.0,
+            # Bredt: 4 A_m^2 / integral of ds / t
+            torsion_constant=2.0 * t * ((b - t) * (d - t)) ** 2 / ((b - t) + (d - t)),
+            elastic_modulus=elastic_modulus,
+            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            density=density,
+            shear_area_y=2.0 * t * (b - t),
+            shear_area_z=2.0 * t * (d - t),
+        )
+
+    @classmethod
+    def i_shape(
+        cls,
+        depth: float,
+        flange_width: float,
+        flange_thickness: float,
+        web_thickness: float,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Build a doubly symmetric I section (no fillets), web along local z.
+
+        The torsion constant is that of thin open walls, the sum of b t^3 / 3; warping is left
+        out. Shear areas: the web between the flange centre lines along z, 5/6 of the two flanges
+        along y.
+
+        Parameters
+        ----------
+        depth : float
+            Outer depth along local z [m].
+        flange_width, flange_thickness : float
+            Width along local y and thickness of each flange [m].
+        web_thickness : float
+            Thickness of the web [m], not more than the flange width.
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
+
+        Returns
+        -------
+        Section
+            The section.
+
+        Raises
+        ------
+        ModelError
+            If a dimension is not positive, or flanges or web do not fit.
+        """
+        d, b, tf, tw = _dimensions(
+            "Section.i_shape",
+            depth=depth,
+            flange_width=flange_width,
+            flange_thickness=flange_thickness,
+            web_thickness=web_thickness,
+        )
+        if 2.0 * tf >= d or tw > b:
+            message = (
+                f"Section.i_shape: flange_thickness = {tf:g} m must be less than half the depth, "
+                f"{d / 2.0:g} m, and web_thickness = {tw:g} m not more than flange_width = "
+                f"{b:g} m: check the order (depth, flange_width, flange_thickness, web_thickness)"
+            )
+            raise ModelError(message)
+        web = d - 2.0 * tf
+        return cls(
+            area=2.0 * b * tf + web * tw,
+            inertia_y=(b * d**3 - (b - tw) * web**3) / 12.0,
+            inertia_z=(2.0 * tf * b**3 + web * tw**3) / 12.0,
+            torsion_constant=(2.0 * b * tf**3 + (d - tf) * tw**3) / 3.0,
+            elastic_modulus=elastic_modulus,
+            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            density=density,
+            shear_area_y=5.0 / 6.0 * 2.0 * b * tf,
+            shear_area_z=(d - tf) * tw,
+        )
+
+    @classmethod
+    def rectangle(
+        cls,
+        width: float,
+        depth: float,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Build a solid rectangular section.
+
+        The torsion constant is Saint-Venant's series [Timoshenko & Goodier, Theory of Elasticity,
+        art. 109]; the shear areas are 5/6 of the area.
+
+        Parameters
+        ----------
+        width, depth : float
+            Dimensions along local y and along local z [m].
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
+
+        Returns
+        -------
+        Section
+            The section.
+        """
+        b, d = _dimensions("Section.rectangle", width=width, depth=depth)
+        short, long = min(b, d), max(b, d)
+        series = sum(math.tanh(n * math.pi * long / (2.0 * short)) / n**5 for n in range(1, 40, 2))
+        return cls(
+            area=b * d,
+            inertia_y=b * d**3 / 12.0,
+            inertia_z=d * b**3 / 12.0,
+            torsion_constant=long
+            * short**3
+            / 3.0
+            * (1.0 - 192.0 / math.pi**5 * short / long * series),
+            elastic_modulus=elastic_modulus,
+            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            density=density,
+            shear_area_y=5.0 / 6.0 * b * d,
+            shear_area_z=5.0 / 6.0 * b * d,
+        )
+
+
+def _dimensions(where: str, **values: float) -> tuple[float, ...]:
+    remedy = "give the outer dimensions in metres"
+    return tuple(positive(value, f"{where}: {name}", remedy) for name, value in values.items())
+
+
+def _shear_modulus(elastic_modulus: float, poisson_ratio: float) -> float:
+    ratio = finite(poisson_ratio, "poisson_ratio")
+    if not -1.0 < ratio <= 0.5:
+        message = f"poisson_ratio = {ratio:g} must lie in (-1, 0.5]: steel has 0.3, concrete 0.2"
+        raise ModelError(message)
+    return positive(elastic_modulus, "elastic_modulus", "give Pa") / (2.0 * (1.0 + ratio))

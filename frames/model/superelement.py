@@ -1,0 +1,182 @@
+"""Superelements: linear parts of a structure given by matrices over their nodes' displacements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from frames._validate import ModelError, vector
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames._types import FloatArray, MatrixLike, SparseMatrix
+    from frames.model.contents import FrameContents
+
+_SYMMETRY = 1e-8  # of the largest entry, that a matrix may differ from its transpose
+
+
+@dataclass(frozen=True, eq=False)
+class Superelement:
+    """A linear part given by matrices over ux, uy, uz, rx, ry, rz of its nodes, node by node."""
+
+    name: str
+    nodes: tuple[str, ...]
+    stiffness: SparseMatrix
+    mass: SparseMatrix
+    damping: SparseMatrix
+    load: FloatArray
+    equations: SparseMatrix
+    notes: tuple[str, ...]
+
+
+def superelement(
+    name: str,
+    nodes: tuple[str, ...],
+    stiffness: MatrixLike,
+    mass: MatrixLike,
+    *,
+    damping: MatrixLike | None,
+    load: Sequence[float] | FloatArray | None,
+    equations: MatrixLike | None,
+    notes: Sequence[str],
+) -> Superelement:
+    """Check the arrays of a superelement; see `Frame.add_superelement`.
+
+    Parameters
+    ----------
+    name : str
+        Name of the part.
+    nodes : tuple of str, (n,)
+        Its nodes.
+    stiffness, mass, damping : array_like or sparse, (6 n, 6 n)
+        Symmetric matrices.
+    load : array_like, (6 n,)
+        Permanent loads.
+    equations : array_like or sparse, (m, 6 n)
+        Ties.
+    notes : sequence of str
+        What should be known.
+
+    Returns
+    -------
+    Superelement
+        The part.
+
+    Raises
+    ------
+    ModelError
+        If a shape is wrong, a number is not finite or a matrix is not symmetric.
+    """
+    size = 6 * len(nodes)
+    owner = f'superelement "{name}"'
+    none = np.zeros((size, size))
+    given = {"stiffness": stiffness, "mass": mass, "damping": none if damping is None else damping}
+    return Superelement(
+        name=name,
+        nodes=nodes,
+        **{word: _symmetric(f"{word} of {owner}", a, nodes) for word, a in given.items()},
+        load=vector(np.zeros(size) if load is None else load, size, f"load of {owner}"),
+        equations=_finite(
+            f"equations of {owner}", np.zeros((0, size)) if equations is None else equations, nodes
+        ),
+        notes=tuple(notes),
+    )
+
+
+def _finite(what: str, given: MatrixLike, nodes: tuple[str, ...]) -> SparseMatrix:
+    entries = given if sparse.issparse(given) else np.array(given, dtype=np.float64, ndmin=2)
+    matrix = sparse.csr_array(entries)
+    if matrix.ndim != 2 or matrix.shape[1] != 6 * len(nodes):
+        message = (
+            f"{what} has shape {matrix.shape}, it must have {6 * len(nodes)} columns: 6 for each "
+            f"of its {len(nodes)} nodes"
+        )
+        raise ModelError(message)
+    if not np.isfinite(matrix.data).all():
+        message = f"{what} must be finite: give finite numbers in SI units"
+        raise ModelError(message)
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _symmetric(what: str, given: MatrixLike, nodes: tuple[str, ...]) -> SparseMatrix:
+    matrix = _finite(what, given, nodes)
+    size = 6 * len(nodes)
+    if matrix.shape[0] != size:
+        message = (
+            f"{what} has shape {matrix.shape}, it must be ({size}, {size}): 6 rows for each of "
+            f"its {len(nodes)} nodes"
+        )
+        raise ModelError(message)
+    apart, largest, row = asymmetry(matrix)
+    if apart > _SYMMETRY * largest:
+        message = (
+            f"{what} is not symmetric: entries differ by {apart:.3g}, {_SYMMETRY:g} of the "
+            f'largest, {largest:.3g}, is allowed; look at node "{nodes[row // 6]}"'
+        )
+        raise ModelError(message)
+    return sparse.csr_array(0.5 * (matrix + matrix.T))
+
+
+def asymmetry(matrix: SparseMatrix) -> tuple[float, float, int]:
+    """Return how far entries differ from those across the diagonal, the largest entry, the row."""
+    if not matrix.nnz:
+        return 0.0, 0.0, 0
+    apart = abs(matrix - matrix.T)
+    return float(apart.max()), float(abs(matrix).max()), int(np.argmax(apart.max(axis=1).toarray()))
+
+
+class Placed(NamedTuple):
+    """The sums of all superelements over the displacements of all nodes."""
+
+    stiffness: SparseMatrix
+    mass: SparseMatrix
+    damping: SparseMatrix
+    load: FloatArray
+    equations: SparseMatrix
+
+
+def placed(frame: FrameContents, index: dict[str, int]) -> Placed:
+    """Sum up the superelements of a frame.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    index : dict of str to int
+        Places of its nodes.
+
+    Returns
+    -------
+    Placed
+        Matrices over all nodal displacements.
+    """
+    size = 6 * len(index)
+    stiffness, mass, damping = (sparse.csr_array((size, size), dtype=np.float64) for _ in range(3))
+    load = np.zeros(size)
+    equations = [sparse.csr_array((0, size), dtype=np.float64)]
+    for part in frame.superelements.values():
+        places = np.array([index[node] for node in part.nodes], dtype=np.int64)
+        dofs = (6 * places[:, None] + np.arange(6)).ravel()
+        count = len(dofs)
+        put = sparse.csr_array((np.ones(count), (dofs, np.arange(count))), shape=(size, count))
+        stiffness = sparse.csr_array(stiffness + put @ part.stiffness @ put.T)
+        mass = sparse.csr_array(mass + put @ part.mass @ put.T)
+        damping = sparse.csr_array(damping + put @ part.damping @ put.T)
+        np.add.at(load, dofs, part.load)
+        equations.append(sparse.csr_array(part.equations @ put.T))
+    return Placed(stiffness, mass, damping, load, sparse.csr_array(sparse.vstack(equations)))
+
+
+def lumped(mass: SparseMatrix) -> FloatArray:
+    """Return masses by node (n_nodes, 6): what a unit translation moves; diagonal of rotations."""
+    count = mass.shape[0] // 6
+    found = mass.diagonal().reshape(count, 6).copy()
+    for axis in range(3):
+        unit = np.tile(np.eye(6)[axis], count)
+        found[:, axis] = (mass @ unit)[axis::6]
+    return found

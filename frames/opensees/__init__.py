@@ -1,0 +1,1 @@
+"""Superstructures taken over from a model that OpenSeesPy holds."""

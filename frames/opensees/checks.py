@@ -1,0 +1,203 @@
+"""What of an OpenSees model cannot be taken over, or should be known: refused, or named."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._validate import ModelError
+from frames.model.superelement import asymmetry
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from frames._types import FloatArray
+    from frames.opensees.model import ElementEntry, OpenSeesModel
+
+LINEAR = (
+    "ElasticBeam2d", "ElasticBeam3d", "ElasticTimoshenkoBeam2d", "ElasticTimoshenkoBeam3d",
+    "ModElasticBeam2d", "ModElasticBeam3d",
+)  # fmt: skip
+"""Classes of elements that are linear whatever their material: only P-Delta changes them."""
+
+YIELDED = 0.2
+"""Change of stiffness of an element, of its initial one, from which on it is refused [-]."""
+
+NAMED = 8
+"""How many tags a message lists."""
+
+_SYMMETRY = 1e-6
+_RANK = 1e-4  # of the largest singular value of a block, below which it has no stiffness
+
+
+def refuse_unsymmetric(model: OpenSeesModel) -> None:
+    """Refuse matrices that are not symmetric.
+
+    Parameters
+    ----------
+    model : OpenSeesModel
+        The model.
+
+    Raises
+    ------
+    ModelError
+        If one is not; the message names a node.
+    """
+    for word in ("mass", "damping", "stiffness"):
+        apart, largest, row = asymmetry(getattr(model, word))
+        if apart > _SYMMETRY * largest:
+            message = (
+                f"the {word} of the OpenSees model is not symmetric near node "
+                f"{model.tags[row // model.ndf]} (entries differ by {apart:.3g} of "
+                f"{largest:.3g}): an element with friction or follower forces is there; remove it"
+            )
+            raise ModelError(message)
+
+
+def changed_elements(model: OpenSeesModel) -> list[tuple[ElementEntry, float]]:
+    """Find elements whose stiffness is not their initial one.
+
+    Off the diagonal a stiffness matrix shows what joins two nodes. The change is measured in the
+    deformation that it affects most, relative to the initial stiffness in it. Elements that are
+    linear by class are left out; those that share their nodes are told together.
+
+    Parameters
+    ----------
+    model : OpenSeesModel
+        The model.
+
+    Returns
+    -------
+    list of (ElementEntry, float)
+        Elements that may be nonlinear, and the change of their stiffness [-].
+    """
+    change = model.stiffness - model.initial
+    at = {tag: place for place, tag in enumerate(model.tags)}
+    ndf, found = model.ndf, []
+    for element in model.elements:
+        if element.kind in LINEAR:
+            continue
+        largest = 0.0
+        for k, first in enumerate(element.nodes):
+            for second in element.nodes[k + 1 :]:
+                rows = slice(ndf * at[first], ndf * (at[first] + 1))
+                columns = slice(ndf * at[second], ndf * (at[second] + 1))
+                apart = model.coordinates[at[first]] - model.coordinates[at[second]]
+                largest = max(
+                    largest,
+                    _relative_change(
+                        model.initial[rows, columns].toarray(),
+                        change[rows, columns].toarray(),
+                        float(np.linalg.norm(apart)) or 1.0,
+                        model.coordinates.shape[1],
+                    ),
+                )
+        found.append((element, largest))
+    return found
+
+
+def _relative_change(initial: FloatArray, change: FloatArray, length: float, ndm: int) -> float:
+    if not initial.any():
+        return 1.0 if change.any() else 0.0
+    size = np.where(np.arange(len(initial)) < ndm, 1.0, 1.0 / length)
+    scale = np.outer(size, size)
+    return float(np.linalg.norm(np.linalg.pinv(initial * scale, rcond=_RANK) @ (change * scale), 2))
+
+
+def judge_elements(model: OpenSeesModel, *, accept: bool) -> list[str]:
+    """Refuse elements that have left their initial stiffness; name those that may do so later.
+
+    Parameters
+    ----------
+    model : OpenSeesModel
+        The model.
+    accept : bool
+        Whether to take changed elements at their present stiffness.
+
+    Returns
+    -------
+    list of str
+        Notes.
+
+    Raises
+    ------
+    ModelError
+        If an element has changed and `accept` is False.
+    """
+    found = changed_elements(model)
+    changed = [(element, share) for element, share in found if share > YIELDED]
+    notes = []
+    if changed:
+        worst = max(changed, key=lambda item: item[1])
+        tags = listed([element.tag for element, _ in changed])
+        text = (
+            f"elements {tags} have left their initial stiffness (element {worst[0].tag}, "
+            f"{worst[0].kind}, by {100.0 * worst[1]:.0f} %, {100.0 * YIELDED:.0f} % counts as "
+            "unchanged)"
+        )
+        if not accept:
+            message = (
+                f"{text}: they yield, open or crack, and are not linear in this state; take the "
+                "model over before, or pass accept_nonlinear=True to freeze their present stiffness"
+            )
+            raise ModelError(message)
+        notes.append(f"{text}: their present stiffness is kept")
+    kinds: dict[str, list[int]] = {}
+    for element, _ in found:
+        kinds.setdefault(element.kind, []).append(element.tag)
+    notes += [
+        f"{len(tags)} elements {kind} ({listed(tags)}) may be nonlinear: they are taken as linear "
+        "with their present stiffness and damping"
+        for kind, tags in kinds.items()
+    ]
+    return notes
+
+
+def refuse_other_supports(
+    model: OpenSeesModel, bases: Collection[int], meant: Collection[int]
+) -> None:
+    """Refuse supports that carry elements and are neither base nodes nor said to be meant.
+
+    Parameters
+    ----------
+    model : OpenSeesModel
+        The model.
+    bases : collection of int
+        Tags of the base nodes.
+    meant : collection of int
+        Tags of supports that shall stay.
+
+    Raises
+    ------
+    ModelError
+        If there are such; the message names the elements between a support and a base node.
+    """
+    ndm = model.coordinates.shape[1]
+    held = np.all(model.fixed.reshape(-1, model.ndf)[:, :ndm], axis=1).tolist()
+    allowed = {*bases, *meant}
+    supports = {
+        tag for tag, fixed in zip(model.tags, held, strict=True) if fixed and tag not in allowed
+    }
+    carried = [element for element in model.elements if supports.intersection(element.nodes)]
+    if not carried:
+        return
+    between = [element for element in carried if set(bases).intersection(element.nodes)]
+    tags = sorted(supports & {node for element in carried for node in element.nodes})
+    if between:
+        remedy = (
+            f"element {between[0].tag} ({between[0].kind}) joins one to base node "
+            f"{next(n for n in between[0].nodes if n in set(bases))}: bearings take the place of "
+            "such elements, so remove them first, ops.remove('element', "
+            f"{between[0].tag}) and so on ({len(between)} in all)"
+        )
+    else:
+        remedy = "name them in base_nodes, or in other_supports if they shall stay"
+    message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
+    raise ModelError(message)
+
+
+def listed(tags: Collection[int]) -> str:
+    """Return tags as text, the first few of many."""
+    shown = ", ".join(str(tag) for tag in list(tags)[:NAMED])
+    return shown if len(tags) <= NAMED else f"{shown} and {len(tags) - NAMED} more"

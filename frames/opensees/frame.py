@@ -1,0 +1,304 @@
+"""From an OpenSees model to a frame: axes, units, supports released, bearings under the bases."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from frames._validate import ModelError, ModelWarning, positive
+from frames.assembly.assemble import assemble
+from frames.model.parts import DOFS, bearing_height
+from frames.model.superelement import lumped
+from frames.opensees.checks import (
+    judge_elements,
+    listed,
+    refuse_other_supports,
+    refuse_unsymmetric,
+)
+from frames.opensees.loads import light_base, permanent_load, rigid_damping
+from frames.opensees.model import read_model
+
+if TYPE_CHECKING:
+    from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames.model.frame import Frame
+    from frames.opensees.model import OpenSeesModel
+    from lir_element import LIRBearing
+
+NAME = "opensees"
+"""Name of the superelement that holds the model."""
+
+BASE_ROTATIONS = ("kept", "free", "fixed")
+LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
+
+
+@dataclass(frozen=True)
+class Options:
+    """What `Frame.from_opensees` was asked for."""
+
+    base_nodes: tuple[int, ...]
+    bearings: Mapping[int, LIRBearing]
+    vertical: str | None
+    base_rotations: str
+    base_diaphragm: bool
+    gravity: float | None
+    damping: bool
+    levels: Mapping[str, Sequence[int]] | None
+    other_supports: Collection[int]
+    accept_nonlinear: bool
+    length_unit: float
+    force_unit: float
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """The model in axes of the frame (z up) and SI units, six displacements a node."""
+
+    tags: tuple[int, ...]
+    coordinates: FloatArray
+    matrices: dict[str, SparseMatrix]  # mass, damping, stiffness
+    fixed: BoolArray  # (n, 6), true where held
+    present: BoolArray  # (n, 6), false for displacements that the model does not have
+    equations: SparseMatrix
+    load: FloatArray  # (6 n,)
+
+
+def build(frame: Frame, options: Options) -> None:
+    """Fill an empty frame with the current model of OpenSeesPy, on bearings.
+
+    Parameters
+    ----------
+    frame : Frame
+        An empty frame.
+    options : Options
+        What was asked for.
+
+    Raises
+    ------
+    ModelError
+        If the model cannot be taken over.
+    """
+    _check_options(options)
+    model = read_model()
+    unknown = [tag for tag in (*options.base_nodes, *options.other_supports)
+               if tag not in model.tags]  # fmt: skip
+    if unknown:
+        message = (
+            f"the OpenSees model has no node {unknown[0]}, named as a base node or support: give "
+            f"tags of its nodes, {listed(model.tags)}"
+        )
+        raise ModelError(message)
+    refuse_unsymmetric(model)
+    notes = judge_elements(model, accept=options.accept_nonlinear)
+    refuse_other_supports(model, options.base_nodes, options.other_supports)
+    structure = _released(_turned(model, options), options)
+    if not options.damping:
+        empty = sparse.csr_array(structure.matrices["damping"].shape, dtype=np.float64)
+        structure.matrices["damping"] = empty
+    load, said = permanent_load(structure, options)
+    notes += said + rigid_damping(structure, options) + light_base(structure, options)
+    _add_structure(frame, structure, load, notes)
+    _add_bearings(frame, structure, options)
+    _add_levels(frame, structure, options)
+    _refuse_held_bases(frame, structure, options)
+    for note in notes:
+        warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=3)
+
+
+def bearings_by_tag(
+    base_nodes: Sequence[int],
+    bearing: LIRBearing | Mapping[int, LIRBearing],
+) -> tuple[tuple[int, ...], dict[int, LIRBearing]]:
+    """Check base nodes and bearings against each other.
+
+    Parameters
+    ----------
+    base_nodes : sequence of int
+        Tags.
+    bearing : LIRBearing or mapping
+        One for all, or by tag.
+
+    Returns
+    -------
+    tuple
+        The tags, and bearings by tag.
+
+    Raises
+    ------
+    ModelError
+        If a tag repeats, there is none, or bearings and tags do not match.
+    """
+    tags = tuple(int(tag) for tag in base_nodes)
+    repeated = [tag for tag in tags if tags.count(tag) > 1]
+    if not tags or repeated:
+        what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
+        message = f"base_nodes {what}: give the tag of each node that stands on a bearing once"
+        raise ModelError(message)
+    if not isinstance(bearing, Mapping):
+        return tags, dict.fromkeys(tags, bearing)
+    apart = sorted(set(tags) ^ {int(tag) for tag in bearing})
+    if apart:
+        where = (
+            "base_nodes but not in bearing" if apart[0] in tags else "bearing but not base_nodes"
+        )
+        message = f"node {apart[0]} is in {where}: give one bearing for each base node"
+        raise ModelError(message)
+    return tags, {int(tag): device for tag, device in bearing.items()}
+
+
+def _check_options(options: Options) -> None:
+    if options.vertical not in {None, "y", "z"}:
+        message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
+        raise ModelError(message)
+    if options.base_rotations not in BASE_ROTATIONS:
+        message = f"base_rotations = {options.base_rotations!r}: choose one of {BASE_ROTATIONS}"
+        raise ModelError(message)
+    for word in ("length_unit", "force_unit"):
+        positive(getattr(options, word), word, "give the model's unit in m or N")
+    if options.gravity is not None:
+        positive(options.gravity, "gravity [m/s2]", "9.81, or None where the model is loaded")
+    for tag, device in options.bearings.items():
+        bearing_height(f"bearing-{tag}", device)
+
+
+def _turned(model: OpenSeesModel, options: Options) -> Structure:
+    # Axes: x, y, z of the frame; a plane model lies in x-z. Forces and lengths to SI.
+    count, ndm = model.coordinates.shape
+    if ndm == 2 and options.vertical == "z":
+        message = 'vertical = "z": a plane model of OpenSees has its y axis up, leave vertical out'
+        raise ModelError(message)
+    y_up = ndm == 2 or options.vertical == "y"
+    axes = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]) if y_up else np.eye(3)
+    turn = np.kron(np.eye(2), axes)[:, [0, 1, 5] if ndm == 2 else list(range(6))]
+    moves = np.array([1.0] * ndm + [0.0] * (model.ndf - ndm))
+    length = options.length_unit
+    to_model = np.where(moves > 0.0, 1.0 / length, 1.0)  # model's displacements from SI
+    scale = np.tile(to_model, count)
+    put = sparse.csr_array(sparse.kron(sparse.eye_array(count), turn) @ sparse.diags_array(scale))
+    energy = options.force_unit * length
+    matrices = {
+        word: sparse.csr_array(energy * (put @ getattr(model, word) @ put.T))
+        for word in ("mass", "damping", "stiffness")
+    }
+    points = np.zeros((count, 3))
+    points[:, :ndm] = model.coordinates * length
+    has = np.abs(turn) > 0.0
+    return Structure(
+        tags=model.tags,
+        coordinates=points @ axes.T,
+        matrices=matrices,
+        fixed=(model.fixed.reshape(count, -1) @ has.T.astype(float)) > 0.0,
+        present=np.tile(has.any(axis=1), (count, 1)),
+        equations=sparse.csr_array(model.equations @ put.T),
+        load=energy * (put @ model.unbalance),
+    )
+
+
+def _released(structure: Structure, options: Options) -> Structure:
+    # Base nodes: translations and the rotation about the vertical free, the others as asked for;
+    # what is held at every node (a plane model in space) stays. Nodes that nothing reaches go.
+    bases = [structure.tags.index(tag) for tag in options.base_nodes]
+    parts = [*structure.matrices.values(), structure.equations]
+    reached = np.sum([np.asarray(abs(part).sum(axis=0)) for part in parts], axis=0)
+    used = reached.reshape(-1, 6).any(axis=1)
+    fixed = structure.fixed.copy()
+    fixed[np.ix_(bases, [0, 1, 2, 5])] = False
+    if options.base_rotations != "kept":
+        fixed[np.ix_(bases, [3, 4])] = options.base_rotations == "fixed"
+    fixed |= np.all(structure.fixed[used], axis=0)
+    idle = [tag for tag in options.base_nodes if not used[structure.tags.index(tag)]]
+    if idle:
+        message = f"base node {idle[0]} carries nothing: no element, mass or constraint is there"
+        raise ModelError(message)
+    places = np.flatnonzero(used)
+    dofs = (6 * places[:, None] + np.arange(6)).ravel()
+    return Structure(
+        tags=tuple(structure.tags[place] for place in places),
+        coordinates=structure.coordinates[places],
+        matrices={word: m[dofs][:, dofs] for word, m in structure.matrices.items()},
+        fixed=(fixed | ~structure.present)[places],
+        present=structure.present[places],
+        equations=structure.equations[:, dofs],
+        load=structure.load[dofs],
+    )
+
+
+def _add_structure(frame: Frame, structure: Structure, load: FloatArray, notes: list[str]) -> None:
+    names = tuple(str(tag) for tag in structure.tags)
+    for name, point, fixed in zip(names, structure.coordinates, structure.fixed, strict=True):
+        frame.add_node(name, *point.tolist())
+        held = [dof for dof, is_held in zip(DOFS, fixed, strict=True) if is_held]
+        if held:
+            frame.fix(name, *held)
+    frame.add_superelement(
+        NAME, names, **structure.matrices, load=load, equations=structure.equations, notes=notes
+    )
+
+
+def _add_bearings(frame: Frame, structure: Structure, options: Options) -> None:
+    for tag, device in options.bearings.items():
+        base = frame.nodes[str(tag)]
+        ground = f"ground-{tag}"
+        frame.add_node(ground, base.x, base.y, base.z - device.height)
+        frame.fix(ground, "all")
+        frame.add_bearing(f"bearing-{tag}", ground, base.name, device)
+    if not options.base_diaphragm:
+        return
+    at = {str(tag): frame.nodes[str(tag)].z for tag in options.base_nodes}
+    groups = [group for group in _by_elevation(at) if len(group) > 1]
+    for k, group in enumerate(groups):
+        frame.add_diaphragm("base" if len(groups) == 1 else f"base-{k + 1}", group)
+
+
+def _add_levels(frame: Frame, structure: Structure, options: Options) -> None:
+    # The base, and every elevation with mass; or as given.
+    if options.levels is not None:
+        given = sorted(options.levels.items(), key=lambda item: frame.nodes[str(item[1][0])].z)
+        for name, tags in given:
+            frame.add_level(name, [str(tag) for tag in tags])
+        return
+    mass = lumped(structure.matrices["mass"])[:, 0]
+    at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
+    heavy = dict(zip(at, mass.tolist(), strict=True))
+    rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))
+    bases = {str(tag) for tag in options.base_nodes}
+    place = 0
+    for group in _by_elevation(at):
+        is_base = bool(bases.intersection(group))
+        if not is_base and not any(heavy[name] > 0.0 for name in group):
+            continue
+        # a master node that is held vertically is no part of the floor's vertical motion
+        frame.add_level(f"level-{place}", [name for name in group if rises[name]] or group)
+        place += 1
+
+
+def _by_elevation(at: dict[str, float]) -> list[list[str]]:
+    groups: list[list[str]] = []
+    low = -math.inf
+    for name in sorted(at, key=lambda name: at[name]):
+        if at[name] - low > LEVEL_STEP:
+            groups.append([])
+            low = at[name]
+        groups[-1].append(name)
+    return groups
+
+
+def _refuse_held_bases(frame: Frame, structure: Structure, options: Options) -> None:
+    # A base node that constraints still hold would leave its bearing without work.
+    system = assemble(frame)
+    moving = np.diff(system.transform.indptr) > 0
+    for tag in options.base_nodes:
+        node = system.node_names.index(str(tag))
+        needed = ~structure.fixed[structure.tags.index(tag)]
+        held = [DOFS[axis] for axis in range(3) if needed[axis] and not moving[6 * node + axis]]
+        if held:
+            message = (
+                f"base node {tag} cannot move along {held[0]}: a multi-point constraint ties it to "
+                "a fixed node; remove that constraint by ops.remove('mp', ...)"
+            )
+            raise ModelError(message)

@@ -1,0 +1,337 @@
+"""The audit of a run: whether what was left out mattered, and what was modelled was needed.
+
+It reads the Dataset alone: what a run left out is judged by what the run itself reached.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.model.contents import STANDARD_GRAVITY
+from lir_element.device.features import Features
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+    from frames._types import FloatArray
+
+NEAR = 0.95
+"""Share of a limit at which it counts as reached in a run that left out something else as well."""
+
+SMALL = {
+    "plate_rotation": 0.02,  # of the largest displacement
+    "velocity_dependence": 0.02,  # of friction
+    "second_direction": 0.02,  # of the x direction
+    "vertical_coupling": 0.05,  # of the static axial force
+}
+"""What must not be exceeded by an effect that is left out."""
+
+PRESSED = 0.05
+"""Axial force over the static one below which the audit leaves eccentricities to uplift."""
+
+KERN = 0.25
+"""Eccentricity over slider radius up to which a circular contact is closed all over."""
+
+CONTACT = 0.5
+"""Eccentricity over slider radius beyond which the level 'contact' is asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """What the audit found on one feature.
+
+    Attributes
+    ----------
+    feature : str
+        Of `Features.names()`, or "full_contact": what the level 'pendulum' takes for granted.
+    left_out : bool
+        Whether the run left it out.
+    mattered : bool
+        Left out: whether that spoils the run. Modelled: whether it came into play.
+    number : float
+        What the judgement rests on; the sentence says what it is.
+    sentence : str
+        For people.
+    """
+
+    feature: str
+    left_out: bool
+    mattered: bool
+    number: float
+    sentence: str
+
+
+def audit(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge what a time history left out, and what of the rest it needed.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, also one that was saved and loaded.
+
+    Returns
+    -------
+    tuple of Finding
+        One for each feature, in the order of `Features.names()`, and one on full contact.
+
+    Notes
+    -----
+    With ``record_every`` above 1 peaks between the records are not seen.
+    """
+    out = left_out(data)
+    found = [_JUDGES[name](data, name in out) for name in Features.names()]
+    return (*found, _full_contact(data))
+
+
+def audit_report(data: xr.Dataset) -> str:
+    """Return the audit of a time history as text, a line a finding.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    str
+        Lines that begin with "!" tell of something left out that mattered.
+    """
+    return report_of(audit(data))
+
+
+def report_of(findings: tuple[Finding, ...]) -> str:
+    """Return findings as text: what was left out first, then what was modelled."""
+    lines = [("! " if is_missing(f) else "  ") + f.sentence for f in findings if f.left_out]
+    lines += ["  " + f.sentence for f in findings if not f.left_out]
+    return "\n".join(lines)
+
+
+def is_missing(finding: Finding) -> bool:
+    """Return whether the run should be repeated with what it left out."""
+    return finding.left_out and finding.mattered
+
+
+def needed_level(findings: tuple[Finding, ...]) -> str:
+    """Return the cheapest level that is sufficient: "pendulum", or "contact".
+
+    Parameters
+    ----------
+    findings : tuple of Finding
+        Of `audit`.
+
+    Returns
+    -------
+    str
+        "contact" where a bearing lifted off, or the resultant between the sliders came further
+        than half a radius off an axis.
+    """
+    by_name = {finding.feature: finding for finding in findings}
+    lifted = by_name["uplift"].mattered
+    return "contact" if lifted or by_name["full_contact"].mattered else "pendulum"
+
+
+def left_out(data: xr.Dataset) -> tuple[str, ...]:
+    """Return the names of the features that a run left out."""
+    text = str(data.attrs["features_left_out"])
+    return () if text == "none" else tuple(text.split(", "))
+
+
+def vertical_force(data: xr.Dataset) -> FloatArray:
+    """Return the axial force of the bearings (time, bearing), compression positive [N].
+
+    Where vertical coupling is left out: that of the vertical springs, and what lifting the static
+    load along the pendulum's path would have added, ``W / g`` times the acceleration of
+    ``L - sqrt(L^2 - U^2)``.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    ndarray, (n_steps, n_bearings)
+        Axial forces [N].
+    """
+    axial: FloatArray = data["axial_force"].to_numpy()
+    if "vertical_coupling" not in left_out(data):
+        return axial
+    spring = -data["bearing_force"].sel(axis="z").to_numpy()
+    time = data["time"].to_numpy()
+    if len(time) < 2:
+        return np.asarray(spring)
+    u = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
+    v = data["bearing_velocity"].sel(axis=["x", "y"]).to_numpy()
+    length = data["length"].to_numpy()
+    depth = np.sqrt(np.maximum(length**2 - (u**2).sum(axis=-1), 0.01 * length**2))
+    rising = np.gradient((u * v).sum(axis=-1) / depth, time, axis=0)
+    return np.asarray(spring + data["static_axial_force"].to_numpy() / STANDARD_GRAVITY * rising)
+
+
+def _rims(data: xr.Dataset, out: bool) -> Finding:
+    limit = data["rim_displacement"].to_numpy()
+    slid = data["slider_displacement"].sel(axis=["x", "y"]).to_numpy()
+    share = float((np.linalg.norm(slid, axis=-1) / limit).max())
+    met = (data["rim_force"] > 0.0).any("surface").to_numpy()
+    mattered = share >= (_reached(data, "rims") if out else 1.0)
+    if np.isinf(limit).all():
+        return _finding("rims", out, False, 0.0, "the bearings have none")
+    if out or not met.any():
+        text = f"reached {_share(share)} of capacity"
+        return _finding("rims", out, out and mattered, share, text)
+    return _finding("rims", out, True, share, f"met by {_by_whom(data, met)}")
+
+
+def _interface(data: xr.Dataset, out: bool) -> Finding:
+    friction = data["interface_friction"].to_numpy()
+    if np.isinf(friction).all():
+        return _finding("interface", out, False, 0.0, "the sliders are in one piece")
+    normal = np.maximum(
+        data["axial_force"].to_numpy(), 1e-3 * data["static_axial_force"].to_numpy()
+    )
+    shares = data["interface_force"].to_numpy() / (friction * normal)
+    share = float(shares.max())
+    if out or share < 1.0 - 1e-9:
+        mattered = out and share >= _reached(data, "interface")
+        text = f"carried {_share(share)} of what its friction holds"
+        return _finding("interface", out, mattered, share, text)
+    size = float(data["interface_slip_size"].max())
+    who = _by_whom(data, shares >= 1.0 - 1e-9)
+    return _finding("interface", out, True, share, f"slipped up to {1e3 * size:.3g} mm, {who}")
+
+
+def _uplift(data: xr.Dataset, out: bool) -> Finding:
+    ratio = vertical_force(data) / data["static_axial_force"].to_numpy()
+    least = float(ratio.min())
+    if out or least > 0.0:
+        return _finding("uplift", out, least <= 0.0, least, f"smallest N {least:.2f} W")
+    return _finding("uplift", out, True, least, f"lifted off: {_by_whom(data, ratio <= 0.0)}")
+
+
+def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
+    shift = float(np.max(np.linalg.norm(centre_shift(data), axis=-1)))
+    moves = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
+    largest = float(np.linalg.norm(moves, axis=-1).max())
+    share = shift / largest if largest > 0.0 else 0.0
+    text = f"tilt moves the spheres' centres by up to {1e3 * shift:.2g} mm, {_share(share, 1)} of "
+    text += "the largest displacement"
+    return _finding("plate_rotation", out, share > SMALL["plate_rotation"], share, text)
+
+
+def centre_shift(data: xr.Dataset) -> FloatArray:
+    """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
+    turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
+    total = np.zeros((*data["axial_force"].shape, 2))
+    for end, name in enumerate(("bottom", "top")):
+        place = data["bearing_node"].isel(end=end).to_numpy()
+        lever = data["lever"].sel(surface=name).to_numpy()
+        total[..., 0] += lever * turns[:, place, 1]
+        total[..., 1] -= lever * turns[:, place, 0]
+    return total
+
+
+def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
+    drop, top = data["friction_drop"].to_numpy(), data["friction_max"].to_numpy()
+    if not drop.any():
+        text = "no friction depends on speed"
+        return _finding("velocity_dependence", out, False, 0.0, text)
+    speed = data["sliding_speed"].to_numpy()
+    lower = drop * np.exp(-data["friction_rate"].to_numpy() * speed)
+    load = np.maximum(data["axial_force"].to_numpy(), 0.0)[..., None]
+    work = float((load * top * speed).sum())
+    share = float((load * lower * speed).sum()) / work if work > 0.0 else 0.0
+    text = f"over the paths slid, friction is {_share(share, 1)} below that at high speed"
+    return _finding("velocity_dependence", out, share > SMALL["velocity_dependence"], share, text)
+
+
+def _second_direction(data: xr.Dataset, out: bool) -> Finding:
+    if not out:
+        moves = np.abs(data["bearing_displacement"].to_numpy()).max(axis=(0, 1))
+        x, y = float(moves[0]), float(moves[1])
+        share = _ratio(y, x)
+        text = f"displacement along y reached {1e3 * y:.3g} mm, along x {1e3 * x:.3g} mm"
+    else:
+        peak = data["peak_ground_velocity"]
+        x, y = float(peak.sel(axis="x")), float(peak.sel(axis="y"))
+        coupled = float(data.attrs["plane_coupling"])
+        share = max(_ratio(y, x), coupled)
+        text = f"peak ground velocity along y {_share(_ratio(y, x))} of that along x, pushed along "
+        text += f"x the bearings move along y by {_share(coupled, 1)} of it"
+    return _finding("second_direction", out, share > SMALL["second_direction"], share, text)
+
+
+def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
+    ratio = vertical_force(data) / data["static_axial_force"].to_numpy()
+    share = float(np.abs(ratio - 1.0).max())
+    text = f"axial forces differ from those at rest by up to {_share(share)}"
+    return _finding("vertical_coupling", out, share > SMALL["vertical_coupling"], share, text)
+
+
+def _full_contact(data: xr.Dataset) -> Finding:
+    pressed = data["axial_force"] > PRESSED * data["static_axial_force"]
+    shares = (data["interface_eccentricity"] / data["slider_radius"]).where(pressed, 0.0)
+    share = float(shares.max())
+    if share <= KERN:
+        verdict = "full contact holds"
+    elif share <= CONTACT:
+        verdict = "partial contact, no tipping"
+    else:
+        verdict = "edge contact" if share < 1.0 else "the slider tips"
+        verdict += ", see the level 'contact'"
+    text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
+    return Finding(
+        feature="full_contact",
+        left_out=str(data.attrs["level"]) == "pendulum",
+        mattered=share > CONTACT,
+        number=share,
+        sentence=text,
+    )
+
+
+def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:
+    label = feature.replace("_", " ")
+    if out:
+        sentence = f"{label} left out: {text}"
+    else:
+        sentence = f"{label}: {text}" if mattered else f"{label}: not needed, {text}"
+    return Finding(
+        feature=feature, left_out=out, mattered=bool(mattered), number=number, sentence=sentence
+    )
+
+
+def _by_whom(data: xr.Dataset, when: FloatArray) -> str:
+    # "3 of 9 bearings, first at 4.17 s", from a mask (time, bearing).
+    first = float(data["time"].to_numpy()[int(np.argmax(when.any(axis=1)))])
+    return f"{int(when.any(axis=0).sum())} of {when.shape[1]} bearings, first at {first:.2f} s"
+
+
+def _reached(data: xr.Dataset, own: str) -> float:
+    others = set(left_out(data)) - {own}
+    return NEAR if others else 1.0
+
+
+def _share(value: float, digits: int = 0) -> str:
+    return f"{100.0 * value:.{digits}f} %" if value < 10.0 else "more than 1000 %"
+
+
+def _ratio(value: float, base: float) -> float:
+    if base > 0.0:
+        return value / base
+    return math.inf if value > 0.0 else 0.0
+
+
+_JUDGES: dict[str, Callable[[xr.Dataset, bool], Finding]] = {
+    "rims": _rims,
+    "interface": _interface,
+    "uplift": _uplift,
+    "plate_rotation": _plate_rotation,
+    "velocity_dependence": _velocity_dependence,
+    "second_direction": _second_direction,
+    "vertical_coupling": _vertical_coupling,
+}

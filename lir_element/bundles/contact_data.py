@@ -1,0 +1,102 @@
+"""Bundle of records of bearings at the level 'contact', as kernels read it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from lir_element.device.sliders import initial_bodies, initial_touches, point_records, slider_record
+from lir_element.layout import SCRATCH, Records, Words
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from lir_element.device.bearing import LIRBearing
+
+
+class Contacts(NamedTuple):
+    """Bearings with contact points: constants, committed (old) and trial (new) state, scratch.
+
+    `place` says for each bearing of a model where it stands in the other arrays, -1 for bearings
+    at another level. Unused contact points at the end of a row have no share.
+    """
+
+    place: npt.NDArray[np.int64]  # (n_bearings,)
+    sliders: Records  # (n,)
+    points: Records  # (n, m)
+    bodies_old: Records  # (n,)
+    bodies_new: Records
+    touch_old: Records  # (n, m)
+    touch_new: Records
+    bodies_old_words: Words  # (n, words): the same memory
+    bodies_new_words: Words
+    touch_old_words: Words
+    touch_new_words: Words
+    scratch: Records  # (n,)
+
+
+def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
+                   ) -> Contacts:  # fmt: skip
+    """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded.
+
+    Parameters
+    ----------
+    bearings : sequence of LIRBearing
+        All bearings of a model.
+    chosen : sequence of bool
+        Which of them have contact points.
+    gravity : float
+        Acceleration that gives the sliders their weight [m/s2].
+
+    Returns
+    -------
+    Contacts
+        Records of the chosen ones.
+    """
+    place = np.full(len(bearings), -1, dtype=np.int64)
+    place[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
+    picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
+    each = [point_records(bearing) for bearing in picked]
+    most = max((points.shape[1] for points in each), default=0)
+    sliders = np.concatenate([slider_record(bearing, gravity) for bearing in picked])
+    points = np.concatenate([_padded(part, most) for part in each])
+    touches = np.concatenate(
+        [
+            _padded(initial_touches(bearing, part), most)
+            for bearing, part in zip(picked, each, strict=True)
+        ]
+    )
+    for k, part in enumerate(each):  # unused points lie on a real one
+        points["arm"][k, part.shape[1] :] = points["arm"][k, 0]
+        touches["spot"][k, part.shape[1] :] = touches["spot"][k, 0]
+    bodies = initial_bodies(len(picked))
+    others, news = bodies.copy(), touches.copy()
+    return Contacts(
+        place=place, sliders=sliders, points=points,
+        bodies_old=bodies, bodies_new=others, touch_old=touches, touch_new=news,
+        bodies_old_words=as_rows(bodies), bodies_new_words=as_rows(others),
+        touch_old_words=as_rows(touches), touch_new_words=as_rows(news),
+        scratch=np.zeros(len(picked), dtype=SCRATCH),
+    )  # fmt: skip
+
+
+def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
+    """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
+    contacts.bodies_old[:] = initial_bodies(len(bearings))
+    for k, bearing in enumerate(bearings):
+        start = initial_touches(bearing, point_records(bearing))[0]
+        contacts.touch_old[k, : len(start)] = start
+
+
+def as_rows(records: Records) -> Words:
+    """Return records (n, ...) as rows of 64-bit words (n, m), sharing their memory."""
+    return records.view(np.int64).reshape(len(records), -1)
+
+
+def _padded(records: Records, count: int) -> Records:
+    out = np.zeros((1, count), dtype=records.dtype)
+    out[:, : records.shape[1]] = records
+    return out

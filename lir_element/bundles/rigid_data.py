@@ -1,0 +1,199 @@
+"""Bundles of arrays of a run at the level 'rigid_body'."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from lir_element.bundles.contact_data import as_rows
+from lir_element.layout import SCRATCH, STATE
+
+if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Floats, Records, Words
+
+DEFAULT_TOLERANCE = 1e-8
+"""Error of a step over the effective radius."""
+
+FIRST_STEP = 1e-4
+"""Step that a run is started with [s]."""
+
+
+class RigidSetup(NamedTuple):
+    """Constants of the time integration."""
+
+    alpha_m: float
+    beta: float
+    gamma: float
+    error: float  # m, largest difference of a step and two half steps
+    smallest: float  # s, step at which the run gives up
+    largest: float  # s
+    explicit: float  # s, step of the explicit mode; 0 for the implicit one
+
+
+class RigidRun(NamedTuple):
+    """One bearing with its top plate: constants, states, scratch; changed in place.
+
+    Bodies and touches hold four states: committed, after a full step, after the first and the
+    second of two half steps. `states` and `energy` hold three: committed, after each half step.
+    """
+
+    props: Records  # (1,)
+    sliders: Records  # (1,)
+    points: Records  # (m,)
+    mass: Floats  # (3, 3)
+    inertia: Floats  # (3, 3)
+    free: Words  # (18,) 1 where the degree of freedom is free
+    driven: bool
+    bodies: Records  # (4,)
+    touches: Records  # (4, m)
+    states: Records  # (3,)
+    bodies_words: Words
+    touches_words: Words
+    states_words: Words
+    scratch: Records  # (1,)
+    energy: Floats  # (3, 6): input, gravity, kinetic, numerical, 2 spare
+    u: Floats  # (12,)
+    ground: Floats  # (3,) at the end of a step
+    ground_mean: Floats  # (3,) over the step
+    drive: Floats  # (2,)
+    clock: Floats  # time, step
+    counters: Words  # steps, refused steps, status code, outputs written
+
+
+class RigidInput(NamedTuple):
+    """What a run is given, and where it writes."""
+
+    motion: Floats  # (n, 3) ground acceleration
+    motion_dt: float
+    times: Floats  # (n_out,) output times, the first one that of the start
+    drive: Floats  # (n_out, 2) imposed places of the top plate, linear between
+    load: Floats  # (n_out, 6) load on the top plate, linear between
+    words: Words  # (n_out, words of STATE)
+    bodies: Words  # (n_out, words of BODIES)
+    energy: Floats  # (n_out, 6)
+
+
+def bossak(spectral_radius: float) -> tuple[float, float, float]:
+    """Return alpha_m, beta and gamma of Bossak's method for a spectral radius at infinity."""
+    alpha = (spectral_radius - 1.0) / (spectral_radius + 1.0)
+    return alpha, 0.25 * (1.0 - alpha) ** 2, 0.5 - alpha
+
+
+def rigid_run(
+    props: Records, contacts: Contacts, state: Records, mass: Floats, inertia: Floats,
+    free: Words, *, driven: bool,
+) -> RigidRun:  # fmt: skip
+    """Return a run that starts from the equilibrium held by `contacts` and `state` (1,).
+
+    Parameters
+    ----------
+    props : records, (1,)
+        Constants of the bearing.
+    contacts : Contacts
+        Its sliders, in static equilibrium.
+    state : records, (1,)
+        The bearing's committed record.
+    mass, inertia : ndarray, (3,), (3,)
+        Of the top plate [kg, kg m2].
+    free : ndarray, (6,)
+        1 where a degree of freedom of the top plate is free.
+    driven : bool
+        Whether its horizontal place is imposed.
+
+    Returns
+    -------
+    RigidRun
+        States, scratch and constants.
+    """
+    sliders = contacts.sliders
+    masses, inertias = np.zeros((3, 3)), np.zeros((3, 3))
+    masses[:2] = sliders["mass"][0][:, None]
+    inertias[:2] = sliders["inertia"][0]
+    masses[2], inertias[2] = mass, inertia
+    bodies = np.repeat(contacts.bodies_old, 4)
+    touches = np.repeat(contacts.touch_old, 4, axis=0)
+    states = np.repeat(state, 3)
+    node = state["displacement"][0, 6:]
+    bodies["place"][:, 2] = node[:3]
+    half = 0.5 * node[3:]
+    bodies["turn"][:, 2] = np.concatenate([[1.0], half * np.sinc(np.linalg.norm(half) / np.pi)])
+    bodies["turn"][:, 2] /= np.linalg.norm(bodies["turn"][0, 2])
+    for name in ("velocity", "spin", "acceleration", "spin_rate"):
+        bodies[name] = 0.0
+    return RigidRun(
+        props=props, sliders=sliders, points=contacts.points[0], mass=masses, inertia=inertias,
+        free=np.concatenate([np.ones(12, np.int64), np.asarray(free, np.int64)]), driven=driven,
+        bodies=bodies, touches=touches, states=states,
+        bodies_words=as_rows(bodies), touches_words=as_rows(touches), states_words=as_rows(states),
+        scratch=np.zeros(1, dtype=SCRATCH), energy=np.zeros((3, 6)), u=np.zeros(12),
+        ground=np.zeros(3), ground_mean=np.zeros(3), drive=np.zeros(2), clock=np.zeros(2),
+        counters=np.zeros(4, np.int64),
+    )  # fmt: skip
+
+
+def state_words(count: int) -> tuple[Records, Words]:
+    """Return `count` state records, and the same as rows of words."""
+    states = np.zeros(count, dtype=STATE)
+    return states, as_rows(states)
+
+
+def stable_step(sliders: Records, props: Records, load: float) -> float:
+    """Return an explicit step at half the stability limit.
+
+    Parameters
+    ----------
+    sliders, props : records, (1,), (1,)
+        Constants of the bearing.
+    load : float
+        Largest axial force to count on [N]; it sets the stiffness of friction before slip.
+
+    Returns
+    -------
+    float
+        Step [s]; the limit is that of the stiffest motion of a slider.
+    """
+    mass = float(sliders["mass"][0].min())
+    across = sliders["radius"][0] ** 2 / sliders["inertia"][0, :, :2].min()
+    stiffness = 2.0 * float(sliders["stiffness"][0])
+    damping = 2.0 * float(sliders["damping"][0])
+    friction = load * float((props["friction_max"] / props["yield_displacement"]).max())
+    if not props["fused"][0]:
+        friction += load * float(props["interface_friction"][0] / props["interface_yield"][0])
+    inverse = max(1.0 / mass, 0.5 * across)
+    rate = damping * inverse + math.sqrt((stiffness + friction) * inverse)
+    return float(1.0 / rate)
+
+
+def rigid_setup(
+    length: float,
+    largest: float,
+    *,
+    tolerance: float = DEFAULT_TOLERANCE,
+    spectral_radius: float = 0.0,
+    explicit: float = 0.0,
+) -> RigidSetup:
+    """Return the constants of the time integration.
+
+    Parameters
+    ----------
+    length : float
+        Effective radius [m], to which the tolerance refers.
+    largest : float
+        Largest step [s].
+    tolerance : float
+        Error of a step over the effective radius [-].
+    spectral_radius : float
+        Of Bossak's method at infinite frequency [-].
+    explicit : float
+        Step of the explicit mode [s], 0 for the implicit one.
+
+    Returns
+    -------
+    RigidSetup
+        What the kernels read.
+    """
+    alpha, beta, gamma = bossak(spectral_radius)
+    return RigidSetup(alpha, beta, gamma, tolerance * length, 1e-9, largest, explicit)

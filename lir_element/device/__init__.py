@@ -1,0 +1,1 @@
+"""What the engineer specifies: the bearing, its friction, what of it is modelled."""

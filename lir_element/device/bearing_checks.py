@@ -1,0 +1,189 @@
+"""What makes a bearing impossible, or doubtful: checked once, where it is made."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.door import as_pair, require_non_negative, require_positive
+
+if TYPE_CHECKING:
+    from lir_element.device.bearing import LIRBearing
+
+LARGEST_SINE = 0.95
+"""Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
+
+_OPTIONAL = (
+    ("axial_stiffness", "N/m"),
+    ("axial_damping", "N s/m"),
+    ("rim_stiffness", "N/m"),
+    ("rim_damping", "N s/m"),
+    ("rim_overrun", "m"),
+    ("slip_capacity", "m"),
+    ("design_load", "N"),
+)
+
+
+class DesignWarning(UserWarning):
+    """A bearing that can be computed, but will not work as it is meant to."""
+
+
+def check_bearing(bearing: LIRBearing) -> None:
+    """Check every number of a bearing and what they make together.
+
+    Raises
+    ------
+    ValueError
+        If a value is out of bounds: the message names value, bound and remedy.
+    TypeError
+        If a value is not of the kind it has to be.
+    """
+    _check_geometry(bearing)
+    _check_friction(bearing)
+    _check_rims(bearing)
+    for name, unit in _OPTIONAL:
+        value = getattr(bearing, name)
+        if value is not None:
+            require = require_non_negative if "damping" in name else require_positive
+            require(name, value, unit)
+    for name in ("yield_displacement", "interface_yield_displacement"):
+        require_positive(name, getattr(bearing, name), "m")
+    _check_sliders(bearing)
+    for name in ("torsional_friction", "allow_weak_interface"):
+        if not isinstance(getattr(bearing, name), bool):
+            msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
+            raise TypeError(msg)
+    if bearing.friction_law not in ("elastic-plastic", "bouc-wen"):
+        msg = f"friction_law = {bearing.friction_law!r}: choose 'elastic-plastic' or 'bouc-wen'"
+        raise ValueError(msg)
+    if require_positive("bouc_wen_exponent", bearing.bouc_wen_exponent, "-") < 1.0:
+        msg = f"bouc_wen_exponent = {bearing.bouc_wen_exponent:g} must be at least 1"
+        raise ValueError(msg)
+
+
+def _check_sliders(bearing: LIRBearing) -> None:
+    require_positive("slider_density", bearing.slider_density, "kg/m3")
+    for mass in as_pair("slider_mass", bearing.slider_mass):
+        if mass is not None:
+            require_positive("slider_mass", mass, "kg")
+    inertia: object = bearing.slider_inertia
+    if inertia is not None:
+        pairs = inertia if isinstance(inertia, tuple) else ()
+        if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
+            msg = (
+                f"slider_inertia = {inertia!r}: give two pairs (across, along) [kg m2], those of "
+                "the bottom and of the top slider"
+            )
+            raise ValueError(msg)
+        for value in (number for pair in pairs for number in pair):
+            require_positive("slider_inertia", value, "kg m2")
+    given: object = bearing.contact_points
+    whole = isinstance(given, (int, np.integer)) and not isinstance(given, (bool, np.bool_))
+    count = int(bearing.contact_points) if whole else 0
+    if count < 4 or (count >= 8 and count % 2):
+        msg = (
+            f"contact_points = {given!r}: give a whole number, 4 to 7 (one ring on the slider's "
+            "edge) or an even one from 8 on (two rings, which act as a full disc)"
+        )
+        raise ValueError(msg)
+
+
+def _check_geometry(bearing: LIRBearing) -> None:
+    for name, value in zip(("bottom", "top"), as_pair("radius", bearing.radius), strict=True):
+        require_positive(f"radius ({name})", value, "m")
+    require_positive("slider_height", bearing.slider_height, "m")
+    require_positive("slider_radius", bearing.slider_radius, "m")
+    for value in as_pair("plate_thickness", bearing.plate_thickness):
+        require_non_negative("plate_thickness", value, "m")
+    height, edge = bearing.slider_height, bearing.slider_radius
+    if edge >= min(bearing.radii):
+        msg = (
+            f"slider_radius = {edge:g} m does not fit a concave surface of radius "
+            f"{min(bearing.radii):g} m: use a smaller slider or larger radii"
+        )
+        raise ValueError(msg)
+    caps = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
+    if height <= caps:
+        msg = (
+            f"slider_height = {height:g} m does not exceed the height of its two spherical "
+            f"caps, {caps:.4g} m at slider_radius = {edge:g} m: use a higher or a slimmer "
+            "slider"
+        )
+        raise ValueError(msg)
+    if height >= sum(bearing.radii):
+        msg = (
+            f"slider_height = {height:g} m must be below the sum of the radii, "
+            f"{sum(bearing.radii):g} m: the effective radius R1 + R2 - h must be positive"
+        )
+        raise ValueError(msg)
+
+
+def _check_friction(bearing: LIRBearing) -> None:
+    pair: tuple[object, object] = as_pair("friction", bearing.friction)
+    for law in pair:
+        if not isinstance(law, (CoulombFriction, VelocityFriction)):
+            msg = (
+                f"friction = {law!r}: give CoulombFriction(mu) or "
+                "VelocityFriction(f_max, f_min, rate), or a pair (bottom, top) of them"
+            )
+            raise TypeError(msg)
+    mu_h = require_positive("interface_friction", bearing.interface_friction, "-", infinite=True)
+    largest = max(law.f_max for law in bearing.frictions)
+    if bearing.allow_weak_interface:
+        return
+    if mu_h <= largest:
+        msg = (
+            f"interface_friction = {mu_h:g} must exceed the friction of the concave surfaces "
+            f"at all speeds, {largest:g} (design rule mu_h > mu_d): raise it, or pass "
+            "allow_weak_interface=True to study such a bearing"
+        )
+        raise ValueError(msg)
+    if mu_h <= bearing.effective_friction:
+        msg = (
+            f"interface_friction = {mu_h:g} exceeds mu_d but not (mu_1 R_1 + mu_2 R_2) / L = "
+            f"{bearing.effective_friction:.4g}: the interface slips before the slider meets a rim"
+        )
+        warnings.warn(msg, DesignWarning, stacklevel=6)
+
+
+def _check_rims(bearing: LIRBearing) -> None:
+    if bearing.capacity is None and bearing.rims is None:
+        msg = (
+            "capacity is missing: give the lateral displacement at the first rim contact [m] "
+            "(math.inf for a bearing without rims), or rims=(bottom, top)"
+        )
+        raise ValueError(msg)
+    if bearing.capacity is not None:
+        require_positive("capacity", bearing.capacity, "m", infinite=True)
+    if bearing.rims is not None:
+        for value in as_pair("rims", bearing.rims):
+            require_positive("rims", value, "m", infinite=True)
+        if bearing.capacity is not None and not math.isclose(
+            bearing.capacity, bearing.lateral_capacity, rel_tol=1e-6
+        ):
+            msg = (
+                f"capacity = {bearing.capacity:g} m contradicts rims = {bearing.rims}, which give "
+                f"{bearing.lateral_capacity:g} m: give only one of them"
+            )
+            raise ValueError(msg)
+    limit = LARGEST_SINE * bearing.effective_radius
+    if math.isfinite(bearing.lateral_capacity) and bearing.lateral_capacity > limit:
+        msg = (
+            f"capacity = {bearing.lateral_capacity:g} m lies beyond the spheres: it must not "
+            f"exceed {LARGEST_SINE} L = {limit:.4g} m; use larger radii"
+        )
+        raise ValueError(msg)
+    for name, reach, r in zip(
+        ("bottom", "top"), bearing.rim_displacement, bearing.radii, strict=True
+    ):
+        if math.isfinite(reach) and reach + bearing.slider_radius >= r:
+            msg = (
+                f"the slider does not fit the {name} plate: at its rim it reaches "
+                f"{reach:.4g} + slider_radius {bearing.slider_radius:g} m, which must be below "
+                f"the radius {r:g} m; reduce capacity or slider_radius"
+            )
+            raise ValueError(msg)

@@ -1,0 +1,171 @@
+"""The sliders as bodies: mass, inertia and contact points from a bearing's geometry."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lir_element.device.bearing import STANDARD_GRAVITY, LIRBearing
+from lir_element.door import as_pair
+from lir_element.layout import BODIES, POINT, SLIDERS, TOUCH, Floats, Records
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+INTERFACES = 3
+"""Bottom surface, plane interface, top surface: in series along the slider's axis."""
+
+
+def half_slider(
+    radius: float, sphere: float, height: float, density: float
+) -> tuple[float, float, tuple[float, float]]:
+    """Return mass, place and inertia of one half of the slider: a plane and a spherical cap.
+
+    Parameters
+    ----------
+    radius : float
+        Radius in plan [m].
+    sphere : float
+        Radius of its spherical face [m].
+    height : float
+        Height on its axis, from the vertex to the plane [m].
+    density : float
+        Density [kg/m3].
+
+    Returns
+    -------
+    tuple
+        Mass [kg], height of the mass centre above the vertex [m], moments of inertia about a
+        transverse axis through it and about the slider's axis [kg m2].
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    r = 0.5 * radius * (nodes + 1.0)
+    dr = 0.5 * radius * weights
+    low = sphere - np.sqrt(sphere**2 - r**2)
+    ring = 2.0 * math.pi * density * r * dr
+    mass = float(np.sum(ring * (height - low)))
+    centre = float(np.sum(ring * 0.5 * (height**2 - low**2))) / mass
+    axial = float(np.sum(ring * r**2 * (height - low)))
+    upright = float(np.sum(ring * (height**3 - low**3))) / 3.0
+    return mass, centre, (0.5 * axial + upright - mass * centre**2, axial)
+
+
+def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
+    """Return the contact points of an interface in plan.
+
+    Parameters
+    ----------
+    count : int
+        Below eight: one ring on the slider's edge, as in the paper's Fig. 5. From eight on: two
+        rings, on the edge with a third of the stiffness and at half the radius with the rest,
+        which give the area, the torque 2/3 a mu N and the rocking stiffness of a full disc.
+    radius : float
+        Slider's radius [m].
+
+    Returns
+    -------
+    tuple
+        Places (count, 2) [m] and shares of the stiffness (count,) [-].
+    """
+    if count < 8:
+        angle = 2.0 * math.pi * np.arange(count) / count
+        return radius * np.column_stack([np.cos(angle), np.sin(angle)]), np.full(count, 1.0 / count)
+    half = count // 2
+    angle = 2.0 * math.pi * np.arange(half) / half
+    other = angle + math.pi / half
+    outer = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    inner = 0.5 * radius * np.column_stack([np.cos(other), np.sin(other)])
+    shares = np.concatenate([np.full(half, 1.0 / 3.0 / half), np.full(half, 2.0 / 3.0 / half)])
+    return np.concatenate([outer, inner]), shares
+
+
+def lower_height(bearing: LIRBearing) -> float:
+    """Return the height of the bottom slider on its axis [m]: both have the same height of edge."""
+    caps = [sphere - math.sqrt(sphere**2 - bearing.slider_radius**2) for sphere in bearing.radii]
+    return caps[0] + 0.5 * (bearing.slider_height - sum(caps))
+
+
+def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Records:
+    """Return the sliders' constants, a record array of shape (1,)."""
+    first, second = bearing.radii
+    lower = lower_height(bearing)
+    upper = bearing.slider_height - lower
+    thickness = as_pair("plate_thickness", bearing.plate_thickness)
+    bodies = [
+        half_slider(bearing.slider_radius, sphere, height, bearing.slider_density)
+        for sphere, height in ((first, lower), (second, upper))
+    ]
+    given_mass = as_pair("slider_mass", bearing.slider_mass)
+    record = np.zeros(1, dtype=SLIDERS)
+    for k, (mass, _, (across, along)) in enumerate(bodies):
+        own = given_mass[k]
+        scale = 1.0 if own is None else float(own) / mass
+        record["mass"][0, k] = scale * mass
+        moments = (scale * across, scale * along)
+        if bearing.slider_inertia is not None:
+            moments = bearing.slider_inertia[k]
+        record["inertia"][0, k] = moments[0], moments[0], moments[1]
+    bottom = -first + bodies[0][1]
+    top = -first + bearing.slider_height - bodies[1][1]
+    interface = -first + lower
+    record["place"][0, :, 2] = (
+        -first - thickness[0], bottom, top, -first + bearing.slider_height + thickness[1],
+    )  # fmt: skip
+    record["plane"][0] = interface - bottom, interface - top
+    record["vertex"][0] = -first - bottom, -first + bearing.slider_height - top
+    options = bearing.resolved()
+    record["stiffness"] = INTERFACES * options["axial_stiffness"]
+    record["damping"] = INTERFACES * options["axial_damping"]
+    record["radius"] = bearing.slider_radius
+    record["gravity"] = gravity
+    return record
+
+
+def point_records(bearing: LIRBearing) -> Records:
+    """Return the contact points of a bearing, a record array of shape (1, 3 n)."""
+    plan, share = ring_points(bearing.contact_points, bearing.slider_radius)
+    sliders = slider_record(bearing)
+    count = len(plan)
+    points = np.zeros((1, INTERFACES * count), dtype=POINT)
+    square = np.sum(plan**2, axis=1)
+    first, second = bearing.radii
+    caps = (
+        sliders["vertex"][0, 0] + first - np.sqrt(first**2 - square),
+        np.full(count, sliders["plane"][0, 1]),
+        sliders["vertex"][0, 1] - second + np.sqrt(second**2 - square),
+    )
+    for pair, height in enumerate(caps):
+        part = slice(pair * count, (pair + 1) * count)
+        points["pair"][0, part] = pair
+        points["arm"][0, part, :2] = plan
+        points["arm"][0, part, 2] = height
+        points["share"][0, part] = share
+    return points
+
+
+def initial_bodies(count: int) -> Records:
+    """Return the state (count,) of undisplaced bodies at rest."""
+    bodies = np.zeros(count, dtype=BODIES)
+    bodies["turn"][:, :, 0] = 1.0
+    return bodies
+
+
+def initial_touches(bearing: LIRBearing, points: Records) -> Records:
+    """Return the state (1, 3 n) of the contact points of an undeformed bearing."""
+    sliders = slider_record(bearing)
+    touches = np.zeros(points.shape, dtype=TOUCH)
+    arm = points["arm"][0]
+    place = sliders["place"][0]
+    centres: Sequence[float] = (0.0, 0.0, -bearing.effective_radius)
+    for pair, body in enumerate((1, 2, 2)):
+        chosen = points["pair"][0] == pair
+        spot = arm[chosen].copy()
+        if pair == 1:
+            spot[:, 2] = 0.0
+        else:
+            spot[:, 2] += place[body, 2] - centres[pair]
+            spot /= np.linalg.norm(spot, axis=1)[:, None]
+        touches["spot"][0, chosen] = spot
+    return touches

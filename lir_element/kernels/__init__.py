@@ -1,0 +1,1 @@
+"""Compiled kernels: pure functions on records and arrays; what all levels share."""

@@ -1,0 +1,296 @@
+"""Kernels of the level 'contact': both sliders as bodies, solved inside the element by Newton.
+
+Twelve unknowns: displacement and spin of the bottom and of the top slider. Their inertia enters by
+the implicit Euler rule over the step, so that the system stays regular where contacts open. The
+start of the search is what the level 'pendulum' says. docs/theory.md, section 7.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.errors import RunStatus
+from lir_element.kernels.contact.pairs import OWN, matrix_of, place_bodies, press, turn_by
+from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
+from lir_element.kernels.contact.state import bodies_status, fill_state
+from lir_element.kernels.linear import solve_many
+from lir_element.kernels.pendulum.nodes import apply_spin
+from lir_element.kernels.pendulum.trial import has_no_state, trial
+from lir_element.kernels.rotation import rotate
+
+if TYPE_CHECKING:
+    from lir_element.layout import (
+        Bodies,
+        Floats,
+        Props,
+        Records,
+        Scratch,
+        Sliders,
+        State,
+        Work,
+    )
+
+_OK = int(RunStatus.OK)
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_MAX_ITERATIONS = 40
+_PATIENCE = 10  # iterations in which the residual must halve
+_TOLERANCE = 1e-10  # of the normal forces
+_HOLD = 1e-10  # of the contact stiffness, in static states
+ROUND_OFF = 4e-16  # of lengths and turns
+LARGEST_TURN = 0.1  # rad, of a body in one iteration
+
+
+@kernel
+def place_nodes(p: Props, c: Sliders, w: Scratch, u: Floats) -> None:
+    """Set places and rotations of the plates from the nodes' displacements `u` (12,)."""
+    rotate(u[3], u[4], u[5], w.q[0], w.spin_i)
+    rotate(u[9], u[10], u[11], w.q[3], w.spin_j)
+    for a in range(3):
+        w.x[0, a] = c.place[0, a] + u[a]
+        w.x[3, a] = c.place[3, a] + u[6 + a]
+
+
+@kernel
+def put_slider(c: Sliders, w: Scratch, new: Bodies, b: int, centre: Floats, depth: float) -> None:
+    """Put slider `b` (1, 2) with its sphere's centre at `centre`, axis ``w.step[:3]``.
+
+    It turns from where it is on the shortest way; `depth` is the mass centre's height above the
+    sphere's centre.
+    """
+    matrix_of(new.turn[b - 1], w.spare_matrix)
+    x, y, z = w.spare_matrix[0, 2], w.spare_matrix[1, 2], w.spare_matrix[2, 2]
+    n = w.step
+    c_x, c_y, c_z = y * n[2] - z * n[1], z * n[0] - x * n[2], x * n[1] - y * n[0]
+    size = math.sqrt(c_x * c_x + c_y * c_y + c_z * c_z)
+    angle = math.atan2(size, x * n[0] + y * n[1] + z * n[2])
+    factor = angle / size if size > 1e-12 else 1.0
+    turn_by(new.turn[b - 1], factor * c_x, factor * c_y, factor * c_z, new.turn[b - 1])
+    for a in range(3):
+        new.place[b - 1, a] = centre[a] + depth * n[a] - c.place[b, a]
+
+
+@kernel
+def follow_string(p: Props, c: Sliders, new: Bodies, w: Scratch, pen: Work) -> None:
+    """Put the sliders where the level 'pendulum' has them, its closure shared by the contacts."""
+    closure = pen.l - p.length
+    q = pen.q_i
+    for a in range(3):
+        w.step[a] = q[a, 0] * pen.n[0] + q[a, 1] * pen.n[1] + q[a, 2] * pen.n[2]
+    share_bottom, share_top = closure / 3.0, closure / 3.0
+    if not closure > 0.0:  # lifted off: both rest on the bottom plate
+        share_bottom = (c.mass[0] + c.mass[1]) * c.gravity / c.stiffness
+        share_top = closure - share_bottom
+    centre = w.force[0]
+    for a in range(3):
+        centre[a] = w.x[0, a] + p.lever[0] * w.q[0][a, 2] - share_bottom * w.step[a]
+    put_slider(c, w, new, 1, centre, c.place[1, 2])
+    for a in range(3):
+        centre[a] = w.x[3, a] - p.lever[1] * w.q[3][a, 2] + share_top * w.step[a]
+    put_slider(c, w, new, 2, centre, c.place[2, 2] + p.length)
+
+
+@kernel
+def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
+    """Put the sliders where their velocity takes them."""
+    for b in range(2):
+        for a in range(3):
+            new.place[b, a] = old.place[b, a] + dt * old.velocity[b, a]
+        s = old.spin[b]
+        turn_by(old.turn[b], dt * s[0], dt * s[1], dt * s[2], new.turn[b])
+
+
+@kernel
+def unbalanced(
+    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
+    touch_new: Records, w: Scratch, dt: float, speeds: Floats,
+) -> float:  # fmt: skip
+    """Set all forces at the sliders' places and ``w.residual``; return its size.
+
+    Forces, and moments over the slider's radius, against the largest normal force and weight.
+    """
+    place_bodies(c, w, new, 1, 3)
+    press(p, c, points, old, new, touch_old, touch_new, w, dt, speeds[0], speeds[1], True)
+    own_forces(c, old, new, w, dt, 1)
+    own_forces(c, old, new, w, dt, 2)
+    part = new.parts[OWN]
+    total = 0.0
+    for row in range(12):
+        w.residual[row] = w.g[6 + row] + part[6 + row]
+        size = w.residual[row] if row % 6 < 3 else w.residual[row] / c.radius
+        total += size * size
+    return math.sqrt(total)
+
+
+@kernel
+def tolerance(p: Props, c: Sliders, touch: Records, dt: float) -> float:
+    """Return the residual to reach: a share of the forces, and round-off under stiff laws."""
+    total = p.axial_floor
+    for j in range(touch.shape[0]):
+        total += touch[j].push
+    stiff = c.stiffness + total * (
+        p.friction_max[0] / p.yield_displacement[0] + p.friction_max[1] / p.yield_displacement[1]
+    )
+    if not p.fused:
+        stiff += total * p.interface_friction / p.interface_yield
+    if dt > 0.0:
+        stiff += c.damping / dt + (c.mass[0] + c.mass[1]) / (dt * dt)
+    return _TOLERANCE * total + ROUND_OFF * stiff * (p.radius[0] + p.radius[1])
+
+
+@kernel
+def set_system(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float) -> None:
+    """Set Newton's matrix (12 x 12): minus the derivative of the residual."""
+    for row in range(12):
+        for col in range(12):
+            w.system[row, col] = -w.k[6 + row, 6 + col]
+    if dt == 0.0:  # sliders that nothing holds stay where they are
+        for row in range(12):
+            w.system[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
+        return
+    for k in range(2):
+        first = 6 * k
+        for a in range(3):
+            w.system[first + a, first + a] += c.mass[k] / (dt * dt)
+        add_gyration(c, old, new, w, dt, k, first + 3)
+
+
+@kernel
+def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
+    """Move the sliders by `factor` times ``w.step`` from ``w.try_place``, ``w.try_turn``."""
+    for k in range(2):
+        for a in range(3):
+            new.place[k, a] = w.try_place[k, a] + factor * w.step[6 * k + a]
+        turn_by(
+            w.try_turn[k], factor * w.step[6 * k + 3], factor * w.step[6 * k + 4],
+            factor * w.step[6 * k + 5], new.turn[k],
+        )  # fmt: skip
+
+
+@kernel
+def settle(
+    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
+    touch_new: Records, w: Scratch, dt: float, speeds: Floats,
+) -> int:  # fmt: skip
+    """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
+    size = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+    mark = size
+    for count in range(_MAX_ITERATIONS):
+        if not math.isfinite(size):
+            return -1
+        if dt > 0.0 and count > 0 and count % _PATIENCE == 0:  # a smaller step does better
+            if size > 0.5 * mark:
+                return -1
+            mark = size
+        if size <= tolerance(p, c, touch_new, dt):
+            return count
+        set_system(c, old, new, w, dt)
+        for row in range(12):
+            w.right[row, 0] = w.residual[row]
+        if not solve_many(w.system, w.right, 12, 1):
+            return -1
+        largest = 0.0
+        for k in range(2):
+            for a in range(3):
+                w.try_place[k, a] = new.place[k, a]
+                largest = max(largest, abs(w.right[6 * k + 3 + a, 0]))
+            for a in range(4):
+                w.try_turn[k, a] = new.turn[k, a]
+        for row in range(12):
+            w.step[row] = w.right[row, 0]
+        factor = min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+        best, kept = math.inf, factor
+        for _ in range(5):
+            move_sliders(new, w, factor)
+            attempt = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+            if attempt < best:
+                best, kept = attempt, factor
+            if attempt < 0.9 * size or attempt <= tolerance(p, c, touch_new, dt):
+                break
+            factor *= 0.35
+        if factor != kept or best >= size:
+            move_sliders(new, w, kept)
+            best = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+        size = best
+    return -1
+
+
+@kernel
+def contact_trial(
+    p: Props, c: Sliders, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
+    touch_old: Records, touch_new: Records, pen: Work, w: Scratch, u: Floats, v: Floats,
+    time: float, zero: Floats,
+) -> int:  # fmt: skip
+    """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
+
+    Returns a RunStatus code; what is committed is read, never written.
+    """
+    code = trial(p, old, new, pen, u, v, time, zero)
+    if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
+        return code
+    dt = pen.dt
+    place_nodes(p, c, w, u)
+    count = -1
+    aloft = old.axial_force == 0.0 and dt > 0.0
+    for attempt in range(2):
+        if count >= 0:
+            break
+        for k in range(2):
+            for a in range(4):
+                b_new.turn[k, a] = b_old.turn[k, a]
+        if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
+            fly_on(b_old, b_new, dt)
+        else:
+            follow_string(p, c, b_new, w, pen)
+        count = settle(p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed)
+    fill_state(p, c, points, old, new, b_new, touch_new, w, u)
+    new.time, new.step = time, dt
+    new.iterations = count
+    status = bodies_status(p, w, new)
+    if count < 0 and status != _NOT_FINITE:
+        status = _NO_EQUILIBRIUM
+    new.status = status
+    return status
+
+
+@kernel
+def look_at_committed(
+    p: Props, c: Sliders, points: Records, old: State, b_old: Bodies, b_new: Bodies,
+    touch_old: Records, touch_new: Records, w: Scratch,
+) -> None:  # fmt: skip
+    """Set forces and derivative at the committed state, as a static one, without moving it."""
+    place_nodes(p, c, w, old.displacement)
+    for k in range(2):
+        for a in range(3):
+            b_new.place[k, a] = b_old.place[k, a]
+        for a in range(4):
+            b_new.turn[k, a] = b_old.turn[k, a]
+    place_bodies(c, w, b_new, 1, 3)
+    press(
+        p, c, points, b_old, b_new, touch_old, touch_new, w, 0.0, old.sliding_speed[0],
+        old.sliding_speed[1], True,
+    )  # fmt: skip
+
+
+@kernel
+def contact_tangent(
+    c: Sliders, b_old: Bodies, b_new: Bodies, w: Scratch, dt: float, k: Floats
+) -> None:
+    """Fill the 12 x 12 tangent `k` of the trial that `w` holds, sliders condensed."""
+    set_system(c, b_old, b_new, w, dt)
+    for row in range(12):
+        for col in range(12):
+            w.right[row, col] = w.k[6 + row, col if col < 6 else col + 12]
+    solve_many(w.system, w.right, 12, 12)
+    for row in range(12):
+        place = row if row < 6 else row + 12
+        for col in range(12):
+            total = w.k[place, col if col < 6 else col + 12]
+            for e in range(12):
+                total += w.k[place, 6 + e] * w.right[e, col]
+            k[row, col] = -total
+    apply_spin(w.spin_i, k, 3)
+    apply_spin(w.spin_j, k, 9)

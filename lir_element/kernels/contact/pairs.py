@@ -1,0 +1,244 @@
+"""Kernels that put all contact pairs of a bearing together: forces on four bodies, derivative.
+
+Bodies: 0 node i with the bottom plate, 1 bottom slider, 2 top slider, 3 node j with the top
+plate. The origin is the undeformed place of the bottom sphere's centre. A pair's force depends on
+the place of its point in axes of the carrier alone; force and counterforce act at that point, so
+that forces and moments of each pair balance to round-off (Eq. (5) of the paper).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
+from lir_element.kernels.slip import step_share
+
+if TYPE_CHECKING:
+    from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders
+
+NORMAL, LOW_BOTTOM, HIGH, LOW_TOP, RIM_BOTTOM, RIM_TOP, OWN = 0, 1, 2, 3, 4, 5, 6
+_ORIGINS = 7
+
+
+@kernel
+def matrix_of(turn: Floats, q: Floats) -> None:
+    """Fill `q` (3, 3) with the rotation matrix of the unit quaternion `turn`."""
+    w, x, y, z = turn[0], turn[1], turn[2], turn[3]
+    q[0, 0] = 1.0 - 2.0 * (y * y + z * z)
+    q[1, 1] = 1.0 - 2.0 * (z * z + x * x)
+    q[2, 2] = 1.0 - 2.0 * (x * x + y * y)
+    q[0, 1], q[1, 0] = 2.0 * (x * y - w * z), 2.0 * (x * y + w * z)
+    q[1, 2], q[2, 1] = 2.0 * (y * z - w * x), 2.0 * (y * z + w * x)
+    q[2, 0], q[0, 2] = 2.0 * (z * x - w * y), 2.0 * (z * x + w * y)
+
+
+@kernel
+def turn_by(start: Floats, x: float, y: float, z: float, out: Floats) -> None:
+    """Set `out` (4,) to the rotation vector (x, y, z) in global axes after the turn `start`."""
+    half = 0.5 * math.sqrt(x * x + y * y + z * z)
+    share = 0.5 * (1.0 - half * half / 6.0) if half < 1e-4 else 0.5 * math.sin(half) / half
+    a, b, c, d = math.cos(half), share * x, share * y, share * z
+    e, f, g, h = start[0], start[1], start[2], start[3]
+    t_0, t_1 = a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g
+    t_2, t_3 = a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e
+    inv = 1.0 / math.sqrt(t_0 * t_0 + t_1 * t_1 + t_2 * t_2 + t_3 * t_3)
+    out[0], out[1], out[2], out[3] = inv * t_0, inv * t_1, inv * t_2, inv * t_3
+
+
+@kernel
+def turn_between(old: Floats, new: Floats) -> tuple[float, float, float]:
+    """Return the rotation vector (global axes) that leads from the turn `old` to `new`."""
+    a, b, c, d = new[0], new[1], new[2], new[3]
+    e, f, g, h = old[0], -old[1], -old[2], -old[3]
+    s = a * e - b * f - c * g - d * h
+    x, y, z = (
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        (a * h + b * g - c * f + d * e),
+    )
+    sign = 1.0 if s >= 0.0 else -1.0
+    size = math.sqrt(x * x + y * y + z * z)
+    factor = 2.0 if size < 1e-9 else 2.0 * math.atan2(size, abs(s)) / size
+    return sign * factor * x, sign * factor * y, sign * factor * z
+
+
+@kernel
+def place_bodies(c: Sliders, w: Scratch, bodies: Bodies, first: int, last: int) -> None:
+    """Set places and rotations of the bodies `first` to `last` (exclusive) from their record."""
+    for b in range(first, last):
+        for a in range(3):
+            w.x[b, a] = c.place[b, a] + bodies.place[b - 1, a]
+        matrix_of(bodies.turn[b - 1], w.q[b])
+
+
+@kernel
+def locate(w: Scratch, body: int, carrier: int, x: float, y: float, z: float, up: float) -> None:
+    """Set the point (x, y, z) of `body` in axes of its `carrier`, from height `up` on its axis."""
+    q, r = w.q[body], w.q[carrier]
+    for a in range(3):
+        w.arm[0, a] = q[a, 0] * x + q[a, 1] * y + q[a, 2] * z
+        w.arm[1, a] = w.arm[0, a] + (w.x[body, a] - w.x[carrier, a])
+    for a in range(3):
+        w.d[a] = r[0, a] * w.arm[1, 0] + r[1, a] * w.arm[1, 1] + r[2, a] * w.arm[1, 2]
+    w.d[2] -= up
+
+
+@kernel
+def cross_rows(row: Floats, x: float, y: float, z: float, sign: float, k: Floats, first: int,
+               body: int, carrier: int) -> None:  # fmt: skip
+    """Add ``sign * (x, y, z) x row`` to the rows `first`.. of `k`, columns of both bodies."""
+    for half in range(2):
+        col = 6 * (body if half == 0 else carrier)
+        for e in range(6):
+            r_0, r_1, r_2 = row[0, 6 * half + e], row[1, 6 * half + e], row[2, 6 * half + e]
+            k[first, col + e] += sign * (y * r_2 - z * r_1)
+            k[first + 1, col + e] += sign * (z * r_0 - x * r_2)
+            k[first + 2, col + e] += sign * (x * r_1 - y * r_0)
+
+
+@kernel
+def add_skew(k: Floats, row: int, col: int, f: Floats, sign: float) -> None:
+    """Add ``sign`` times the matrix of ``f x`` to the 3 x 3 block at (row, col)."""
+    k[row, col + 1] -= sign * f[2]
+    k[row, col + 2] += sign * f[1]
+    k[row + 1, col] += sign * f[2]
+    k[row + 1, col + 2] -= sign * f[0]
+    k[row + 2, col] -= sign * f[1]
+    k[row + 2, col + 1] += sign * f[0]
+
+
+@kernel
+def set_row(w: Scratch, carrier: int, f: Floats) -> None:
+    """Set the derivative (3 x 12) of the pair's global force by body and carrier."""
+    q, s = w.q[carrier], w.slope
+    for a in range(3):
+        for b in range(3):
+            w.half[a, b] = q[a, 0] * s[0, b] + q[a, 1] * s[1, b] + q[a, 2] * s[2, b]
+    for a in range(3):
+        for b in range(3):
+            w.global_slope[a, b] = (
+                w.half[a, 0] * q[b, 0] + w.half[a, 1] * q[b, 1] + w.half[a, 2] * q[b, 2]
+            )
+    for side in range(2):
+        sign = 1.0 if side == 0 else -1.0
+        x, y, z = w.arm[side, 0], w.arm[side, 1], w.arm[side, 2]
+        col = 6 * side
+        for a in range(3):  # - slope (arm x), the arm's cross product by columns
+            g_0, g_1, g_2 = w.global_slope[a, 0], w.global_slope[a, 1], w.global_slope[a, 2]
+            w.row[a, col], w.row[a, col + 1], w.row[a, col + 2] = sign * g_0, sign * g_1, sign * g_2
+            w.row[a, col + 3] = sign * (y * g_2 - z * g_1)
+            w.row[a, col + 4] = sign * (z * g_0 - x * g_2)
+            w.row[a, col + 5] = sign * (x * g_1 - y * g_0)
+    add_skew(w.row, 0, 9, f, -1.0)  # the force turns with its carrier
+
+
+@kernel
+def add_pair(
+    w: Scratch, parts: Floats, body: int, carrier: int, friction: int, normal: int
+) -> None:
+    """Add a pair's normal and friction force to the `parts` of the given origins."""
+    q = w.q[carrier]
+    for which in range(2):
+        local = w.normal if which == 0 else w.tangential
+        part = parts[normal if which == 0 else friction]
+        f = w.force[which]
+        for a in range(3):
+            f[a] = q[a, 0] * local[0] + q[a, 1] * local[1] + q[a, 2] * local[2]
+        for side in range(2):
+            sign = 1.0 if side == 0 else -1.0
+            first = 6 * (body if side == 0 else carrier)
+            x, y, z = w.arm[side, 0], w.arm[side, 1], w.arm[side, 2]
+            for a in range(3):
+                part[first + a] += sign * f[a]
+            part[first + 3] += sign * (y * f[2] - z * f[1])
+            part[first + 4] += sign * (z * f[0] - x * f[2])
+            part[first + 5] += sign * (x * f[1] - y * f[0])
+    for a in range(3):
+        w.force[0, a] += w.force[1, a]
+
+
+@kernel
+def add_slope(w: Scratch, body: int, carrier: int) -> None:
+    """Add the derivative of a pair's forces and moments to ``w.k``."""
+    f, k = w.force[0], w.k
+    set_row(w, carrier, f)
+    s, r = 6 * body, 6 * carrier
+    for a in range(3):
+        for e in range(6):
+            k[s + a, s + e] += w.row[a, e]
+            k[s + a, r + e] += w.row[a, 6 + e]
+            k[r + a, s + e] -= w.row[a, e]
+            k[r + a, r + e] -= w.row[a, 6 + e]
+    cross_rows(w.row, w.arm[0, 0], w.arm[0, 1], w.arm[0, 2], 1.0, k, s + 3, body, carrier)
+    cross_rows(w.row, w.arm[1, 0], w.arm[1, 1], w.arm[1, 2], -1.0, k, r + 3, body, carrier)
+    # arms move: (phi x arm) x f on the body; the shift of the point from the carrier on the other
+    dot = w.arm[0, 0] * f[0] + w.arm[0, 1] * f[1] + w.arm[0, 2] * f[2]
+    for a in range(3):
+        for b in range(3):
+            turn = w.arm[0, a] * f[b] - (dot if a == b else 0.0)
+            k[s + 3 + a, s + 3 + b] += turn
+            k[r + 3 + a, s + 3 + b] -= turn
+    add_skew(k, r + 3, s, f, 1.0)
+    add_skew(k, r + 3, r, f, -1.0)
+
+
+@kernel
+def press(
+    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
+    touch_new: Records, w: Scratch, dt: float, speed_bottom: float, speed_top: float,
+    derive: bool,
+) -> None:  # fmt: skip
+    """Set the forces ``w.g`` on all bodies at ``w.x``, ``w.q``, and the new state of contacts.
+
+    With `derive`, also ``w.k``. `speed_bottom` and `speed_top` are the sliding speeds of a static
+    state (dt = 0).
+    """
+    new.step = dt
+    w.share, w.step_before = step_share(dt, old.step), old.step
+    for row in range(24):
+        w.g[row] = 0.0
+        for part in range(_ORIGINS):
+            new.parts[part, row] = 0.0
+        if derive:
+            for col in range(24):
+                w.k[row, col] = 0.0
+    for j in range(points.shape[0]):
+        pair, arm = points[j].pair, points[j].arm
+        stiffness, damping = points[j].share * c.stiffness, points[j].share * c.damping
+        clear_pair(w)
+        if pair == 0:
+            body, carrier, friction = 1, 0, LOW_BOTTOM
+            locate(w, 1, 0, arm[0], arm[1], arm[2], p.lever[0])
+            sphere(p, 0, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_bottom)
+        elif pair == 2:
+            body, carrier, friction = 2, 3, LOW_TOP
+            locate(w, 2, 3, arm[0], arm[1], arm[2], -p.lever[1])
+            sphere(p, 1, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_top)
+        else:
+            body, carrier, friction = 2, 1, HIGH
+            locate(w, 2, 1, arm[0], arm[1], arm[2], c.plane[0])
+            if p.fused:
+                bond(w, touch_old[j], touch_new[j], arm[0], arm[1], stiffness, damping, dt)
+            else:
+                plane(p, w, touch_old[j], touch_new[j], stiffness, damping, dt)
+        if touch_new[j].push == 0.0 and not (pair == 1 and p.fused):
+            continue
+        add_pair(w, new.parts, body, carrier, friction, NORMAL)
+        if derive:
+            add_slope(w, body, carrier)
+    for side in range(2):
+        clear_pair(w)
+        body, carrier = (1, 0) if side == 0 else (2, 3)
+        up = p.lever[0] if side == 0 else -p.lever[1]
+        locate(w, body, carrier, 0.0, 0.0, c.vertex[side], up)
+        rim(p, side, w, old, new, dt)
+        if new.rim_force[side] == 0.0:
+            continue
+        add_pair(w, new.parts, body, carrier, RIM_BOTTOM + side, RIM_BOTTOM + side)
+        if derive:
+            add_slope(w, body, carrier)
+    for part in range(_ORIGINS):
+        for row in range(24):
+            w.g[row] += new.parts[part, row]

@@ -1,0 +1,100 @@
+"""Kernels of the sliders' own motion: weight and inertia by the implicit Euler rule over a step."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.contact.pairs import OWN, matrix_of, turn_between
+
+if TYPE_CHECKING:
+    from lir_element.layout import Bodies, Floats, Scratch, Sliders
+
+
+@kernel
+def momentum(
+    inertia: Floats, q: Floats, spin: Floats, out: Floats, first: int, factor: float
+) -> None:
+    """Add `factor` times the angular momentum (global axes) to ``out[first:first + 3]``."""
+    for b in range(3):
+        own = q[0, b] * spin[0] + q[1, b] * spin[1] + q[2, b] * spin[2]
+        for a in range(3):
+            out[first + a] += factor * inertia[b] * own * q[a, b]
+
+
+@kernel
+def own_forces(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, b: int) -> None:
+    """Set weight and inertia forces of slider `b` (1, 2) in ``new.parts``, and its velocity."""
+    part = new.parts[OWN]
+    first, k = 6 * b, b - 1
+    part[first + 2] = -c.mass[k] * c.gravity
+    if dt == 0.0:
+        for a in range(3):
+            new.velocity[k, a], new.spin[k, a] = 0.0, 0.0
+        return
+    x, y, z = turn_between(old.turn[k], new.turn[k])
+    new.spin[k, 0], new.spin[k, 1], new.spin[k, 2] = x / dt, y / dt, z / dt
+    for a in range(3):
+        new.velocity[k, a] = (new.place[k, a] - old.place[k, a]) / dt
+        change = new.velocity[k, a] - old.velocity[k, a]
+        new.acceleration[k, a] = change / dt
+        part[first + a] -= c.mass[k] * change / dt
+    momentum(c.inertia[k], w.q[b], new.spin[k], part, first + 3, -1.0 / dt)
+    matrix_of(old.turn[k], w.spare_matrix)
+    momentum(c.inertia[k], w.spare_matrix, old.spin[k], part, first + 3, 1.0 / dt)
+
+
+@kernel
+def add_gyration(
+    c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, k: int, first: int
+) -> None:
+    """Add the derivative of slider `k`'s rate of angular momentum by its spin."""
+    q, spin, inertia = w.q[k + 1], new.spin[k], c.inertia[k]
+    for a in range(3):
+        for b in range(3):
+            w.half[a, b] = 0.0
+            for e in range(3):
+                w.half[a, b] += inertia[e] * q[a, e] * q[b, e]
+    x, y, z = dt * spin[0], dt * spin[1], dt * spin[2]
+    square = x * x + y * y + z * z
+    curve = 1.0 / 12.0 + square / 720.0
+    if square > 1e-4:
+        half = 0.5 * math.sqrt(square)
+        curve = (1.0 - half / math.tan(half)) / square
+    psi = (x, y, z)
+    for a in range(3):  # d(rotation vector) = (1 - psi x / 2 + curve (psi x)^2) spin, over dt
+        for b in range(3):
+            value = curve * psi[a] * psi[b]
+            if a == b:
+                value += 1.0 - curve * square
+            w.global_slope[a, b] = value / dt
+    w.global_slope[0, 1] += 0.5 * z / dt
+    w.global_slope[1, 0] -= 0.5 * z / dt
+    w.global_slope[1, 2] += 0.5 * x / dt
+    w.global_slope[2, 1] -= 0.5 * x / dt
+    w.global_slope[2, 0] += 0.5 * y / dt
+    w.global_slope[0, 2] -= 0.5 * y / dt
+    g = w.global_slope  # and of the turning inertia: J (spin x), then -(momentum x)
+    g[0, 1] -= spin[2]
+    g[0, 2] += spin[1]
+    g[1, 0] += spin[2]
+    g[1, 2] -= spin[0]
+    g[2, 0] -= spin[1]
+    g[2, 1] += spin[0]
+    h = w.force[0]
+    h[0], h[1], h[2] = 0.0, 0.0, 0.0
+    momentum(inertia, q, spin, h, 0, 1.0)
+    s = w.system
+    for a in range(3):
+        for b in range(3):
+            total = 0.0
+            for e in range(3):
+                total += w.half[a, e] * g[e, b]
+            s[first + a, first + b] += total / dt
+    s[first, first + 1] += h[2] / dt
+    s[first, first + 2] -= h[1] / dt
+    s[first + 1, first] -= h[2] / dt
+    s[first + 1, first + 2] += h[0] / dt
+    s[first + 2, first] += h[1] / dt
+    s[first + 2, first + 1] -= h[0] / dt

@@ -1,0 +1,247 @@
+"""Kernels of bearings with contact points: their record from the bodies, works of a step."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.errors import RunStatus
+from lir_element.kernels.contact.pair import set_tangents
+from lir_element.kernels.contact.pairs import (
+    HIGH,
+    LOW_BOTTOM,
+    LOW_TOP,
+    NORMAL,
+    OWN,
+    RIM_BOTTOM,
+    RIM_TOP,
+    locate,
+    turn_between,
+)
+from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
+from lir_element.kernels.pendulum.work import dissipated
+
+if TYPE_CHECKING:
+    from lir_element.layout import (
+        Bodies,
+        Floats,
+        Props,
+        Records,
+        Scratch,
+        Sliders,
+        State,
+    )
+
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+
+
+@kernel
+def fill_state(
+    p: Props, c: Sliders, points: Records, old: State, new: State, bodies: Bodies,
+    touch: Records, w: Scratch, u: Floats,
+) -> None:  # fmt: skip
+    """Fill the bearing's record from its bodies at `w` and its contact points."""
+    for k in range(12):
+        new.displacement[k] = u[k]
+        new.force[k] = -w.g[k if k < 6 else k + 12]
+    keep_works(old, new)
+    set_axes(p, w, new)
+    set_slip(c, w, old, new)
+    set_averages(points, touch, new)
+    set_surfaces(p, c, w, bodies, new)
+    new.twist = u[11] - u[5]
+    new.twist_hysteresis, new.slid_twist = 0.0, 0.0
+    lever, part = p.lever[1], bodies.parts[LOW_TOP]
+    new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
+
+
+@kernel
+def bodies_status(p: Props, w: Scratch, new: State) -> int:
+    """Return whether a state made of bodies is finite and within the bearing's limits."""
+    if not is_finite(new.force):
+        return _NOT_FINITE
+    if min(w.q[1][2, 2], w.q[2][2, 2]) < SMALLEST_COSINE:
+        return _SPHERE_EXCEEDED
+    return limit_status(p, new)
+
+
+@kernel
+def set_axes(p: Props, w: Scratch, new: State) -> None:
+    """Set the sliders' axes in axes of the plates, the line of centres and its length."""
+    q, r = w.q[0], w.q[3]
+    length = 0.0
+    for a in range(3):
+        w.force[0, a] = w.x[3, a] - w.x[0, a] - p.lever[1] * r[a, 2] - p.lever[0] * q[a, 2]
+        length -= w.q[1][a, 2] * w.force[0, a]
+    c = w.force[0]
+    for a in range(3):
+        new.centres[a] = q[0, a] * c[0] + q[1, a] * c[1] + q[2, a] * c[2]
+        new.axis[a] = q[0, a] * w.q[1][0, 2] + q[1, a] * w.q[1][1, 2] + q[2, a] * w.q[1][2, 2]
+        new.axis_top[a] = r[0, a] * w.q[2][0, 2] + r[1, a] * w.q[2][1, 2] + r[2, a] * w.q[2][2, 2]
+    new.string = length
+    new.closure = max(length - p.length, 0.0)
+
+
+@kernel
+def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
+    """Set the slip of the interface: the top slider's axis point from that of the bottom one."""
+    n = w.q[1]
+    s, along = w.force[0], 0.0
+    for a in range(3):
+        s[a] = w.x[2, a] + c.plane[1] * w.q[2][a, 2] - w.x[1, a] - c.plane[0] * n[a, 2]
+        along += s[a] * n[a, 2]
+    for a in range(3):
+        s[a] -= along * n[a, 2]
+        new.slip_total[a] = s[a]
+    set_tangents(w, new.axis[0], new.axis[1], new.axis[2])
+    q, t_1, t_2 = w.q[0], w.tangent_1, w.tangent_2
+    new.slip[0], new.slip[1] = 0.0, 0.0
+    for a in range(3):
+        own = q[0, a] * s[0] + q[1, a] * s[1] + q[2, a] * s[2]
+        new.slip[0] += t_1[a] * own
+        new.slip[1] += t_2[a] * own
+    for a in range(2):
+        new.slip_increment[a] = new.slip[a] - old.slip[a]
+
+
+@kernel
+def set_averages(points: Records, touch: Records, new: State) -> None:
+    """Set friction states and forces of the three interfaces from their points."""
+    new.axial_force, new.slid_interface = 0.0, 0.0
+    for a in range(2):
+        new.slid[a], new.friction_coefficient[a], new.sliding_speed[a] = 0.0, 0.0, 0.0
+        new.interface_hysteresis[a], new.interface_force[a] = 0.0, 0.0
+        for b in range(2):
+            new.hysteresis[a, b], new.friction_force[a, b] = 0.0, 0.0
+            new.sliding_increment[a, b] = 0.0
+    for j in range(points.shape[0]):
+        t, share, pair = touch[j], points[j].share, points[j].pair
+        if pair == 1:
+            new.slid_interface += share * t.slid
+            for a in range(2):
+                new.interface_hysteresis[a] += share * t.hysteresis[a]
+                new.interface_force[a] += t.push * t.friction * t.hysteresis[a]
+            continue
+        side = 0 if pair == 0 else 1
+        sign = 1.0 if pair == 0 else -1.0  # on the top surface the plate's motion counts
+        if pair == 2:
+            new.axial_force += t.push
+        new.slid[side] += share * t.slid
+        new.friction_coefficient[side] += share * t.friction
+        new.sliding_speed[side] += share * t.speed
+        for a in range(2):
+            new.hysteresis[side, a] += sign * share * t.hysteresis[a]
+            new.friction_force[side, a] += sign * t.push * t.friction * t.hysteresis[a]
+            new.sliding_increment[side, a] += sign * share * t.increment[a]
+
+
+@kernel
+def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, new: State) -> None:
+    """Set sliding on both surfaces, and the rims."""
+    for side in range(2):
+        body, carrier = (1, 0) if side == 0 else (2, 3)
+        up = p.lever[0] if side == 0 else -p.lever[1]
+        locate(w, body, carrier, 0.0, 0.0, c.vertex[side], up)
+        sign = 1.0 if side == 0 else -1.0
+        q, d = w.q[carrier], w.d
+        for a in range(3):
+            new.slider_displacement[side, a] = sign * (
+                q[a, 0] * d[0] + q[a, 1] * d[1] + q[a, 2] * (d[2] + sign * p.radius[side])
+            )
+        new.eccentricity[side] = math.sqrt(d[0] * d[0] + d[1] * d[1])
+        new.rim_closure[side] = bodies.rim_closure[side]
+        new.rim_force[side] = bodies.rim_force[side]
+
+
+@kernel
+def set_moves(
+    old: State, new: State, b_old: Bodies, b_new: Bodies, bodies: int, moves: Floats
+) -> None:
+    """Set `moves` (24,): displacement and turn of each body over the step.
+
+    The first `bodies` of the three come from their record, the nodes from their displacements.
+    """
+    for a in range(6):
+        moves[a] = new.displacement[a] - old.displacement[a]
+        moves[18 + a] = new.displacement[6 + a] - old.displacement[6 + a]
+    for k in range(bodies):
+        for a in range(3):
+            moves[6 * k + 6 + a] = b_new.place[k, a] - b_old.place[k, a]
+        x, y, z = turn_between(b_old.turn[k], b_new.turn[k])
+        moves[6 * k + 9], moves[6 * k + 10], moves[6 * k + 11] = x, y, z
+
+
+@kernel
+def taken_up(b_old: Bodies, b_new: Bodies, moves: Floats, origin: int) -> float:
+    """Return the work that the forces of one origin take up over the step (trapezoidal)."""
+    total = 0.0
+    for row in range(24):
+        total -= 0.5 * (b_old.parts[origin, row] + b_new.parts[origin, row]) * moves[row]
+    return total
+
+
+@kernel
+def contact_accumulate(
+    p: Props, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
+    touch_old: Records, touch_new: Records, moves: Floats, bodies: int,
+) -> None:  # fmt: skip
+    """Add the works and paths of the step from `old` to `new` to those of `new`.
+
+    Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
+    """
+    set_moves(old, new, b_old, b_new, bodies, moves)
+    lost, slip_work = 0.0, 0.0
+    for j in range(points.shape[0]):
+        before, after, pair = touch_old[j], touch_new[j], points[j].pair
+        work = dissipated(
+            before.friction * before.push, after.friction * after.push,
+            after.hysteresis[0], after.hysteresis[1], after.slid,
+        )  # fmt: skip
+        if pair == 1:
+            slip_work += work
+        else:
+            side = 0 if pair == 0 else 1
+            new.work_friction[side] += work
+            lost += work
+    total = taken_up(b_old, b_new, moves, LOW_BOTTOM) + taken_up(b_old, b_new, moves, LOW_TOP)
+    total += taken_up(b_old, b_new, moves, HIGH)
+    new.work_interface += slip_work
+    new.work_elastic += total - lost - slip_work
+    new.work_contact += taken_up(b_old, b_new, moves, NORMAL)
+    new.work_rim[0] += taken_up(b_old, b_new, moves, RIM_BOTTOM)
+    new.work_rim[1] += taken_up(b_old, b_new, moves, RIM_TOP)
+    new.work_sliders += taken_up(b_old, b_new, moves, OWN)
+    for k in range(2):
+        d = new.sliding_increment[k]
+        new.travel[k] += math.sqrt(d[0] * d[0] + d[1] * d[1])
+    d, s = new.slip_increment, new.slip
+    new.interface_travel += math.sqrt(d[0] * d[0] + d[1] * d[1])
+    new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
+
+
+@kernel
+def points_defect(
+    p: Props, b_old: Bodies, b_new: Bodies, touch_old: Records, touch_new: Records
+) -> float:
+    """Return the energy that contacts make or lose in the step by its size alone.
+
+    Force times the part of the approach that no closure took part in, as in `contact_defect`.
+    """
+    defect = 0.0
+    for j in range(touch_old.shape[0]):
+        before, after = touch_old[j], touch_new[j]
+        travel = abs((after.gap - before.gap) - (after.closure - before.closure))
+        defect += 0.5 * (before.push + after.push) * travel
+    for k in range(2):
+        if b_old.rim_force[k] == 0.0 and b_new.rim_force[k] == 0.0:
+            continue  # a rim at infinity among them
+        approach = b_new.rim_gap[k] - b_old.rim_gap[k]
+        travel = abs(approach - (b_new.rim_closure[k] - b_old.rim_closure[k]))
+        force = 0.5 * (b_old.rim_force[k] + b_new.rim_force[k])
+        defect += force * travel
+        if force > 0.0:
+            stored = b_new.rim_closure[k] ** 2 - b_old.rim_closure[k] ** 2
+            defect += max(0.5 * p.rim_stiffness * stored - force * approach, 0.0)
+    return defect

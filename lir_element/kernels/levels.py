@@ -1,0 +1,107 @@
+"""Kernels that hand a bearing to the level it is modelled at: trial, tangent, commit.
+
+`contacts` is None where all bearings are at the level 'pendulum' (the other level is then not even
+compiled); otherwise it says which bearings have contact points.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
+from lir_element.kernels.contact.state import contact_accumulate, points_defect
+from lir_element.kernels.pendulum.nodes import fill_tangent
+from lir_element.kernels.pendulum.trial import copy_words, trial
+from lir_element.kernels.pendulum.work import accumulate, contact_defect
+
+if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Floats, Records, Words
+
+
+@kernel
+def bearing_trial(
+    props: Records, old: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
+    u: Floats, v: Floats, time: float, zero: Floats,
+) -> int:  # fmt: skip
+    """Determine the state of bearing `k`; returns a RunStatus code."""
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            return contact_trial(
+                props[k], contacts.sliders[at], contacts.points[at], old[k], new[k],
+                contacts.bodies_old[at], contacts.bodies_new[at], contacts.touch_old[at],
+                contacts.touch_new[at], work[k], contacts.scratch[at], u, v, time, zero,
+            )  # fmt: skip
+    return trial(props[k], old[k], new[k], work[k], u, v, time, zero)
+
+
+@kernel
+def bearing_tangent(
+    props: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
+    tangent: Floats, zero: Floats, axes: Floats,
+) -> None:  # fmt: skip
+    """Fill the tangent (12, 12) of bearing `k`'s last trial."""
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            contact_tangent(
+                contacts.sliders[at], contacts.bodies_old[at], contacts.bodies_new[at],
+                contacts.scratch[at], work[k].dt, tangent,
+            )  # fmt: skip
+            return
+    fill_tangent(props[k], work[k], new[k].force, tangent, zero, axes)
+
+
+@kernel
+def bearing_commit(
+    props: Records, old: Records, new: Records, old_words: Words, new_words: Words,
+    contacts: Contacts | None, k: int,
+) -> None:  # fmt: skip
+    """Accept the trial state of bearing `k`."""
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            contact_accumulate(
+                props[k], contacts.points[at], old[k], new[k], contacts.bodies_old[at],
+                contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
+                contacts.scratch[at].moves, 2,
+            )  # fmt: skip
+            copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
+            copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
+            copy_words(new_words[k], old_words[k])
+            return
+    accumulate(props[k], old[k], new[k])
+    copy_words(new_words[k], old_words[k])
+
+
+@kernel
+def bearing_defect(
+    props: Records, old: Records, new: Records, contacts: Contacts | None, k: int
+) -> float:
+    """Return the energy that bearing `k`'s contacts make or lose in the step by its size."""
+    if contacts is not None:
+        at = contacts.place[k]
+        if at >= 0:
+            return points_defect(
+                props[k], contacts.bodies_old[at], contacts.bodies_new[at],
+                contacts.touch_old[at], contacts.touch_new[at],
+            )  # fmt: skip
+    return contact_defect(props[k], old[k], new[k])
+
+
+@kernel
+def bearing_look(
+    props: Records, old: Records, work: Records, contacts: Contacts | None, k: int
+) -> None:
+    """Prepare the static tangent of bearing `k`'s committed state, which has contact points."""
+    if contacts is None:
+        return
+    at = contacts.place[k]
+    work[k].dt = 0.0
+    look_at_committed(
+        props[k], contacts.sliders[at], contacts.points[at], old[k], contacts.bodies_old[at],
+        contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
+        contacts.scratch[at],
+    )  # fmt: skip

@@ -1,0 +1,117 @@
+"""Kernels of the level 'pendulum': the axial force, and its forms with features left out.
+
+Three laws (docs/theory.md, sections 3 and 9):
+
+- the contact opens: ``N = k_v (l - L) + c_v dl/dt``, never below zero;
+- uplift left out (``bilateral``): the same, also in tension. In tension both surfaces carry
+  nothing, the interface holds its slip, and the bearing pulls along the line of its centres;
+- vertical coupling left out (``fixed_load`` W > 0): the string keeps its length, the height of
+  the top plate follows from it, and N from ``g_3 = -W``: a pendulum under a constant vertical
+  load. A spring and a damper of their own carry what moves vertically.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.slip import kelvin_voigt
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, State, Work
+
+
+@kernel
+def fix_length(p: Props, w: Work) -> None:
+    """Keep the true height of the line of centres; set the one that the string's length gives."""
+    w.height = w.c[2]
+    w.fixed_length = 0.0
+    if p.fixed_load > 0.0:
+        w.fixed_length = p.length + p.fixed_load / p.axial_stiffness
+        rest = w.fixed_length**2 - w.c[0] ** 2 - w.c[1] ** 2
+        w.c[2] = -math.sqrt(rest) if rest > 0.0 else 0.0
+
+
+@kernel
+def axial(p: Props, old: State, w: Work) -> None:
+    """Set the axial force of the string and its floor (below it all forces fade alike)."""
+    gap = (w.l if w.fixed_length == 0.0 else -w.height) - p.length
+    if p.bilateral:
+        force, slope = p.axial_stiffness * gap, p.axial_stiffness
+        if w.dt > 0.0:
+            force += p.axial_damping * (gap - old.closure) / w.dt
+            slope += p.axial_damping / w.dt
+        w.closure = gap
+    else:
+        force, slope, w.closure = kelvin_voigt(
+            gap, old.closure, p.axial_stiffness, p.axial_damping, w.dt
+        )
+    w.vertical, w.stiff_vertical = 0.0, 0.0
+    if w.fixed_length > 0.0:  # the string's own force follows: hold_load
+        w.vertical, w.stiff_vertical = force, slope
+        return
+    w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
+    if w.n_pos > p.axial_floor:
+        w.n_hat, w.scale = w.n_pos, 1.0
+    else:
+        w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
+
+
+@kernel
+def hold_load(p: Props, w: Work) -> None:
+    """Set the axial force under which the vertical part of the string's force is the fixed load."""
+    n = w.n
+    if p.fused:
+        load = p.fixed_load + (n[0] * w.push[0] + n[1] * w.push[1]) / w.l
+        share = n[2] + (n[0] * w.drag[0] + n[1] * w.drag[1]) / w.l
+    else:
+        load = p.fixed_load
+        share = n[2] + n[0] * w.phi_s[0] + n[1] * w.phi_s[1]
+    w.n_true = load / share
+    w.n_pos, w.n_hat, w.scale, w.stiff_n = w.n_true, w.n_true, 1.0, 0.0
+
+
+@kernel
+def held_rate(w: Work, e_1: float, e_2: float, d_s1: float, d_s2: float) -> float:
+    """Return the derivative of `hold_load` for two sliders: by a turn eta and a change of slip."""
+    x = w.t[0, 0] * e_1 + w.t[1, 0] * e_2  # turn of n, horizontal
+    y = w.t[0, 1] * e_1 + w.t[1, 1] * e_2
+    share = w.n[2] + w.n[0] * w.phi_s[0] + w.n[1] * w.phi_s[1]
+    rate = x * w.phi_s[0] + y * w.phi_s[1] - (w.n[0] * e_1 + w.n[1] * e_2)
+    rate += w.n[0] * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2)
+    rate += w.n[1] * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2)
+    return -w.n_true * rate / share
+
+
+@kernel
+def held_rate_fused(w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> float:
+    """Return the same for one piece; `r_1`, `r_2`: the residual's derivative at constant N."""
+    x = w.t[0, 0] * e_1 + w.t[1, 0] * e_2
+    y = w.t[0, 1] * e_1 + w.t[1, 1] * e_2
+    share = w.n[2] + (w.n[0] * w.drag[0] + w.n[1] * w.drag[1]) / w.l
+    rate = w.n_true * (w.n[0] * e_1 + w.n[1] * e_2) - (x * w.f_s[0] + y * w.f_s[1])
+    return (rate + (w.n[0] * r_1 + w.n[1] * r_2) / w.l) / share
+
+
+@kernel
+def follow_height(p: Props, w: Work, e_1: float, e_2: float, d: Floats) -> float:
+    """Return the vertical part of a shift `d` of the centre: under a fixed load, what l asks for.
+
+    ``dl = -s . eta - n . d = 0``.
+    """
+    if p.fixed_load > 0.0:
+        s = w.sigma
+        return -(s[0] * e_1 + s[1] * e_2 + w.n[0] * d[0] + w.n[1] * d[1]) / w.n[2]
+    return d[2]
+
+
+@kernel
+def tension_rates(w: Work, e_1: float, e_2: float, spin: float, d: Floats) -> tuple[float, float]:
+    """Return the derivative of ``N s / l``, what the interface passes while the bearing pulls."""
+    s_1, s_2 = w.sigma[0], w.sigma[1]
+    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
+    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
+    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * d[2]
+    by_l = (w.stiff_n - w.n_true / w.l) * d_l
+    return (by_l * s_1 + w.n_true * d_s1) / w.l, (by_l * s_2 + w.n_true * d_s2) / w.l

@@ -1,0 +1,163 @@
+"""Kernels of the level 'pendulum': the slider's axis in equilibrium, found by a safeguarded Newton.
+
+Newton's step is shortened until the residual falls; where everything slides and Newton sees no
+stiffness, a search against the residual brackets the zero. docs/theory.md, section 4.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
+from lir_element.kernels.pendulum.tangent import slider_jacobian
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, State, Work
+
+_MAX_ITERATIONS = 60
+_MAX_STEEPEST = 12
+_TOLERANCE = 1e-12  # of axial force times string length
+_ROUND_OFF = 4e-16  # of lengths
+_LARGEST_TURN = 0.1  # rad, of the axis in one iteration
+
+
+@kernel
+def residual_size(w: Work) -> float:
+    """Return the residual of the slider's equilibrium over axial force and length."""
+    return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
+
+
+@kernel
+def tolerance(p: Props, w: Work) -> float:
+    """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
+    stiff = w.l * p.interface_friction / p.interface_yield
+    for k in range(2):
+        by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
+        stiff += p.radius[k] * (p.friction_max[k] / p.yield_displacement[k] + by_speed)
+        stiff += p.radius[k] ** 2 * w.stiff_rim[k] / (w.n_hat * w.l)
+    return _TOLERANCE + _ROUND_OFF * stiff
+
+
+@kernel
+def mark_start(w: Work) -> None:
+    """Keep the current axis as the start of a search; on a rim, keep its parallel circle too."""
+    for a in range(3):
+        w.start[0, a], w.start[1, a], w.start[2, a] = w.n[a], w.t[0, a], w.t[1, a]
+    on_rim = w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0
+    radius = math.sqrt(w.n[0] ** 2 + w.n[1] ** 2)
+    w.start_circle[2] = radius if on_rim and radius > 1e-6 else 0.0
+    if w.start_circle[2] > 0.0:
+        w.start_circle[0], w.start_circle[1] = w.n[0] / radius, w.n[1] / radius
+
+
+@kernel
+def move(p: Props, old: State, w: Work, e_1: float, e_2: float) -> None:
+    """Turn the axis from the start of the search by eta and evaluate there.
+
+    On a rim the turn follows the rim's circle: a straight one would run into the rim's stiffness
+    by its curvature alone.
+    """
+    s = w.start
+    if w.start_circle[2] == 0.0:
+        set_axis(
+            w,
+            s[0, 0] + s[1, 0] * e_1 + s[2, 0] * e_2,
+            s[0, 1] + s[1, 1] * e_1 + s[2, 1] * e_2,
+            s[0, 2] + s[1, 2] * e_1 + s[2, 2] * e_2,
+        )
+    else:
+        u_1, u_2, radius = w.start_circle[0], w.start_circle[1], w.start_circle[2]
+        along = (-u_2 * e_1 + u_1 * e_2) / radius
+        tilt = math.atan2(radius, s[0, 2]) + u_1 * e_1 + u_2 * e_2
+        cos, sin, out = math.cos(along), math.sin(along), math.sin(tilt)
+        set_axis(w, out * (cos * u_1 - sin * u_2), out * (sin * u_1 + cos * u_2), math.cos(tilt))
+    evaluate(p, old, w)
+
+
+@kernel
+def newton_turn(p: Props, old: State, w: Work, zero: Floats) -> float:
+    """Turn the axis along Newton's direction; return the new relative residual, -1 if no gain."""
+    size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
+    slider_jacobian(p, w, zero)
+    j = w.jacobian
+    det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
+    floor = w.n_hat * w.l * w.l  # of the restoring term, which must not rule
+    if not (j[0, 0] + j[1, 1] > floor and det > 1e-3 * floor * floor):
+        return -1.0
+    e_1 = -(j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1]) / det
+    e_2 = -(j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0]) / det
+    turn = math.sqrt(e_1 * e_1 + e_2 * e_2)
+    if turn > _LARGEST_TURN:
+        e_1, e_2 = e_1 * _LARGEST_TURN / turn, e_2 * _LARGEST_TURN / turn
+    mark_start(w)
+    for _ in range(8):
+        move(p, old, w, e_1, e_2)
+        relative = residual_size(w)
+        new = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
+        if new <= 0.999 * size or relative < tolerance(p, w):
+            return relative
+        e_1, e_2 = 0.3 * e_1, 0.3 * e_2
+    move(p, old, w, 0.0, 0.0)
+    return -1.0
+
+
+@kernel
+def steepest_turn(p: Props, old: State, w: Work) -> float:
+    """Turn the axis against the residual until its part along that direction vanishes.
+
+    The safeguard where everything slides and Newton sees no stiffness: expand, then bisect
+    (Illinois). Returns the new relative residual, -1 if there is no zero within the largest turn.
+    """
+    size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
+    d_1, d_2 = -w.residual[0] / size, -w.residual[1] / size
+    elastic_jacobian(p, w)
+    high = size / (w.jacobian[0, 0] + w.jacobian[1, 1])
+    low, f_low = 0.0, -size
+    mark_start(w)
+    move(p, old, w, high * d_1, high * d_2)
+    f_high = w.residual[0] * d_1 + w.residual[1] * d_2
+    while f_high < 0.0:
+        low, f_low = high, f_high
+        if high >= 3.0 * _LARGEST_TURN:
+            move(p, old, w, 0.0, 0.0)
+            return -1.0
+        high = min(4.0 * high, 3.0 * _LARGEST_TURN)
+        move(p, old, w, high * d_1, high * d_2)
+        f_high = w.residual[0] * d_1 + w.residual[1] * d_2
+    for _ in range(80):
+        middle = (low * f_high - high * f_low) / (f_high - f_low)
+        move(p, old, w, middle * d_1, middle * d_2)
+        f = w.residual[0] * d_1 + w.residual[1] * d_2
+        if abs(f) <= 1e-3 * w.n_hat * w.l or high - low < 1e-16:
+            break
+        if f < 0.0:
+            low, f_low, f_high = middle, f, 0.5 * f_high
+        else:
+            high, f_high, f_low = middle, f, 0.5 * f_low
+    return residual_size(w)
+
+
+@kernel
+def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
+    """Find the axis in equilibrium; return the iterations taken, or -1."""
+    evaluate(p, old, w)
+    if p.fused:
+        return 0
+    size = residual_size(w)
+    steepest = 0
+    for count in range(_MAX_ITERATIONS):
+        enough = tolerance(p, w)
+        if size < enough:
+            return count
+        new = newton_turn(p, old, w, zero)
+        if new < 0.0:
+            if size < 10.0 * enough:
+                return count
+            steepest += 1
+            new = steepest_turn(p, old, w)
+            if new < 0.0 or steepest > _MAX_STEEPEST:
+                return -1
+        size = new
+    return -1

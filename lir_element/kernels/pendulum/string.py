@@ -1,0 +1,263 @@
+"""Kernels of the level 'pendulum': the bearing as a string between its sphere centres.
+
+With c from the bottom sphere's centre to the top one, n the slider's axis (internal unknown,
+two numbers), and t_1, t_2 the basis of the plane normal to n that turns with the bottom plate
+and has no spin about n (docs/theory.md):
+
+    l     = -n . c                      string length; axial force N(l), never below zero
+    s_a   = t_a . c                     slip of the interface
+    dw_k  = -R_k (turn of n against plate k)          sliding on the surfaces
+    r_k   = R_k |horizontal part of n, axes of plate k|      radial sliding, rim at d_max
+
+The axis turns until virtual work vanishes for every turn ``eta`` of it:
+
+    -N s + (ds/d eta)' F_h - R_1 F_1 - R_2 F_2 + (rims) = 0.
+
+All vectors here are in axes that turn with the bottom plate.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
+from lir_element.kernels.rotation import rotate
+from lir_element.kernels.slip import (
+    friction_coefficient,
+    friction_map,
+    kelvin_voigt,
+    speed_at_end,
+    step_share,
+)
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, State, Work
+
+
+@kernel
+def place_plates(p: Props, w: Work, u: Floats) -> None:
+    """Set rotations and the line of centres from the nodes' displacements `u` (12,)."""
+    rotate(u[3], u[4], u[5], w.q_i, w.spin_i)
+    rotate(u[9], u[10], u[11], w.q_j, w.spin_j)
+    w.c_global[0] = u[6] - u[0] - p.lever[1] * w.q_j[0, 2] - p.lever[0] * w.q_i[0, 2]
+    w.c_global[1] = u[7] - u[1] - p.lever[1] * w.q_j[1, 2] - p.lever[0] * w.q_i[1, 2]
+    w.c_global[2] = (u[8] - u[2] - p.length) + (
+        p.lever[1] * (1.0 - w.q_j[2, 2]) + p.lever[0] * (1.0 - w.q_i[2, 2])
+    )
+    for a in range(3):
+        w.c[a] = 0.0
+        for k in range(3):
+            w.c[a] += w.q_i[k, a] * w.c_global[k]
+            w.a[a, k] = 0.0
+        for b in range(3):
+            for k in range(3):
+                w.a[a, b] += w.q_i[k, a] * w.q_j[k, b]
+    fix_length(p, w)
+
+
+@kernel
+def set_axis(w: Work, x: float, y: float, z: float) -> None:
+    """Set the axis n (normalised), the basis t, the string length and the slip."""
+    size = math.sqrt(x * x + y * y + z * z)
+    x, y, z = x / size, y / size, z / size
+    k = 1.0 / (1.0 + z)
+    w.n[0], w.n[1], w.n[2] = x, y, z
+    w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x
+    w.t[1, 0], w.t[1, 1], w.t[1, 2] = -k * x * y, 1.0 - k * y * y, -y
+    if w.fixed_length > 0.0:
+        w.c[2] = -(w.fixed_length + x * w.c[0] + y * w.c[1]) / z
+    w.l = -(x * w.c[0] + y * w.c[1] + z * w.c[2])
+    for a in range(2):
+        w.sigma[a] = w.t[a, 0] * w.c[0] + w.t[a, 1] * w.c[1] + w.t[a, 2] * w.c[2]
+
+
+@kernel
+def turn_axis(w: Work, x: float, y: float, z: float, eta_1: float, eta_2: float) -> None:
+    """Set the axis to (x, y, z), whose basis is current, turned by eta."""
+    set_axis(
+        w,
+        x + w.t[0, 0] * eta_1 + w.t[1, 0] * eta_2,
+        y + w.t[0, 1] * eta_1 + w.t[1, 1] * eta_2,
+        z + w.t[0, 2] * eta_1 + w.t[1, 2] * eta_2,
+    )
+
+
+@kernel
+def aim_axis(p: Props, old: State, w: Work) -> None:
+    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused."""
+    if p.fused:
+        set_axis(w, -w.c[0], -w.c[1], -w.c[2])
+        w.sigma[0], w.sigma[1] = 0.0, 0.0
+        return
+    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
+    for _ in range(8):
+        e_1 = (old.slip[0] - w.sigma[0]) / w.l
+        e_2 = (old.slip[1] - w.sigma[1]) / w.l
+        turn_axis(w, w.n[0], w.n[1], w.n[2], e_1, e_2)
+        if abs(e_1) + abs(e_2) < 1e-10:
+            break
+
+
+@kernel
+def static_speeds(p: Props, w: Work, v: Floats) -> None:
+    """Set the sliding speeds of a trial at the committed time from the nodes' velocities."""
+    rate = w.sums
+    for k in range(3):
+        rate[k] = v[6 + k] - v[k]
+    # levers: + a_i e_i x omega_i + a_j e_j x omega_j, then the turn of the bottom plate
+    for q, first, lever in ((w.q_i, 3, p.lever[0]), (w.q_j, 9, p.lever[1])):
+        rate[0] += lever * (q[1, 2] * v[first + 2] - q[2, 2] * v[first + 1])
+        rate[1] += lever * (q[2, 2] * v[first] - q[0, 2] * v[first + 2])
+        rate[2] += lever * (q[0, 2] * v[first + 1] - q[1, 2] * v[first])
+    cg = w.c_global
+    rate[0] += cg[1] * v[5] - cg[2] * v[4]
+    rate[1] += cg[2] * v[3] - cg[0] * v[5]
+    rate[2] += cg[0] * v[4] - cg[1] * v[3]
+    if p.fixed_load > 0.0:  # the string's own height: its length does not change
+        along = 0.0
+        for k in range(3):
+            along += rate[k] * (w.q_i[k, 0] * w.n[0] + w.q_i[k, 1] * w.n[1] + w.q_i[k, 2] * w.n[2])
+        for k in range(3):
+            rate[k] -= w.q_i[k, 2] * along / w.n[2]
+    for a in range(2):
+        bottom, top = 0.0, 0.0
+        for k in range(3):
+            axis = w.q_i[k, 0] * w.t[a, 0] + w.q_i[k, 1] * w.t[a, 1] + w.q_i[k, 2] * w.t[a, 2]
+            bottom -= axis * rate[k] / w.l
+            m, o = (k + 1) % 3, (k + 2) % 3
+            n_m = w.q_i[m, 0] * w.n[0] + w.q_i[m, 1] * w.n[1] + w.q_i[m, 2] * w.n[2]
+            n_o = w.q_i[o, 0] * w.n[0] + w.q_i[o, 1] * w.n[1] + w.q_i[o, 2] * w.n[2]
+            top -= axis * ((v[9 + m] - v[3 + m]) * n_o - (v[9 + o] - v[3 + o]) * n_m)
+        w.phi[0, a], w.phi[1, a] = bottom, bottom + top
+    for k in range(2):
+        w.static_speed[k] = p.radius[k] * math.sqrt(w.phi[k, 0] ** 2 + w.phi[k, 1] ** 2)
+
+
+@kernel
+def surface(p: Props, old: State, w: Work, k: int) -> None:
+    """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
+    m = w.old_top if k == 1 else old.axis
+    for a in range(2):
+        w.old[k, a] = w.t[a, 0] * m[0] + w.t[a, 1] * m[1] + w.t[a, 2] * m[2]
+        w.dw[k, a] = p.radius[k] * w.old[k, a]
+    w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
+    d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
+    before = old.sliding_increment[k]
+    share = step_share(w.dt, old.step)
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
+        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
+        p.yield_displacement[k], before[0], before[1], share,
+    )  # fmt: skip
+    w.slid[k] = slip
+    # the speed of slip, not of the elastic part: friction must not grow while it unloads
+    w.speed[k], by_slip = w.static_speed[k], 0.0
+    if w.dt > 0.0:
+        w.speed[k], by_slip = speed_at_end(slip, w.dt, old.slid[k], old.step, share)
+    mu, slope = friction_coefficient(
+        p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
+    )
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
+    w.mu[k] = mu
+    w.z[k, 0], w.z[k, 1] = z_1, z_2
+    w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
+    w.h[k, 0, 0], w.h[k, 0, 1] = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
+    w.h[k, 1, 0], w.h[k, 1, 1] = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
+
+
+@kernel
+def interface(p: Props, old: State, w: Work) -> None:
+    """Set the friction of the plane interface: force and derivative over N."""
+    before = old.slip_increment
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
+        p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
+        w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
+        before[0], before[1], step_share(w.dt, old.step),
+    )  # fmt: skip
+    mu = p.interface_friction
+    w.z_s[0], w.z_s[1], w.slid_s = z_1, z_2, slip
+    w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
+    w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
+
+
+@kernel
+def rims(p: Props, old: State, w: Work) -> None:
+    """Set the rim forces of both plates."""
+    for k in range(2):
+        if k == 0:
+            x, y = w.n[0], w.n[1]
+        else:
+            x = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
+            y = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
+        size = math.sqrt(x * x + y * y)
+        w.n_hor[k] = size
+        w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
+            p.radius[k] * size - p.rim_displacement[k],
+            old.rim_closure[k],
+            p.rim_stiffness,
+            p.rim_damping,
+            w.dt,
+        )
+        w.unit[k, 0], w.unit[k, 1] = (x / size, y / size) if size > 0.0 else (1.0, 0.0)
+    e_1, e_2 = w.unit[1, 0], w.unit[1, 1]
+    for a in range(3):
+        w.r_top[a] = w.a[a, 0] * e_1 + w.a[a, 1] * e_2
+        w.b_top[a] = w.a[a, 1] * e_1 - w.a[a, 0] * e_2
+
+
+@kernel
+def evaluate(p: Props, old: State, w: Work) -> None:
+    """Set all forces at the current axis and the residual of the slider's equilibrium.
+
+    Two pieces part where they carry no axial force, and pass nothing; one piece between its rims
+    still passes what the rims press.
+    """
+    axial(p, old, w)
+    surface(p, old, w, 0)
+    surface(p, old, w, 1)
+    rims(p, old, w)
+    for a in range(2):
+        rim_top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
+        w.drag[a] = p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a]
+        w.push[a] = (
+            p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a] + p.radius[1] * w.rim[1] * rim_top
+        )
+    if not p.fused:
+        interface(p, old, w)
+    if p.fixed_load > 0.0:
+        hold_load(p, w)
+    n = w.n_pos if p.fused else w.n_hat
+    for a in range(2):
+        w.residual[a] = -n * w.drag[a] + w.push[a]
+    if p.fused:  # the interface carries what equilibrium asks for
+        w.rim_scale = 1.0
+        for a in range(2):
+            w.f_s[a] = -w.residual[a] / w.l
+            w.residual[a] = 0.0
+        return
+    w.rim_scale = w.scale
+    k = 1.0 / (1.0 + w.n[2])
+    chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
+    w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
+    w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
+    w.f_s[0], w.f_s[1] = w.n_pos * w.phi_s[0], w.n_pos * w.phi_s[1]
+    if w.n_true < 0.0:  # pulled along the line of centres: the interface holds
+        w.f_s[0] += w.n_true * w.sigma[0] / w.l
+        w.f_s[1] += w.n_true * w.sigma[1] / w.l
+
+
+@kernel
+def elastic_jacobian(p: Props, w: Work) -> None:
+    """Set the slider's jacobian as if nothing slipped: a safe direction when Newton's is not."""
+    friction = w.n_hat * (
+        w.l * w.l * p.interface_friction / p.interface_yield
+        + p.radius[0] ** 2 * w.mu[0] / p.yield_displacement[0]
+        + p.radius[1] ** 2 * w.mu[1] / p.yield_displacement[1]
+    )
+    for a in range(2):
+        for b in range(2):
+            w.jacobian[a, b] = p.radius[0] ** 2 * w.stiff_rim[0] * w.unit[0, a] * w.unit[0, b] + (
+                p.radius[1] ** 2 * w.stiff_rim[1] * w.unit[1, a] * w.unit[1, b]
+            )
+        w.jacobian[a, a] += friction

@@ -1,0 +1,234 @@
+"""Kernels of the level 'pendulum': derivatives of its residual and forces, and the tangent.
+
+One kernel takes the derivative in a direction (a turn `eta` of the slider's axis, a shift `d`
+of the top sphere's centre, a spin `v` of the top plate, all in axes of the bottom plate); the
+slider's jacobian and the condensed tangent are made of it. docs/theory.md derives each line.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.pendulum.axial import (
+    follow_height,
+    held_rate,
+    held_rate_fused,
+    tension_rates,
+)
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, Work
+
+
+@kernel
+def friction_rate(
+    w: Work, k: int, axial_rate: float, dw_1: float, dw_2: float
+) -> tuple[float, float]:
+    """Return the derivative of the friction force of surface `k`."""
+    return (
+        w.n_hat * (w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2) + w.phi[k, 0] * axial_rate,
+        w.n_hat * (w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2) + w.phi[k, 1] * axial_rate,
+    )
+
+
+@kernel
+def top_rates(
+    p: Props, w: Work, e_1: float, e_2: float, v: Floats
+) -> tuple[float, float, float, float]:
+    """Return d(axis against the top plate) (3), rate of the top's radial sliding, d(r_top) (3)."""
+    y_1 = w.t[0, 0] * e_1 + w.t[1, 0] * e_2 - (v[1] * w.n[2] - v[2] * w.n[1])
+    y_2 = w.t[0, 1] * e_1 + w.t[1, 1] * e_2 - (v[2] * w.n[0] - v[0] * w.n[2])
+    y_3 = w.t[0, 2] * e_1 + w.t[1, 2] * e_2 - (v[0] * w.n[1] - v[1] * w.n[0])
+    radial = w.r_top[0] * y_1 + w.r_top[1] * y_2 + w.r_top[2] * y_3
+    hoop = 0.0
+    if w.n_hor[1] > 0.0:
+        hoop = (w.b_top[0] * y_1 + w.b_top[1] * y_2 + w.b_top[2] * y_3) / w.n_hor[1]
+    return (
+        p.radius[1] * radial,
+        v[1] * w.r_top[2] - v[2] * w.r_top[1] + w.b_top[0] * hoop,
+        v[2] * w.r_top[0] - v[0] * w.r_top[2] + w.b_top[1] * hoop,
+        v[0] * w.r_top[1] - v[1] * w.r_top[0] + w.b_top[2] * hoop,
+    )
+
+
+@kernel
+def basis_rate(
+    w: Work, x: float, y: float, z: float, e_1: float, e_2: float, spin: float
+) -> tuple[float, float]:
+    """Return d(t_a) . (x, y, z) for a = 1, 2 when the axis turns by eta."""
+    along = w.n[0] * x + w.n[1] * y + w.n[2] * z
+    on_1 = w.t[0, 0] * x + w.t[0, 1] * y + w.t[0, 2] * z
+    on_2 = w.t[1, 0] * x + w.t[1, 1] * y + w.t[1, 2] * z
+    return -e_1 * along + spin * on_2, -e_2 * along - spin * on_1
+
+
+@kernel
+def direction(
+    p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats
+) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
+    """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin.
+
+    Where the interface is fused its force is left out: it follows from the residual.
+    """
+    k = 1.0 / (1.0 + w.n[2])
+    s_1, s_2 = w.sigma[0], w.sigma[1]
+    spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
+    tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
+    rise = follow_height(p, w, e_1, e_2, d)
+    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise
+    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise
+    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * rise
+    d_n = w.stiff_n * d_l
+    if p.fixed_load > 0.0 and not p.fused:
+        d_n = held_rate(w, e_1, e_2, d_s1, d_s2)
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    # surfaces
+    f_11, f_12 = friction_rate(
+        w, 0, d_hat,
+        p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1]),
+        p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0]),
+    )  # fmt: skip
+    m = w.old_top
+    o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
+    t = w.t
+    f_21, f_22 = friction_rate(
+        w, 1, d_hat,
+        p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1]
+                       + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3),
+        p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
+                       + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
+    )  # fmt: skip
+    if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
+    r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
+    r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
+    # rims
+    d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
+    if w.stiff_rim[0] > 0.0:
+        u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
+        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
+        hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
+        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
+        r_1 += p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
+        r_2 += p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
+    if w.stiff_rim[1] > 0.0:
+        rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
+        d_rim = w.stiff_rim[1] * rate
+        b_1, b_2 = basis_rate(w, w.r_top[0], w.r_top[1], w.r_top[2], e_1, e_2, spin)
+        for a, b in ((0, b_1), (1, b_2)):
+            part = w.rim[1] * (b + t[a, 0] * q_1 + t[a, 1] * q_2 + t[a, 2] * q_3) + d_rim * (
+                t[a, 0] * w.r_top[0] + t[a, 1] * w.r_top[1] + t[a, 2] * w.r_top[2]
+            )
+            if a == 0:
+                r_1 += p.radius[1] * part
+            else:
+                r_2 += p.radius[1] * part
+    if p.fixed_load > 0.0 and p.fused:
+        d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
+        f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
+        r_1, r_2 = r_1 - w.drag[0] * d_n, r_2 - w.drag[1] * d_n
+    # interface and string
+    g_1, g_2 = w.f_s[0], w.f_s[1]
+    if not p.fused:
+        g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    g_d1, g_d2 = 0.0, 0.0
+    if not p.fused:
+        g_d1 = w.n_hat * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2) + w.phi_s[0] * d_hat
+        g_d2 = w.n_hat * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2) + w.phi_s[1] * d_hat
+    chi = s_2 * g_1 - s_1 * g_2
+    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * chi
+    chi *= k
+    r_1 += d_l * g_1 + w.l * g_d1 + d_chi * w.n[1] + chi * (e_2 - k * w.n[1] * tilt)
+    r_2 += d_l * g_2 + w.l * g_d2 - d_chi * w.n[0] - chi * (e_1 - k * w.n[0] * tilt)
+    r_1 -= d_hat * s_1 + w.n_hat * d_s1
+    r_2 -= d_hat * s_2 + w.n_hat * d_s2
+    return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin
+
+
+@kernel
+def slider_jacobian(p: Props, w: Work, zero: Floats) -> None:
+    """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
+    for a in range(2):
+        r = direction(p, w, 1.0 - a, 0.0 + a, zero, zero)
+        for k in range(12):
+            w.turns[a, k] = r[k]
+        w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
+
+
+@kernel
+def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> None:
+    """Set column `col` of the condensed 6 x 6 stiffness: g and tau by centre and spin."""
+    if p.fused:
+        rise = follow_height(p, w, 0.0, 0.0, d)
+        e_1 = -(w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise) / w.l
+        e_2 = -(w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise) / w.l
+        rates = direction(p, w, e_1, e_2, d, v)
+        for k in range(12):
+            w.rates[k] = rates[k]
+        w.rates[3], w.rates[4] = -rates[0] / w.l, -rates[1] / w.l
+    else:
+        rates = direction(p, w, 0.0, 0.0, d, v)
+        e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])
+        e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
+        for k in range(12):
+            w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
+    d_n, g_d1, g_d2 = w.rates[2], w.rates[3], w.rates[4]
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
+    f_1, f_2, d_rim, spin = w.rates[5], w.rates[6], w.rates[7], w.rates[11]
+    n_0, n_1, n_2 = w.n[0], w.n[1], w.n[2]
+    t = w.t
+    d_0 = t[0, 0] * e_1 + t[1, 0] * e_2
+    d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
+    d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
+    if not p.fused and w.scale < 1.0:  # the forces fade with the axial force
+        g_d1 = w.scale * g_d1 + d_pos * w.phi_s[0]
+        g_d2 = w.scale * g_d2 + d_pos * w.phi_s[1]
+        f_1 = w.scale * f_1 + d_pos * w.phi[1, 0]
+        f_2 = w.scale * f_2 + d_pos * w.phi[1, 1]
+        d_rim = w.scale * d_rim + d_pos / w.n_hat * w.rim[1]
+        if w.n_true < 0.0:
+            pull_1, pull_2 = tension_rates(w, e_1, e_2, spin, d)
+            g_d1, g_d2 = g_d1 + pull_1, g_d2 + pull_2
+    s_1, s_2 = w.f_s[0], w.f_s[1]
+    twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
+    x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
+    rim = w.rim_scale * w.rim[1]
+    m = w.sums  # the top plate's force on the slider and its rate
+    for a in range(3):
+        d_axis = d_0 if a == 0 else (d_1 if a == 1 else d_2)
+        w.k6[a, col] = t[0, a] * twist_1 + t[1, a] * twist_2 + (along - d_n) * w.n[a]
+        w.k6[a, col] -= w.n_true * d_axis
+        m[a] = t[0, a] * x_1 + t[1, a] * x_2 + x_3 * w.n[a]
+        m[a] -= d_rim * w.r_top[a] + rim * w.rates[8 + a]
+    p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - rim * w.r_top[0]
+    p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - rim * w.r_top[1]
+    p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - rim * w.r_top[2]
+    lever = p.radius[1]
+    w.k6[3, col] = lever * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1])
+    w.k6[4, col] = lever * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2])
+    w.k6[5, col] = lever * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0])
+    w.dn6[col] = d_pos
+    if p.fixed_load > 0.0:
+        w.k6[2, col] = w.stiff_vertical if col == 2 else 0.0
+
+
+@kernel
+def condense(p: Props, w: Work, zero: Floats, axes: Floats) -> None:
+    """Set the condensed 6 x 6 stiffness in axes of the bottom plate.
+
+    `zero` is (3,) of zeros and `axes` the (3, 3) unit matrix.
+    """
+    inv = w.inverse
+    if not p.fused:
+        slider_jacobian(p, w, zero)
+        j = w.jacobian
+        det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
+        inv[0], inv[1] = j[1, 1] / det, -j[0, 1] / det
+        inv[2], inv[3] = -j[1, 0] / det, j[0, 0] / det
+    for a in range(3):
+        column(p, w, inv, a, axes[a], zero)
+        column(p, w, inv, 3 + a, zero, axes[a])

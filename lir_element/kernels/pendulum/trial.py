@@ -1,0 +1,252 @@
+"""Kernels of the level 'pendulum': the state determination (trial) and what a commit does.
+
+`trial` reads the committed record `old`, never writes it, and fills the record `new`; calling it
+twice gives the same bits. To commit: `accumulate`, then `copy_words` of the new record.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.errors import RunStatus
+from lir_element.kernels.pendulum.solve import solve_axis
+from lir_element.kernels.pendulum.string import aim_axis, place_plates, set_axis, static_speeds
+from lir_element.kernels.slip import return_map
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Props, State, Words, Work
+
+_OK = int(RunStatus.OK)
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
+_SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
+_RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
+_SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
+SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
+
+
+@kernel
+def set_forces(w: Work, p: Props, new: State, old: State) -> None:
+    """Set the nodes' forces from the evaluated string, surfaces and rims."""
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
+    rim = w.rim_scale * w.rim[1]
+    t, n, q = w.t, w.n, w.q_i
+    for a in range(3):
+        w.g[a] = -w.n_true * n[a] + t[0, a] * w.f_s[0] + t[1, a] * w.f_s[1]
+        w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2 - rim * w.r_top[a])
+    if p.fixed_load > 0.0:
+        w.g[2] = -w.vertical
+    m = w.sums
+    m_0, m_1, m_2 = n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]
+    f = new.force
+    for a in range(3):
+        w.tau[a] = q[a, 0] * m_0 + q[a, 1] * m_1 + q[a, 2] * m_2
+        f[6 + a] = q[a, 0] * w.g[0] + q[a, 1] * w.g[1] + q[a, 2] * w.g[2]
+        f[a] = -f[6 + a]
+    torsion(p, old, w, new)
+    for a in range(3):
+        b, c = (a + 1) % 3, (a + 2) % 3
+        arm_b, arm_c = p.lever[1] * w.q_j[b, 2], p.lever[1] * w.q_j[c, 2]
+        f[9 + a] = w.tau[a] - (arm_b * f[6 + c] - arm_c * f[6 + b])
+        arm_b = p.lever[0] * w.q_i[b, 2] + w.c_global[b]
+        arm_c = p.lever[0] * w.q_i[c, 2] + w.c_global[c]
+        f[3 + a] = -w.tau[a] - (arm_b * f[6 + c] - arm_c * f[6 + b])
+    f[11] += w.torque
+    f[5] -= w.torque
+
+
+@kernel
+def torsion(p: Props, old: State, w: Work, new: State) -> None:
+    """Set the friction moment about the vertical: the weakest of the three contacts slips.
+
+    Full circular contacts under uniform pressure; the friction coefficients are those of the
+    committed state.
+    """
+    mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
+    z, _, slope, _, _, _, slip, _, _ = return_map(
+        p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
+        p.torsion_yield,
+    )  # fmt: skip
+    w.torque_axial = p.torsion_lever * mu * z
+    w.torque = w.torque_axial * w.n_pos
+    w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
+    new.twist_hysteresis, new.slid_twist = z, slip
+    new.torque = w.torque
+
+
+@kernel
+def keep_works(old: State, new: State) -> None:
+    """Carry works and paths over to the trial: they grow when it is committed."""
+    for k in range(2):
+        new.work_friction[k] = old.work_friction[k]
+        new.work_rim[k] = old.work_rim[k]
+        new.travel[k] = old.travel[k]
+    new.work_interface = old.work_interface
+    new.work_elastic = old.work_elastic
+    new.work_contact = old.work_contact
+    new.work_sliders = old.work_sliders
+    new.interface_travel = old.interface_travel
+    new.largest_slip = old.largest_slip
+
+
+@kernel
+def set_state(p: Props, old: State, w: Work, new: State) -> None:
+    """Fill what the record keeps of the sliders."""
+    n, t, q = w.n, w.t, w.q_i
+    for a in range(3):
+        new.axis[a] = n[a]
+        new.centres[a] = w.c[a]
+        new.axis_top[a] = w.a[0, a] * n[0] + w.a[1, a] * n[1] + w.a[2, a] * n[2]
+        global_axis = q[a, 0] * n[0] + q[a, 1] * n[1] + q[a, 2] * n[2]
+        new.slider_displacement[0, a] = -p.radius[0] * (global_axis - q[a, 2])
+        new.slider_displacement[1, a] = -p.radius[1] * (global_axis - w.q_j[a, 2])
+        new.slip_total[a] = 0.0
+        for b in range(3):
+            new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
+    keep_works(old, new)
+    new.string = w.l
+    new.closure = w.closure
+    new.slid_interface = 0.0 if p.fused else w.slid_s
+    new.axial_force = w.n_true
+    new.vertical_force = w.vertical
+    for k in range(2):
+        new.slip[k] = w.sigma[k]
+        new.slip_increment[k] = w.sigma[k] - old.slip[k]
+        new.interface_hysteresis[k] = w.z_s[k]
+        new.interface_force[k] = w.f_s[k]
+        new.friction_coefficient[k] = w.mu[k]
+        new.sliding_speed[k] = w.speed[k]
+        new.slid[k] = w.slid[k]
+        new.eccentricity[k] = p.radius[k] * w.n_hor[k]
+        new.rim_closure[k] = w.rim_closure[k]
+        new.rim_force[k] = w.rim_scale * w.rim[k]
+        for a in range(2):
+            new.hysteresis[k, a] = w.z[k, a]
+            new.friction_force[k, a] = w.n_pos * w.phi[k, a]
+            new.sliding_increment[k, a] = w.dw[k, a]
+
+
+@kernel
+def limit_status(p: Props, new: State) -> int:
+    """Return whether the bearing's limits hold in the state `new`.
+
+    The slip counts once the sliders are pressed together: lifted off, they carry nothing.
+    """
+    if new.axial_force > 0.0 and math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > p.slip_capacity:
+        return _SLIP_EXCEEDED
+    if max(new.rim_closure[0], new.rim_closure[1]) > p.rim_overrun:
+        return _RIM_OVERRUN
+    return _OK
+
+
+@kernel
+def is_finite(x: Floats) -> bool:
+    """Return whether all entries are finite."""
+    finite = True
+    for k in range(x.shape[0]):
+        finite = finite and math.isfinite(x[k])
+    return finite
+
+
+@kernel
+def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
+    """Return whether the slip passed ``L mu_h + mu_1 R_1 + mu_2 R_2``, where equilibrium ends.
+
+    The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
+    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md).
+    """
+    if p.fused:
+        return False
+    held = w.l * p.interface_friction + p.radius[0] * w.mu[0] + p.radius[1] * w.mu[1]
+    if count < 0:
+        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > 0.9 * held
+    return math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) > 1.001 * held
+
+
+@kernel
+def solve_from_elsewhere(p: Props, old: State, w: Work, zero: Floats) -> int:
+    """Search the axis again from between the committed one and the one that keeps the slip.
+
+    Where the slider leaves a rim and slip turns round, the laws of friction make the equilibrium
+    unsymmetric, and a search may run in circles; from another start it does not.
+    """
+    count = -1
+    for share in (0.9, 0.5, 1.0, 0.75):
+        aim_axis(p, old, w)
+        a, n = old.axis, w.n
+        set_axis(
+            w,
+            n[0] + share * (a[0] - n[0]),
+            n[1] + share * (a[1] - n[1]),
+            n[2] + share * (a[2] - n[2]),
+        )
+        count = solve_axis(p, old, w, zero)
+        if count >= 0:
+            break
+    return count
+
+
+@kernel
+def trial(
+    p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float, zero: Floats
+) -> int:
+    """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
+
+    Returns a RunStatus code. A limit of the bearing that is exceeded leaves a valid state:
+    whoever commits it must look at `new.status`.
+    """
+    if not math.isfinite(time):
+        return _NOT_FINITE
+    for k in range(12):
+        if not (math.isfinite(u[k]) and math.isfinite(v[k])):
+            return _NOT_FINITE
+    w.dt = max(time - old.time, 0.0)
+    if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
+        place_plates(p, w, old.displacement)
+        set_axis(w, old.axis[0], old.axis[1], old.axis[2])
+        static_speeds(p, w, v)
+    place_plates(p, w, u)
+    size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
+    if not -w.c[2] > SMALLEST_COSINE * size:
+        return _SPHERE_EXCEEDED
+    for a in range(3):
+        w.old_top[a] = (
+            w.a[a, 0] * old.axis_top[0] + w.a[a, 1] * old.axis_top[1] + w.a[a, 2] * old.axis_top[2]
+        )
+    aim_axis(p, old, w)
+    count = solve_axis(p, old, w, zero)
+    if count < 0:
+        count = solve_from_elsewhere(p, old, w, zero)
+    for k in range(12):
+        new.displacement[k] = u[k]
+    new.time = time
+    new.step = w.dt
+    new.twist = u[11] - u[5]
+    new.iterations = count
+    set_forces(w, p, new, old)
+    set_state(p, old, w, new)
+    status = limit_status(p, new)
+    if has_snapped(p, old, w, count):
+        status = _SLIP_UNSTABLE
+    elif count < 0:
+        status = _NO_EQUILIBRIUM
+    if not is_finite(new.force):
+        status = _NOT_FINITE
+    new.status = status
+    return status
+
+
+@kernel
+def has_no_state(code: int) -> bool:
+    """Return whether a bearing has no state at all (a limit exceeded is a state)."""
+    return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE)
+
+
+@kernel
+def copy_words(source: Words, target: Words) -> None:
+    """Copy one record, seen as a row of 64-bit words."""
+    for k in range(source.shape[0]):
+        target[k] = source[k]

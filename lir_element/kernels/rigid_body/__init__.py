@@ -1,0 +1,1 @@
+"""Kernels of the level 'rigid_body': the sliders as bodies in time."""

@@ -1,0 +1,258 @@
+"""Kernels that take the level 'rigid_body' through time: step control, works, output.
+
+Each step is taken once whole and once in two halves; the difference is its error, the halves are
+kept. Nothing is assumed of the smoothness of what happens in between.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.errors import RunStatus
+from lir_element.kernels.contact.pairs import place_bodies, press, turn_between
+from lir_element.kernels.contact.state import bodies_status, contact_accumulate, fill_state
+from lir_element.kernels.pendulum.trial import copy_words
+from lir_element.kernels.rigid_body.step import explicit_step, implicit_step, set_accelerations
+from lir_element.kernels.sampling import ground_acceleration
+
+if TYPE_CHECKING:
+    from lir_element.bundles.rigid_data import RigidInput, RigidRun, RigidSetup
+
+_OK = int(RunStatus.OK)
+_STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
+
+
+@kernel
+def set_instant(run: RigidRun, given: RigidInput, time: float, dt: float, place: int) -> None:
+    """Set ground acceleration, imposed place and load at `time`, before the output `place`.
+
+    The step of size `dt` ends at `time`.
+    """
+    w = run.scratch[0]
+    span = given.times[place] - given.times[place - 1]
+    share = (time - given.times[place - 1]) / span if span > 0.0 else 1.0
+    for axis in range(3):
+        run.ground[axis] = ground_acceleration(given.motion, given.motion_dt, time, axis)
+        run.ground_mean[axis] = 0.5 * (
+            run.ground[axis] + ground_acceleration(given.motion, given.motion_dt, time - dt, axis)
+        )
+    for a in range(2):
+        run.drive[a] = (1.0 - share) * given.drive[place - 1, a] + share * given.drive[place, a]
+    for a in range(6):
+        w.load[a] = (1.0 - share) * given.load[place - 1, a] + share * given.load[place, a]
+
+
+@kernel
+def set_rotation_vector(run: RigidRun, at: int) -> None:
+    """Set ``run.u`` to the nodes' displacements of the bodies `at`."""
+    turn = run.bodies[at].turn[2]
+    size = math.sqrt(turn[1] ** 2 + turn[2] ** 2 + turn[3] ** 2)
+    factor = 2.0 * math.atan2(size, abs(turn[0])) / size if size > 1e-12 else 2.0
+    if turn[0] < 0.0:
+        factor = -factor
+    for a in range(3):
+        run.u[6 + a] = run.bodies[at].place[2, a]
+        run.u[9 + a] = factor * turn[1 + a]
+
+
+@kernel
+def kinetic_energy(run: RigidRun, at: int) -> float:
+    """Return the kinetic energy of the top plate."""
+    body, q = run.bodies[at], run.scratch[0].q[3]
+    total = 0.0
+    for b in range(3):
+        own = 0.0
+        for a in range(3):
+            own += q[a, b] * body.spin[2, a]
+        total += 0.5 * run.mass[2, b] * body.velocity[2, b] ** 2
+        total += 0.5 * run.inertia[2, b] * own * own
+    return total
+
+
+@kernel
+def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> int:
+    """Set the record ``states[s_new]`` and its works for the step between two states of bodies.
+
+    The bodies `after` are those of the last evaluation. Returns the status of the limits.
+    """
+    w = run.scratch[0]
+    old, new = run.states[s_old], run.states[s_new]
+    b_old, b_new = run.bodies[before], run.bodies[after]
+    set_rotation_vector(run, after)
+    fill_state(
+        run.props[0], run.sliders[0], run.points, old, new, b_new, run.touches[after], w, run.u
+    )
+    contact_accumulate(
+        run.props[0], run.points, old, new, b_old, b_new, run.touches[before],
+        run.touches[after], w.moves, 3,
+    )  # fmt: skip
+    supplied, lifted, bearing = 0.0, 0.0, 0.0
+    for a in range(6):
+        move = w.moves[18 + a]
+        if run.driven and a < 2:
+            move = 0.0
+        if a < 3:
+            supplied -= run.mass[2, a] * run.ground_mean[a] * move
+        lifted -= w.load[a] * move
+        for part in range(6):
+            force = 0.5 * (b_old.parts[part, 18 + a] + b_new.parts[part, 18 + a])
+            bearing -= force * move
+    e_old, e_new = run.energy[s_old], run.energy[s_new]
+    e_new[2] = kinetic_energy(run, after)
+    e_new[0], e_new[1] = e_old[0] + supplied, e_old[1] + lifted
+    e_new[3] = e_old[3] + supplied - lifted - bearing - (e_new[2] - e_old[2])
+    new.status = bodies_status(run.props[0], w, new)
+    return new.status
+
+
+@kernel
+def difference(run: RigidRun) -> float:
+    """Return how far a whole step and two halves lie apart [m]; turns at the slider's edge."""
+    one, two = run.bodies[1], run.bodies[3]
+    largest = 0.0
+    for k in range(3):
+        x, y, z = turn_between(one.turn[k], two.turn[k])
+        largest = max(largest, run.sliders[0].radius * math.sqrt(x * x + y * y + z * z))
+        for a in range(3):
+            largest = max(largest, abs(one.place[k, a] - two.place[k, a]))
+    return largest
+
+
+@kernel
+def implicit(
+    run: RigidRun, given: RigidInput, setup: RigidSetup, start: int, end: int, time: float,
+    dt: float, place: int,
+) -> bool:  # fmt: skip
+    """Take one implicit step from the bodies `start` to `end`, which is reached at `time`."""
+    set_instant(run, given, time, dt, place)
+    return implicit_step(
+        run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
+        run.bodies[start], run.bodies[end], run.touches[start], run.touches[end],
+        run.scratch[0], setup, dt, run.ground, run.drive, run.driven,
+    )  # fmt: skip
+
+
+@kernel
+def commit(run: RigidRun, at: int, state: int) -> None:
+    """Make the bodies `at` and the record `state` the committed ones."""
+    copy_words(run.bodies_words[at], run.bodies_words[0])
+    copy_words(run.touches_words[at], run.touches_words[0])
+    copy_words(run.states_words[state], run.states_words[0])
+    for term in range(6):
+        run.energy[0, term] = run.energy[state, term]
+    run.counters[0] += 1
+
+
+@kernel
+def adaptive_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
+    """Go on to the output `place` with steps of controlled error; return a status code."""
+    end = given.times[place]
+    while True:
+        time = run.clock[0]
+        left = end - time
+        if left <= 1e-12 * max(abs(end), 1.0):
+            return _OK
+        dt = min(run.clock[1], setup.largest)
+        if dt >= left:
+            dt = left
+        elif dt > 0.5 * left:
+            dt = 0.5 * left
+        half = 0.5 * dt
+        good = implicit(run, given, setup, 0, 1, time + dt, dt, place)
+        if good:
+            good = implicit(run, given, setup, 0, 2, time + half, half, place)
+        code = _OK
+        if good:
+            code = take_up(run, 0, 2, 0, 1)
+            good = implicit(run, given, setup, 2, 3, time + dt, half, place)
+        share = difference(run) / setup.error if good else 8.0
+        if not (good and share <= 1.0):
+            run.counters[1] += 1
+            if dt <= setup.smallest:
+                run.counters[2] = _STEP_TOO_SMALL
+                return _STEP_TOO_SMALL
+            run.clock[1] = dt * max(0.2, min(0.9, 0.9 * share ** (-1.0 / 3.0)))
+            continue
+        code = max(code, take_up(run, 2, 3, 1, 2))
+        if code != _OK:
+            run.clock[0] = time + dt
+            return code
+        commit(run, 3, 2)
+        run.states[0].time = time + dt
+        run.clock[0] = time + dt
+        growth = 2.0 if share < 0.06 else 0.9 * share ** (-1.0 / 3.0)
+        run.clock[1] = max(run.clock[1] if dt < run.clock[1] else 0.0, dt * min(growth, 2.0))
+
+
+@kernel
+def explicit_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
+    """Go on to the output `place` with equal explicit steps; return a status code."""
+    start, end = given.times[place - 1], given.times[place]
+    parts = max(1, math.ceil((end - start) / setup.explicit))
+    dt = (end - start) / parts
+    now, then = 0, 1
+    for part in range(1, parts + 1):
+        set_instant(run, given, start + part * dt, dt, place)
+        explicit_step(
+            run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
+            run.bodies[now], run.bodies[then], run.touches[now], run.touches[then],
+            run.scratch[0], dt, run.ground, run.drive, run.driven,
+        )  # fmt: skip
+        code = take_up(run, now, then, now, then)
+        if code != _OK:
+            run.clock[0] = start + part * dt
+            return code
+        now, then = then, now
+    if now != 0:
+        commit(run, 1, 1)
+    run.states[0].time = end
+    run.clock[0] = end
+    run.counters[0] += parts
+    return _OK
+
+
+@kernel
+def start(run: RigidRun, given: RigidInput) -> None:
+    """Set forces and accelerations of the state a run starts from, and record it."""
+    w = run.scratch[0]
+    set_instant(run, given, given.times[0], 0.0, 1)
+    place_bodies(run.sliders[0], w, run.bodies[0], 1, 4)
+    for a in range(3):
+        w.x[0, a] = run.sliders[0].place[0, a]
+        for b in range(3):
+            w.q[0][a, b] = 1.0 if a == b else 0.0
+    press(
+        run.props[0], run.sliders[0], run.points, run.bodies[0], run.bodies[0], run.touches[0],
+        run.touches[1], w, 0.0, 0.0, 0.0, False,
+    )  # fmt: skip
+    set_accelerations(run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground)
+    record(run, given, 0)
+
+
+@kernel
+def march(run: RigidRun, given: RigidInput, setup: RigidSetup, first: int, last: int) -> int:
+    """Integrate to the outputs `first` to `last` (exclusive), recording; return a status code.
+
+    ``run.clock[0]`` is the time reached, ``run.counters[3]`` the number of outputs written.
+    """
+    for place in range(first, last):
+        if setup.explicit > 0.0:
+            code = explicit_to(run, given, setup, place)
+        else:
+            code = adaptive_to(run, given, setup, place)
+        if code != _OK:
+            return code
+        record(run, given, place)
+    return _OK
+
+
+@kernel
+def record(run: RigidRun, given: RigidInput, place: int) -> None:
+    """Write the committed state to the output."""
+    copy_words(run.states_words[0], given.words[place])
+    copy_words(run.bodies_words[0], given.bodies[place])
+    for term in range(6):
+        given.energy[place, term] = run.energy[0, term]
+    run.counters[3] = place + 1

@@ -1,0 +1,252 @@
+"""The memory of a bearing that stands in a foreign model, and what Python asks of it."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import importlib
+import sys
+import weakref
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lir_element.bundles.contact_data import contact_arrays
+from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.device.sliders import initial_bodies, initial_touches, point_records
+from lir_element.element import initial_state
+from lir_element.errors import RunStatus, failure_message
+from lir_element.layout import BODIES, STATE, STATE_BY_NAME, WORK
+from lir_element.opensees.block.layout import HOST, RECORD_WORDS, STATE_WORDS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import ModuleType
+
+    from lir_element.device.bearing import LIRBearing
+    from lir_element.layout import Floats, Records
+    from lir_element.opensees.placement import Placement
+
+_C = ctypes.cdll.msvcrt if sys.platform == "win32" else ctypes.CDLL(None)
+_C.free.argtypes = [ctypes.c_void_p]
+_STATUS = {int(status): status for status in RunStatus}
+
+
+class Hosted:
+    """A bearing whose state other compiled code determines.
+
+    Parameters
+    ----------
+    tag : int
+        Of the element, for messages.
+    bearing : LIRBearing
+        The device.
+    level : {"pendulum", "contact"}
+        Level of fidelity.
+    placement : Placement
+        How the model's degrees of freedom lead to its axes.
+
+    Attributes
+    ----------
+    block : record array, (1,)
+        What compiled code reads and writes (`layout.HOST`).
+    """
+
+    def __init__(self, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> None:
+        self.tag = tag
+        self.bearing = bearing
+        self.level = level
+        self.placement = placement
+        self.block = np.zeros(1, dtype=HOST)
+        self._props = bearing.to_record()
+        self._old = initial_state(self._props)
+        self._kept: list[Any] = []
+        self.address = int(self.block.ctypes.data)
+        count = placement.dofs
+        self._u: Floats = self.block["host_u"][0, :count]
+        self._v: Floats = self.block["host_v"][0, :count]
+        self._force: Floats = self.block["force"][0, :count]
+        self._columns: Floats = self.block["tangent"][0, : count * count]
+        self._initial: Floats = self.block["initial"][0, : count * count]
+        self._clock = self.block["committed_time"]
+        self._trial, self._tangent, self._commit = _functions(level)
+        weakref.finalize(self, _free_records, self.block)
+        self._set_map()
+        self._set_records()
+        self._set_initial()
+
+    @property
+    def force(self) -> Floats:
+        """Resisting force of the last trial in the model's degrees of freedom, a view (n,)."""
+        return self._force
+
+    @property
+    def initial(self) -> Floats:
+        """Stiffness at rest under the design load, by columns, a view (n * n,)."""
+        return self._initial
+
+    @property
+    def committed_time(self) -> float:
+        """The model's time at the last commit [s]."""
+        return float(self._clock[0])
+
+    def trial(
+        self, displacement: Floats, velocity: Floats, dt: float, time: float = 0.0
+    ) -> RunStatus:
+        """Determine the state at a motion of the model.
+
+        Parameters
+        ----------
+        displacement, velocity : ndarray, (n,)
+            In the model's degrees of freedom and units.
+        dt : float
+            Step since the last commit [s].
+        time : float
+            The model's time [s].
+
+        Returns
+        -------
+        RunStatus
+            Why there is no state, if there is none.
+        """
+        self._u[:] = displacement
+        self._v[:] = velocity
+        self.block["time"] = time
+        return _STATUS[self._trial(self.address, dt)]
+
+    def commit(self) -> None:
+        """Accept the trial state."""
+        self._commit(self.address)
+
+    def restart(self) -> None:
+        """Bring the bearing back to its start: undeformed and unloaded."""
+        if self.block["commits"][0]:
+            _restart()(self.address)
+
+    def tangent_by_columns(self) -> Floats:
+        """Return the tangent of the last trial in the model's DOFs, a view (n * n,)."""
+        self._tangent(self.address)
+        return self._columns
+
+    def response(self, name: str) -> Any:
+        """Return a response of the committed state by its name, as `bearing_response` does."""
+        if name == "deformation":
+            return self.deformation()
+        if name not in STATE_BY_NAME:
+            known = ", ".join(sorted({*STATE_BY_NAME, "deformation", "route"}))
+            msg = f"response {name!r} is not known: choose one of {known}"
+            raise KeyError(msg)
+        value = np.array(self._old[name][0])
+        return value if value.ndim else value[()]
+
+    def deformation(self) -> Floats:
+        """Return the displacement of node j relative to node i in the model's DOFs and units."""
+        half = self.placement.dofs // 2
+        u = self.block["host_u"][0]
+        return np.array(u[half : 2 * half] - u[:half])
+
+    def message(self, status: RunStatus) -> str:
+        """Return what to tell the user of a trial without a state."""
+        time = float(self.block["time"][0])
+        return failure_message(status, time, f"bearing element {self.tag}")
+
+    def start_recording(self, every: int) -> None:
+        """Record every so many commits from now on, forgetting what was recorded; 0: none."""
+        self.block["record_every"] = every
+        self.block["record_left"] = 1
+        self.block["record_count"] = 0
+
+    def recorded(self) -> tuple[Floats, Floats, Records, Records]:
+        """Return the states that were recorded.
+
+        Returns
+        -------
+        time, velocity, states, bodies : ndarray, (n,), (n, 3), (n,), (n,)
+            The model's time [s], velocity of node j relative to i in bearing axes [m/s], records.
+
+        Raises
+        ------
+        MemoryError
+            If there was no memory for all of them.
+        """
+        if self.block["record_every"][0] < 0:
+            msg = f"bearing element {self.tag}: no memory for more states, record fewer (every=)"
+            raise MemoryError(msg)
+        count = int(self.block["record_count"][0])
+        if count == 0:
+            words = np.zeros((0, RECORD_WORDS), dtype=np.int64)
+        else:
+            place = ctypes.cast(int(self.block["record"][0]), ctypes.POINTER(ctypes.c_int64))
+            words = np.ctypeslib.as_array(place, (count, RECORD_WORDS)).copy()
+        head = words[:, :4].copy().view(np.float64)
+        states = words[:, 4 : 4 + STATE_WORDS].copy().view(STATE)[:, 0]
+        bodies = words[:, 4 + STATE_WORDS :].copy().view(BODIES)[:, 0]
+        return head[:, 0], head[:, 1:], states, bodies
+
+    def _set_map(self) -> None:
+        matrix = self.placement.matrix
+        entries = 0
+        for row in range(12):
+            columns = np.flatnonzero(matrix[row])
+            for column in columns:
+                self.block["columns"][0, entries] = column
+                self.block["values"][0, entries] = matrix[row, column]
+                entries += 1
+            self.block["start"][0, row + 1] = entries
+        self.block["dofs"] = self.placement.dofs
+        self.block["force_factor"] = self.placement.force_factor
+        self.block["axes"] = np.eye(3)
+
+    def _set_records(self) -> None:
+        self._keep("props", self._props)
+        self._keep("old", self._old)
+        self._keep("new", self._old.copy())
+        self._keep("first", self._old.copy())
+        self._keep("work", np.zeros(1, dtype=WORK))
+        self.block["realloc"] = ctypes.cast(_C.realloc, ctypes.c_void_p).value
+        if self.level != "contact":
+            return
+        bundle = contact_arrays([self.bearing], [True], STANDARD_GRAVITY)
+        self.block["point_count"] = bundle.points.shape[1]
+        for name in ("place", "sliders", "points", "bodies_old", "bodies_new", "touch_old",
+                     "touch_new", "scratch"):  # fmt: skip
+            self._keep(name, getattr(bundle, name))
+        self._keep("bodies_first", initial_bodies(1))
+        self._keep("touch_first", initial_touches(self.bearing, point_records(self.bearing)))
+
+    def _keep(self, name: str, array: Records) -> None:
+        self._kept.append(array)
+        self.block[name] = array.ctypes.data
+
+    def _set_initial(self) -> None:
+        # Stiffness at rest: undeformed and sticking under the design load; then unloaded again.
+        options = self.bearing.resolved()
+        count = self.placement.dofs
+        u = np.zeros(12)
+        u[8] = -options["design_load"] / options["axial_stiffness"]
+        host = np.asarray(np.linalg.lstsq(self.placement.matrix, u, rcond=None)[0], np.float64)
+        self.trial(host, np.zeros(count), 0.0)
+        self._initial[:] = self.tangent_by_columns()
+        self.trial(np.zeros(count), np.zeros(count), 0.0)
+
+
+def _free_records(block: Records) -> None:
+    _C.free(int(block["record"][0]))
+
+
+@functools.cache
+def _functions(level: str) -> tuple[Callable[..., Any], ...]:
+    entries = entries_of(level)
+    return tuple(e.ctypes for e in (entries.trial, entries.tangent, entries.commit))
+
+
+@functools.cache
+def _restart() -> Callable[..., Any]:
+    from lir_element.opensees.kernels import callbacks
+
+    return callbacks.restart.ctypes  # type: ignore[no-any-return]
+
+
+def entries_of(level: str) -> ModuleType:
+    """Return the compiled entry points of a level; compiled on first use of that level."""
+    return importlib.import_module(f"lir_element.opensees.kernels.entries_{level}")

@@ -1,0 +1,1 @@
+"""OpenSees' own elements as the same bearing, to compare with."""

@@ -1,0 +1,379 @@
+"""The plain bearing as elements of OpenSees: the mapping, for comparison and for reuse.
+
+`builtin_commands` returns the commands for one of them, `builtin_element` runs these in the model
+at hand; what all of them share is in `builtin_mapping`.
+
+Sources: the OpenSees documentation and the public sources of these elements; for the triple bearing
+as a series of three Fenz and Constantinou (2008), Earthq. Eng. Struct. Dyn. 37, 163, and Dao et al.
+(2013), the same, 42, 1677.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from lir_element.opensees.compare.builtin_mapping import BuiltinValues, builtin_values
+from lir_element.opensees.library import opensees
+
+if TYPE_CHECKING:
+    from lir_element.device.bearing import LIRBearing
+
+BuiltinKind = Literal["singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"]
+Command = tuple[Any, ...]
+
+BUILTIN_KINDS: tuple[BuiltinKind, ...] = get_args(BuiltinKind)
+"""The elements of OpenSees that a plain bearing can be written as."""
+
+_CONSTANT = {
+    "TripleFrictionPendulum": "TripleFrictionPendulum takes friction from the velocity of the "
+    "iteration before and does not settle",
+    "TFP": "TFP has constant friction",
+}
+_TAGS = 10  # kept free for each element: materials and friction models
+_FIRST_TAG = 1_000_000
+_WITH_RIMS = ("TripleFrictionPendulum",)
+_SAME = 1e-9  # relative difference up to which two numbers count as equal
+_ITERATIONS = 50  # of the shear force inside an element
+_FORCE_TOLERANCE = 1e-9  # of these, over the axial load
+_INNER_SHARE = 0.2  # of the smaller outer length: the inner slider of a triple bearing
+_LOCKED = 10.0  # friction coefficient that holds an inner slider
+_FAR = 2.0  # of the effective radius: where no rim is met
+_TENSION = 1e-6  # of the axial stiffness: what a lifted TripleFrictionPendulum keeps
+_LEAST_LOAD = 1e-3  # of the axial load: what it keeps for its lateral force
+_SAME_SUM = 1e-5  # of an increment: how far its three parts may miss it
+_POSITION = 1e-3  # m, how far nodes may be from where the bearing needs them
+
+
+def builtin_commands(
+    kind: BuiltinKind,
+    tag: int,
+    i: int,
+    j: int,
+    bearing: LIRBearing,
+    axial_load: float | None = None,
+    *,
+    first_tag: int | None = None,
+    lift: bool = False,
+    apart: bool = True,
+) -> tuple[Command, ...]:
+    """Return the OpenSees commands that write a plain bearing as an element of OpenSees.
+
+    Parameters
+    ----------
+    kind : {"singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"}
+        The element; see the notes.
+    tag : int
+        Tag of the element.
+    i, j : int
+        Tags of the node below and the node above; model of three dimensions, six degrees of
+        freedom a node, z upwards.
+    bearing : LIRBearing
+        The device, its slider in one piece: `bearing.as_dcfp()`, without rims
+        ``bearing.as_dcfp(rims=False)``.
+    axial_load : float, optional
+        Load that stiffnesses refer to [N]; the bearing's design load if None. Strength and
+        restoring force follow the load of the moment.
+    first_tag : int, optional
+        First of ten tags for the materials and friction models made; 1 000 000 + 10 times the
+        element's tag if None.
+    lift : bool
+        Whether a lateral displacement lifts what the bearing carries ("singleFPBearing" only).
+    apart : bool
+        Whether the nodes are apart along z; False: they coincide.
+
+    Returns
+    -------
+    tuple of tuples
+        The commands in order, each its name and then its arguments: ``getattr(ops, name)(*args)``.
+
+    Raises
+    ------
+    ValueError
+        If the element cannot represent the bearing; the message names value and remedy.
+
+    Notes
+    -----
+    The values are those of `BuiltinValues`; s = U / L, m the strength over W. Force while sliding
+    outwards; that of the bearing is ``W tan(asin s + atan m)``.
+
+    - ``"singleFPBearing"``: ``W (m + s) / (1 - s (m + s))``. One sphere of radius L, friction
+      `Coulomb` or `VelDependent`. The moment N U acts on node i alone, and of all tilts only that
+      of node i's plate enters; the shear acts at half height. ``-orient`` stands last, because
+      after one vector it swallows the next word.
+    - ``"FPBearingPTV"``: ``W (m + s / sqrt(1 - s^2))``, otherwise the same; pressure and
+      temperature switched off. Its law for speed has ``f_min = f_max / 2`` built in, and takes the
+      speed of the first iteration of a step.
+    - ``"TripleFrictionPendulum"``: ``W (m + s)``. Three pendulums in series, here of one friction,
+      whose lengths add up to L, so that all slide at once and the inner slider is not seen: in
+      the element's numbering ``L2 + L3 = L``, ``L2 : L3 = R1 : R2``, ``L1 = 0.2 min(L2, L3)``.
+      Its friction contains the elastic part: it is given ``m + U_y / L``. Rims are met at the
+      bearing's capacity, their stiffness is its own, ``3 W mu / U_y``. Constant friction. Moments
+      N U half on each node; tilts do not enter. Give it displacements of 10 mm a step at most:
+      larger ones have been seen to end in a force thousands of times too large, without a message.
+      So has uplift of 2 g, in kilometres (validation/measurements/opensees_hard_cases.py).
+    - ``"TFP"``: both surfaces slide together, the inner slider is locked by its friction, so that
+      unlike surfaces keep their own, ``mu R / (R - h/2)``. Constant friction, no dashpot, no
+      moments. It adds up increments of force without iteration: the step must be far below that
+      of the others, and a change of the axial force alone changes nothing. Its rims end in NaN
+      (openseespy 3.7.1) and are not offered. After the load it reads its yield displacement and
+      then the stiffness K, whatever is printed elsewhere.
+
+    Before sliding all have the stiffness of `BuiltinValues.initial_stiffness` under `axial_load`,
+    whereas the bearing keeps its yield displacement whatever load and speed. Torsion is resisted
+    by the torque under `axial_load`, and by none in "TFP". Rayleigh damping passes them by unless a
+    region names them. How far they agree: docs/validation/opensees_pendulum.md.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
+    ...                      friction=CoulombFriction(0.057), interface_friction=math.inf,
+    ...                      axial_stiffness=2e9, axial_damping=1e6, torsional_friction=False)
+    >>> for command in builtin_commands("singleFPBearing", 1, 10, 20, bearing, 500e3, first_tag=1):
+    ...     print(*(f"{a:.8g}" if isinstance(a, float) else a for a in command))
+    uniaxialMaterial Elastic 1 2e+09 1000000
+    uniaxialMaterial Elastic 2 0
+    uniaxialMaterial Elastic 3 0
+    frictionModel Coulomb 4 0.06
+    element singleFPBearing 1 10 20 4 1.9 ... -P 1 -T 2 -My 3 -Mz 3 -shearDist 0.5 ...
+    """
+    if kind not in BUILTIN_KINDS:
+        msg = f"kind = {kind!r}: choose one of {BUILTIN_KINDS}"
+        raise ValueError(msg)
+    load = bearing.resolved()["design_load"] if axial_load is None else axial_load
+    values = builtin_values(bearing, load)
+    _refuse(kind, bearing, values, lift=lift)
+    start = _FIRST_TAG + _TAGS * tag if first_tag is None else first_tag
+    head = (tag, i, j)
+    if kind == "TFP":
+        return (_tfp(head, bearing, values, load),)
+    materials = _materials(values, start)
+    tags = (start, start + 1, start + 2, start + 2)
+    if kind == "FPBearingPTV":
+        return (*materials, _ptv(head, bearing, values, load, tags))
+    if kind == "singleFPBearing":
+        law = _law(start + 3, values.friction_min, values.friction_max, values.rate)
+        return (*materials, law, _single(head, values, load, tags, lift=lift, apart=apart))
+    return (*materials, *_triple(head, bearing, values, load, start))
+
+
+def builtin_element(
+    kind: BuiltinKind,
+    tag: int,
+    i: int,
+    j: int,
+    bearing: LIRBearing,
+    axial_load: float | None = None,
+    *,
+    first_tag: int | None = None,
+    lift: bool = False,
+) -> tuple[Command, ...]:
+    """Put a plain bearing into the OpenSees model at hand, as an element of OpenSees.
+
+    Parameters
+    ----------
+    kind : {"singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"}
+        The element: `builtin_commands` says what each can do, and how the bearing is mapped.
+    tag : int
+        Tag of the element.
+    i, j : int
+        Tags of the node below and the node above, on one vertical, coincident or
+        `bearing.height` apart.
+    bearing : LIRBearing
+        The device, its slider in one piece.
+    axial_load : float, optional
+        Load that stiffnesses refer to [N]; the bearing's design load if None.
+    first_tag : int, optional
+        First of ten tags for materials and friction models.
+    lift : bool
+        Whether a lateral displacement lifts what the bearing carries ("singleFPBearing" only).
+
+    Returns
+    -------
+    tuple of tuples
+        The commands that were run.
+
+    Raises
+    ------
+    ValueError
+        If the element cannot represent the bearing, or nodes or tags do not fit.
+    ImportError
+        If openseespy is not installed.
+    """
+    ops = opensees()
+    apart = _check_nodes(ops, tag, i, j, bearing)
+    commands = builtin_commands(
+        kind, tag, i, j, bearing, axial_load, first_tag=first_tag, lift=lift, apart=apart
+    )
+    for name, *arguments in commands:
+        try:
+            getattr(ops, name)(*arguments)
+        except ops.OpenSeesError as cause:
+            msg = (
+                f"OpenSees refused {name}{tuple(arguments)}: the reason stands above in its own "
+                "output; where the tag is taken give another first_tag"
+            )
+            raise ValueError(msg) from cause
+    if tag not in ops.getEleTags():
+        msg = f"OpenSees made no element {tag} of {commands[-1]}: see its output above"
+        raise ValueError(msg)
+    return commands
+
+
+def _refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool) -> None:
+    capacity, varies = bearing.lateral_capacity, values.friction_max > values.friction_min
+    if kind not in _WITH_RIMS and math.isfinite(capacity):
+        msg = (
+            f"capacity = {capacity:g} m: {kind} has no rims that work; give "
+            f"bearing.as_dcfp(rims=False), or choose {_WITH_RIMS[0]}"
+        )
+        raise ValueError(msg)
+    if lift and kind != "singleFPBearing":
+        msg = f'lift = True: {kind} has no such option; choose "singleFPBearing", or lift=False'
+        raise ValueError(msg)
+    if kind in _CONSTANT and varies:
+        msg = (
+            f"friction between {values.friction_min:.4g} and {values.friction_max:.4g}: "
+            f"{_CONSTANT[kind]}; give CoulombFriction, or choose another element"
+        )
+        raise ValueError(msg)
+    half = 0.5 * values.friction_max
+    if kind == "FPBearingPTV" and varies and abs(values.friction_min - half) > _SAME * half:
+        msg = (
+            f"f_min / f_max = {values.friction_min / values.friction_max:.4g}: FPBearingPTV has "
+            "one half built in; give f_min = f_max / 2 or CoulombFriction, or choose another "
+            "element"
+        )
+        raise ValueError(msg)
+    limit = 0.1 * values.friction_max * values.length
+    if values.yield_displacement > limit:
+        msg = (
+            f"yield displacement over the bearing {values.yield_displacement:.4g} m must be below "
+            f"{limit:.4g} m (a tenth of strength over post-sliding stiffness): reduce "
+            "yield_displacement"
+        )
+        raise ValueError(msg)
+
+
+def _materials(values: BuiltinValues, start: int) -> tuple[Command, ...]:
+    # Vertical, torsion, rocking. Torsion yields where the contact would turn.
+    torsion: Command = ("uniaxialMaterial", "Elastic", start + 1, 0.0)
+    if values.torque > 0.0:
+        stiffness = values.torque / values.torsion_yield
+        torsion = ("uniaxialMaterial", "ElasticPP", start + 1, stiffness, values.torsion_yield)
+    return (
+        ("uniaxialMaterial", "Elastic", start, values.axial_stiffness, values.axial_damping),
+        torsion,
+        ("uniaxialMaterial", "Elastic", start + 2, 0.0),
+    )
+
+
+def _law(tag: int, low: float, high: float, rate: float) -> Command:
+    if low == high:
+        return ("frictionModel", "Coulomb", tag, high)
+    return ("frictionModel", "VelDependent", tag, low, high, rate)
+
+
+def _single(
+    head: tuple[int, int, int],
+    values: BuiltinValues,
+    load: float,
+    tags: tuple[int, ...],
+    *,
+    lift: bool,
+    apart: bool,
+) -> Command:
+    axial, torsion, rocking, _ = tags
+    orientation = (1, 0, 0) if apart else (0, 0, 1, 1, 0, 0)  # local y; or x and y
+    return (
+        "element", "singleFPBearing", *head, axial + 3, values.length, values.initial_stiffness,
+        "-P", axial, "-T", torsion, "-My", rocking, "-Mz", rocking,
+        "-shearDist", 0.5, *(("-inclVertdisp",) if lift else ()),
+        "-iter", _ITERATIONS, _FORCE_TOLERANCE * load,
+        "-orient", *orientation,  # last, for it swallows the word after a single vector
+    )  # fmt: skip
+
+
+def _ptv(
+    head: tuple[int, int, int],
+    bearing: LIRBearing,
+    values: BuiltinValues,
+    load: float,
+    tags: tuple[int, ...],
+) -> Command:
+    speed = int(values.friction_max > values.friction_min)
+    pressure = load / (math.pi * bearing.slider_radius**2)
+    steel = (4.4e-6, 18.0)  # thermal diffusivity [m2/s] and conductivity [W/(m K)]: not used
+    return (
+        "element", "FPBearingPTV", *head, values.friction_max, 0, pressure, 0, *steel, speed,
+        values.rate, values.length, bearing.slider_radius, values.initial_stiffness, *tags,
+        0, 0, 1, 1, 0, 0, 0.5, 0, 0.0, _ITERATIONS, _FORCE_TOLERANCE * load, 1,
+    )  # fmt: skip
+
+
+def _triple(
+    head: tuple[int, int, int],
+    bearing: LIRBearing,
+    values: BuiltinValues,
+    load: float,
+    start: int,
+) -> tuple[Command, ...]:
+    length, (first, second) = values.length, bearing.radii
+    outer = tuple(length * r / (first + second) for r in (first, second))
+    lengths = (_INNER_SHARE * min(outer), *outer)
+    reach = min(bearing.lateral_capacity, _FAR * length)
+    rims = (0.0, *(reach * part / length for part in outer))
+    mu = values.friction_max + values.yield_displacement / length
+    element = (
+        "element", "TripleFrictionPendulum", *head, start + 3, start + 3, start + 3,
+        start, start + 1, start + 2, start + 2, *lengths, *rims, load,
+        values.yield_displacement, _TENSION * values.axial_stiffness, _LEAST_LOAD * load, _SAME_SUM,
+    )  # fmt: skip
+    return (_law(start + 3, mu, mu, 0.0), element)
+
+
+def _tfp(
+    head: tuple[int, int, int], bearing: LIRBearing, values: BuiltinValues, load: float
+) -> Command:
+    half = 0.5 * bearing.slider_height
+    arms = [r - half for r in bearing.radii]
+    frictions = [
+        law.f_min * r / arm for law, r, arm in zip(bearing.frictions, bearing.radii, arms,
+                                                   strict=True)
+    ]  # fmt: skip
+    far = [2.0 * _FAR * values.length] * 4  # diameters
+    return (
+        "element", "TFP", *head, *arms, *bearing.radii, *far, 0.0, 0.0, 0.0, 0.0,
+        _LOCKED, _LOCKED, *frictions, 0.0, 0.0, half, half, bearing.height, load,
+        0.5 * values.yield_displacement, values.axial_stiffness,
+    )  # fmt: skip
+
+
+def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> bool:
+    # Whether the nodes are apart; OpenSees itself would crash, or make an element without force.
+    known = set(ops.getNodeTags() or ())
+    for node in (i, j):
+        if node not in known:
+            msg = f"node {node} of element {tag} does not exist: make it by ops.node first"
+            raise ValueError(msg)
+        size, freedoms = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
+        if (size, freedoms) != (3, 6):
+            msg = (
+                f"node {node} has {size} coordinates and {freedoms} degrees of freedom, the "
+                'bearing needs 3 and 6: ops.model("basic", "-ndm", 3, "-ndf", 6)'
+            )
+            raise ValueError(msg)
+    if tag in (ops.getEleTags() or ()):
+        msg = f"element tag {tag} is taken: give another"
+        raise ValueError(msg)
+    below, above = ops.nodeCoord(i), ops.nodeCoord(j)
+    rise = above[2] - below[2]
+    aside = math.hypot(above[0] - below[0], above[1] - below[1])
+    if aside > _POSITION or min(abs(rise), abs(rise - bearing.height)) > _POSITION:
+        msg = (
+            f"node {j} is {rise:g} m above node {i} and {aside:g} m beside it: it must stand on "
+            f"one vertical, 0 or the bearing's height {bearing.height:g} m above"
+        )
+        raise ValueError(msg)
+    return bool(abs(rise) > _POSITION)

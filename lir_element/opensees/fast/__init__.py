@@ -1,0 +1,1 @@
+"""The fast route: compiled callbacks in the process of the model."""

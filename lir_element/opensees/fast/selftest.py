@@ -1,0 +1,172 @@
+"""Whether the fast route works with the OpenSees at hand: tried once in a process of its own.
+
+    python -m lir_element.opensees.fast.selftest
+
+A mass on a bearing moves vertically under compression: a linear spring, whose answer the same
+build gives with an element of its own. Static and transient analysis, a wipe, all of it twice.
+The verdict is kept beside the compiled kernels under the hash of the library.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+import os
+import subprocess  # noqa: S404  # this module, by our own interpreter
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lir_element import CoulombFriction, LIRBearing
+from lir_element._jit import cache_folder
+from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.fast.grafted import Grafted
+from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
+from lir_element.opensees.library import child_environment, opensees
+from lir_element.opensees.placement import place
+from lir_element.opensees.portable.connection import add_host_element
+
+_LONGEST = 900.0
+"""How long the self-test may take [s]; it compiles the kernels the first time."""
+_STIFFNESS = 2.0e6
+_MASS = 1000.0
+_GRAVITY = 9.81
+_STEPS = 200
+_AGREEMENT = 1e-12
+
+
+@functools.cache
+def why_not_fast() -> str:
+    """Return why the fast route is not possible with this OpenSees; empty if it is."""
+    opensees()
+    try:
+        addresses()
+        path = library_path()
+    except NotPossibleError as error:
+        return str(error)
+    verdicts = cache_folder(Path(__file__).parents[2]) / "opensees.json"
+    key = _fingerprint(path)
+    known = json.loads(verdicts.read_text(encoding="utf-8")) if verdicts.exists() else {}
+    if key not in known:
+        known[key] = _run_child()
+        verdicts.parent.mkdir(parents=True, exist_ok=True)
+        partial = verdicts.with_suffix(f".{os.getpid()}")
+        partial.write_text(json.dumps(known, indent=1), encoding="utf-8")
+        partial.replace(verdicts)
+    return str(known[key])
+
+
+def _fingerprint(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "blake2b").hexdigest()[:32]
+
+
+def _run_child() -> str:
+    # The verdict of a self-test in a process of its own, which may crash.
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "lir_element.opensees.fast.selftest"],
+            env=child_environment(),
+            capture_output=True, text=True, timeout=_LONGEST, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return f"its self-test did not end within {_LONGEST:g} s"
+    if done.returncode != 0:
+        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+        return f"its self-test failed (exit code {done.returncode}: {last})"
+    return ""
+
+
+def main() -> None:
+    """Compare the bearing with a linear spring, twice.
+
+    Raises
+    ------
+    NotPossibleError
+        If they differ.
+    """
+    bearing = LIRBearing(
+        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+        friction=CoulombFriction(0.05), interface_friction=0.15,
+        axial_stiffness=_STIFFNESS, axial_damping=0.0,
+    )  # fmt: skip
+    for turn in (1, 2):
+        expected, got = _run(None), _run(bearing)
+        error = float(np.abs(got - expected).max() / np.abs(expected).max())
+        if not error < _AGREEMENT:
+            msg = f"turn {turn}: the bearing is off by {error:.2g} of the spring's motion"
+            raise NotPossibleError(msg)
+
+
+def _run(bearing: LIRBearing | None) -> np.ndarray[Any, Any]:
+    # Vertical displacements under gravity and a shaking of half of it, and the final force.
+    ops = opensees()
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for node in (1, 2):
+        ops.node(node, 0.0, 0.0, 0.0)
+    ops.fix(1, 1, 1, 1, 1, 1, 1)
+    ops.fix(2, 1, 1, 0, 1, 1, 1)
+    ops.mass(2, _MASS, _MASS, _MASS, 0.0, 0.0, 0.0)
+    grafted = None
+    if bearing is None:
+        ops.uniaxialMaterial("Elastic", 1, _STIFFNESS)
+        ops.element("zeroLength", 7, 1, 2, "-mat", 1, "-dir", 3)
+    else:
+        placement = place(ops, 1, 2, bearing, None, 1.0, 1.0)
+        hosted = Hosted(7, bearing, "pendulum", placement)
+        grafted = Grafted(hosted, add_host_element(ops, 7, placement))
+    moves = [*_settle(ops), *_shake(ops)]
+    force = ops.eleForce(7, 9)
+    ops.wipe()
+    if grafted is not None:
+        if grafted.alive:
+            msg = "the bearing outlives the model"
+            raise NotPossibleError(msg)
+        grafted.release()
+    return np.array([*moves, force / _STIFFNESS])
+
+
+def _settle(ops: Any) -> list[float]:
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(2, 0.0, 0.0, -_MASS * _GRAVITY, 0.0, 0.0, 0.0)
+    _solver(ops)
+    ops.integrator("LoadControl", 0.25)
+    ops.analysis("Static")
+    if ops.analyze(4) != 0:
+        msg = "the static analysis failed"
+        raise NotPossibleError(msg)
+    ops.loadConst("-time", 0.0)
+    return [ops.nodeDisp(2, 3)]
+
+
+def _shake(ops: Any) -> list[float]:
+    ops.wipeAnalysis()
+    ops.timeSeries("Trig", 2, 0.0, 100.0, 0.4, "-factor", 0.5 * _GRAVITY)
+    ops.pattern("UniformExcitation", 2, 3, "-accel", 2)
+    _solver(ops)
+    ops.integrator("Newmark", 0.5, 0.25)
+    ops.analysis("Transient")
+    moves = []
+    for _ in range(_STEPS):
+        if ops.analyze(1, 0.01) != 0:
+            msg = "the transient analysis failed"
+            raise NotPossibleError(msg)
+        moves.append(ops.nodeDisp(2, 3))
+    return moves
+
+
+def _solver(ops: Any) -> None:
+    ops.constraints("Plain")
+    ops.numberer("Plain")
+    ops.system("FullGeneral")
+    ops.test("NormDispIncr", 1e-14, 20)
+    ops.algorithm("Newton")
+
+
+if __name__ == "__main__":
+    main()

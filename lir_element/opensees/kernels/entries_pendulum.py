@@ -1,0 +1,63 @@
+"""What C calls for a bearing at the level 'pendulum'; compiled (or taken from the cache) on import.
+
+`trial`, `tangent`, `commit` take the address of the bearing's block. `update`, `commit_state`,
+`tangent_stiff` take the host element (fast route).
+"""
+
+from __future__ import annotations
+
+from numba import carray
+
+from lir_element._jit import entry_point
+from lir_element.opensees.block.layout import HOST
+from lir_element.opensees.block.pointers import pointer
+from lir_element.opensees.kernels.hosted import host_commit, host_tangent, host_trial
+from lir_element.opensees.kernels.motion import block_of, read_motion, tell_refusal
+
+
+@entry_point("int32(int64, float64)")
+def trial(block: int, dt: float) -> int:
+    """Determine the state at the block's motion; returns a RunStatus code."""
+    h = carray(pointer(block), 1, HOST)[0]
+    return host_trial(h, None, dt)
+
+
+@entry_point("void(int64)")
+def tangent(block: int) -> None:
+    """Set the block's tangent."""
+    h = carray(pointer(block), 1, HOST)[0]
+    host_tangent(h, None)
+
+
+@entry_point("void(int64)")
+def commit(block: int) -> None:
+    """Accept the trial state."""
+    h = carray(pointer(block), 1, HOST)[0]
+    host_commit(h, None)
+
+
+@entry_point("int32(int64)")
+def update(element: int) -> int:
+    """Determine the state at the nodes' trial motion; 0, or -1 where there is none."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    dt = read_motion(h)
+    if host_trial(h, None, dt) == 0:
+        return 0
+    tell_refusal(h)
+    return -1
+
+
+@entry_point("int32(int64)")
+def commit_state(element: int) -> int:
+    """Accept the trial state."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    host_commit(h, None)
+    return 0
+
+
+@entry_point("int64(int64)")
+def tangent_stiff(element: int) -> int:
+    """Return the tangent stiffness, a Matrix."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    host_tangent(h, None)
+    return h.tangent_matrix

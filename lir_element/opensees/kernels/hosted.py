@@ -1,0 +1,234 @@
+"""Kernels of a bearing in a foreign model: trial, tangent, commit, revert, record.
+
+They read and write the bearing's block (`layout.HOST`). The bearing's own axes are those of
+`Element`; a map (direction cosines, unit of length) leads there from the model's degrees of
+freedom.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from numba import carray
+
+from lir_element._jit import kernel
+from lir_element.bundles.contact_data import Contacts
+from lir_element.errors import RunStatus
+from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
+from lir_element.kernels.pendulum.trial import copy_words, has_no_state
+from lir_element.layout import BODIES, POINT, PROPS, SCRATCH, SLIDERS, STATE, TOUCH, WORK
+from lir_element.opensees.block.layout import BODY_WORDS, NUMBERS, RECORD_WORDS, STATE_WORDS, WORDS
+from lir_element.opensees.block.pointers import call_2, pointer
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats
+    from lir_element.opensees.block.layout import Host
+
+_OK = int(RunStatus.OK)
+_TOUCH_WORDS = TOUCH.itemsize // 8
+
+
+@kernel
+def contacts_at(h: Host) -> Contacts:
+    """Return the contact points of a bearing at the level 'contact'."""
+    m = h.point_count
+    return Contacts(
+        carray(pointer(h.place), 1, WORDS),
+        carray(pointer(h.sliders), 1, SLIDERS),
+        carray(pointer(h.points), (1, m), POINT),
+        carray(pointer(h.bodies_old), 1, BODIES),
+        carray(pointer(h.bodies_new), 1, BODIES),
+        carray(pointer(h.touch_old), (1, m), TOUCH),
+        carray(pointer(h.touch_new), (1, m), TOUCH),
+        carray(pointer(h.bodies_old), (1, BODY_WORDS), WORDS),
+        carray(pointer(h.bodies_new), (1, BODY_WORDS), WORDS),
+        carray(pointer(h.touch_old), (1, m * _TOUCH_WORDS), WORDS),
+        carray(pointer(h.touch_new), (1, m * _TOUCH_WORDS), WORDS),
+        carray(pointer(h.scratch), 1, SCRATCH),
+    )
+
+
+@kernel
+def to_bearing(h: Host, source: Floats, target: Floats) -> None:
+    """Map displacements of the model's degrees of freedom to bearing axes."""
+    for row in range(12):
+        total = 0.0
+        for entry in range(h.start[row], h.start[row + 1]):
+            total += h.values[entry] * source[h.columns[entry]]
+        target[row] = total
+
+
+@kernel
+def set_force(h: Host, force: Floats) -> None:
+    """Set the block's force to that of the bearing, in the model's degrees of freedom."""
+    for k in range(h.dofs):
+        h.force[k] = 0.0
+    for row in range(12):
+        value = h.force_factor * force[row]
+        for entry in range(h.start[row], h.start[row + 1]):
+            h.force[h.columns[entry]] += h.values[entry] * value
+
+
+@kernel
+def map_tangent(h: Host) -> None:
+    """Set the block's tangent, by columns, from the bearing's."""
+    n = h.dofs
+    for k in range(n * n):
+        h.tangent[k] = 0.0
+    for row in range(12):
+        for col in range(12):
+            value = h.force_factor * h.element[row, col]
+            if value == 0.0:
+                continue
+            for i in range(h.start[row], h.start[row + 1]):
+                part = h.values[i] * value
+                for j in range(h.start[col], h.start[col + 1]):
+                    h.tangent[n * h.columns[j] + h.columns[i]] += part * h.values[j]
+
+
+@kernel
+def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
+    """Determine the trial state at `host_u`, `host_v`, a step `dt` after the last commit.
+
+    A trial at rest (all velocities exactly zero) is static: its time is no time. At the committed
+    place a moving bearing has the committed force: an explicit integrator asks for it there with
+    velocities that are none. Returns a RunStatus code; a committed state beyond a limit of the
+    bearing is refused here.
+    """
+    old = carray(pointer(h.old), 1, STATE)
+    new = carray(pointer(h.new), 1, STATE)
+    if old[0].status != _OK:
+        h.last_status = old[0].status
+        return h.last_status
+    moves = False
+    for k in range(h.dofs):
+        moves = moves or h.host_v[k] != 0.0
+    to_bearing(h, h.host_u, h.u)
+    to_bearing(h, h.host_v, h.v)
+    stays = moves
+    for k in range(12):
+        stays = stays and h.u[k] == old[0].displacement[k]
+    time = old[0].time + (max(dt, 0.0) if moves else 0.0)
+    code = bearing_trial(
+        carray(pointer(h.props), 1, PROPS), old, new, carray(pointer(h.work), 1, WORK), contacts,
+        0, h.u, h.v, time, h.at,
+    )  # fmt: skip
+    h.has_tangent = 0
+    h.last_status = _OK
+    if has_no_state(code):
+        h.last_status = code
+        return code
+    set_force(h, old[0].force if stays else new[0].force)
+    return _OK
+
+
+@kernel
+def host_tangent(h: Host, contacts: Contacts | None) -> None:
+    """Set the block's tangent to that of the last trial, or of the committed state after it.
+
+    A bearing that never carried load has the stiffness at rest, so that an analysis can begin.
+    """
+    if h.has_tangent == 1:
+        return
+    new = carray(pointer(h.new), 1, STATE)
+    if h.loaded == 0 and new[0].axial_force <= 0.0:
+        for k in range(h.dofs * h.dofs):
+            h.tangent[k] = h.initial[k]
+        h.has_tangent = 1
+        return
+    props = carray(pointer(h.props), 1, PROPS)
+    work = carray(pointer(h.work), 1, WORK)
+    if h.has_tangent == 2:
+        bearing_look(props, carray(pointer(h.old), 1, STATE), work, contacts, 0)
+    bearing_tangent(props, new, work, contacts, 0, h.element, h.at, h.axes)
+    map_tangent(h)
+    h.has_tangent = 1
+
+
+@kernel
+def host_commit(h: Host, contacts: Contacts | None) -> None:
+    """Accept the trial state, and record it if it is its turn.
+
+    A trial without a state is not accepted, whatever OpenSees makes of it.
+    """
+    if h.last_status != _OK:
+        return
+    old = carray(pointer(h.old), 1, STATE)
+    new = carray(pointer(h.new), 1, STATE)
+    bearing_commit(
+        carray(pointer(h.props), 1, PROPS), old, new,
+        carray(pointer(h.old), (1, STATE_WORDS), WORDS),
+        carray(pointer(h.new), (1, STATE_WORDS), WORDS), contacts, 0,
+    )  # fmt: skip
+    if contacts is not None and h.has_tangent == 0:
+        h.has_tangent = 2
+    if old[0].axial_force > 0.0:
+        h.loaded = 1
+    h.commits += 1
+    h.committed_time = h.time
+    h.refused = _OK
+    if h.record_every > 0:
+        h.record_left -= 1
+        if h.record_left <= 0:
+            h.record_left = h.record_every
+            record_state(h)
+
+
+@kernel
+def record_state(h: Host) -> None:
+    """Append the committed state to the recorded ones; memory that runs out ends the recording."""
+    if h.record_count == h.record_room:
+        room = 2 * h.record_room + 64
+        memory = call_2(h.realloc, h.record, 8 * RECORD_WORDS * room)
+        if memory == 0:
+            h.record_every = -1
+            return
+        h.record, h.record_room = memory, room
+    place = h.record + 8 * RECORD_WORDS * h.record_count
+    head = carray(pointer(place), 4, NUMBERS)
+    head[0] = h.time
+    for a in range(3):
+        head[1 + a] = h.v[6 + a] - h.v[a]
+    copy_words(
+        carray(pointer(h.old), STATE_WORDS, WORDS),
+        carray(pointer(place + 32), STATE_WORDS, WORDS),
+    )
+    if h.bodies_old != 0:
+        copy_words(
+            carray(pointer(h.bodies_old), BODY_WORDS, WORDS),
+            carray(pointer(place + 32 + 8 * STATE_WORDS), BODY_WORDS, WORDS),
+        )
+    h.record_count += 1
+
+
+@kernel
+def host_revert(h: Host) -> None:
+    """Forget the trial: the next one starts from the committed state."""
+    copy_words(
+        carray(pointer(h.old), STATE_WORDS, WORDS), carray(pointer(h.new), STATE_WORDS, WORDS)
+    )
+    old = carray(pointer(h.old), 1, STATE)
+    set_force(h, old[0].force)
+    h.last_status = old[0].status
+    h.has_tangent = 0 if h.bodies_old == 0 else 2
+
+
+@kernel
+def host_restart(h: Host) -> None:
+    """Bring the bearing back to its start: undeformed and unloaded."""
+    copy_words(
+        carray(pointer(h.first), STATE_WORDS, WORDS), carray(pointer(h.old), STATE_WORDS, WORDS)
+    )
+    if h.bodies_old != 0:
+        copy_words(
+            carray(pointer(h.bodies_first), BODY_WORDS, WORDS),
+            carray(pointer(h.bodies_old), BODY_WORDS, WORDS),
+        )
+        count = h.point_count * _TOUCH_WORDS
+        copy_words(
+            carray(pointer(h.touch_first), count, WORDS),
+            carray(pointer(h.touch_old), count, WORDS),
+        )
+    h.time, h.committed_time, h.loaded = 0.0, 0.0, 0
+    h.record_count, h.commits = 0, 0
+    host_revert(h)

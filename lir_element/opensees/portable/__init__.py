@@ -1,0 +1,1 @@
+"""The portable route: a server process over a loopback connection."""

@@ -1,0 +1,92 @@
+"""What keeps a model from waiting for ever for a server that was killed.
+
+While OpenSees waits for an answer no Python code can run in its process, and it waits without end.
+A thread of compiled code therefore watches the server, from the same process: when the server is
+gone, it answers in its place, with numbers that no convergence test accepts (NaN), so that
+the analysis fails as any other.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import socket
+import sys
+import threading
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lir_element.opensees.portable.guard_layout import GUARD, MOST_CHANNELS
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+
+class Guard:
+    """A thread that watches a server.
+
+    Parameters
+    ----------
+    pipe : Connection or None
+        To the server; its end is the server's end. None: there is no server from the beginning,
+        and every connection is added before `start`.
+    message : str
+        What to tell the user when the server ends, or asks for what there is not.
+    """
+
+    def __init__(self, pipe: Connection | None, message: str) -> None:
+        from lir_element.opensees.kernels import guard as guard_kernel
+
+        self._text = np.frombuffer(message.encode(), dtype=np.uint8).copy()
+        self._reader, self._writer = os.pipe()
+        self._block = np.zeros(1, dtype=GUARD)
+        self._block["channels"][0, :, 0] = -1
+        self._block["answer"] = np.nan
+        self._block["pipe"] = -1 if pipe is None else pipe.fileno()
+        self._block["stop"] = self._reader
+        self._block["message"] = self._text.ctypes.data
+        self._block["message_size"] = len(self._text)
+        self._block["receive_flags"] = getattr(socket, "MSG_DONTWAIT", 0)
+        self._block["send_flags"] = getattr(socket, "MSG_DONTWAIT", 0) | getattr(
+            socket, "MSG_NOSIGNAL", 0
+        )
+        self._thread: threading.Thread | None = None
+        if sys.platform == "win32":  # it has no such functions: nobody answers for a killed server
+            return
+        system = ctypes.CDLL(None)
+        for name in ("poll", "recv", "send", "write"):
+            self._block[name] = ctypes.cast(getattr(system, name), ctypes.c_void_p).value
+        address = int(self._block.ctypes.data)
+        self._thread = threading.Thread(
+            target=guard_kernel.watch.ctypes, args=(address,), name="bearing guard", daemon=True
+        )
+
+    def start(self) -> None:
+        """Start watching."""
+        if self._thread is not None:
+            self._thread.start()
+
+    def add(self, sock: socket.socket, words: int) -> None:
+        """Guard a host element's connection, whose answers have so many words."""
+        free = np.flatnonzero(self._block["channels"][0, :, 0] == -1)
+        if not len(free):
+            msg = (
+                f"the portable route serves {MOST_CHANNELS} bearings at a time: "
+                'take fewer, or route="fast"'
+            )
+            raise ValueError(msg)
+        self._block["channels"][0, free[0]] = sock.fileno(), words
+
+    def drop(self, sock: socket.socket) -> None:
+        """Guard a connection no more."""
+        channels = self._block["channels"][0]
+        channels[channels[:, 0] == sock.fileno(), 0] = -1
+
+    def stop(self) -> None:
+        """End the thread."""
+        if self._thread is not None:
+            os.write(self._writer, b"!")
+            self._thread.join()
+        os.close(self._writer)
+        os.close(self._reader)

@@ -1,0 +1,293 @@
+"""The portable route: bearings in a process of their own, behind `genericClient` elements."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess  # noqa: S404  # our own server, by our own interpreter
+import sys
+import threading
+from multiprocessing import Pipe, reduction
+from typing import TYPE_CHECKING, Any
+
+import psutil
+
+from lir_element.opensees.library import child_environment
+from lir_element.opensees.portable.guard import Guard
+from lir_element.opensees.portable.protocol import vector_length
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from lir_element.device.bearing import LIRBearing
+    from lir_element.opensees.placement import Placement
+
+
+class ServerError(RuntimeError):
+    """The process that determines the states of bearings is gone."""
+
+
+class Remote:
+    """A bearing whose state the server determines.
+
+    Parameters
+    ----------
+    server : Server
+        The process.
+    tag : int
+        Of the element.
+    bearing : LIRBearing
+        The device.
+    level : str
+        Level of fidelity.
+    placement : Placement
+        How the model's degrees of freedom lead to its axes.
+    """
+
+    route = "portable"
+
+    def __init__(
+        self, server: Server, tag: int, bearing: LIRBearing, level: str, placement: Placement
+    ) -> None:
+        self._server = server
+        self._key = server.new_key()
+        self._words = vector_length(placement.dofs)
+        self._sock: socket.socket | None = None
+        self.device = bearing
+        self.level = level
+        self.placement = placement
+        self._records: tuple[Any, ...] | None = None
+        self._recording = False
+        server.ask("prepare", self._key, tag, bearing, level, placement)
+
+    def connect(self, sock: socket.socket) -> None:
+        """Hand the host element's connection over, and guard it."""
+        self._server.guard.add(sock, self._words)
+        self._sock = sock
+        self._server.ask("connect", self._key, sock=sock)
+
+    @property
+    def alive(self) -> bool:
+        """Whether OpenSees still has the element, as far as can be told."""
+        try:
+            return bool(self._server.ask("is_open", self._key))
+        except ServerError:
+            return self._is_connected()
+
+    def is_served_by(self, server: Server) -> bool:
+        """Return whether its states are with this server."""
+        return self._server is server
+
+    def response(self, name: str) -> Any:
+        """Return a response of the committed state by name."""
+        return self._server.ask("response", self._key, name)
+
+    def start_recording(self, every: int) -> None:
+        """Record every so many commits from now on; 0: none."""
+        self._server.ask("record", self._key, every)
+        self._recording = every > 0
+
+    def recorded(self) -> tuple[Any, ...]:
+        """Return what `Hosted.recorded` does."""
+        if self._records is not None:  # the element is gone, its records were kept
+            return self._records
+        return tuple(self._server.ask("recorded", self._key))
+
+    def release(self) -> None:
+        """Give up the connection, once the element is gone."""
+        if self._sock is not None:
+            self._server.guard.drop(self._sock)
+            self._sock.close()
+            self._sock = None
+        if self._server.alive:
+            if self._recording:
+                self._records = self.recorded()
+            self._server.ask("forget", self._key)
+
+    def detach(self) -> None:
+        """Guard the connection no more, and leave it open for the farewell of OpenSees' exit.
+
+        The element's destructor would write to a closed end for ever.
+        """
+        if self._sock is not None:
+            self._server.guard.drop(self._sock)
+            self._sock.detach()
+            self._sock = None
+
+    def abandon(self, own: dict[tuple[Any, Any], int], guard: Guard) -> socket.socket | None:
+        """Cut the element of a forked process off from the connection of its parent.
+
+        Parameters
+        ----------
+        own : dict
+            Descriptors of this process's connections by both their addresses.
+        guard : Guard
+            Answers the element from now on.
+
+        Returns
+        -------
+        socket or None
+            What the guard answers through, to be kept open.
+        """
+        if self._sock is None:
+            return None
+        place = own.get((self._sock.getpeername(), self._sock.getsockname()))
+        self._sock.close()
+        self._sock = None
+        if place is None:
+            return None
+        near, far = socket.socketpair()
+        os.dup2(near.fileno(), place, inheritable=False)
+        near.close()
+        guard.add(far, self._words)
+        return far
+
+    def _is_connected(self) -> bool:
+        # Without a server nobody else reads; the end of the stream is the element's end.
+        if self._sock is None:
+            return False
+        self._sock.setblocking(False)
+        try:
+            while self._sock.recv(4096):
+                pass
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return False
+
+
+class Orphans:
+    """Elements of the portable route that a forked process finds in its copy of the model.
+
+    Their server is the parent's. In this process they answer nothing, so that an analysis fails
+    and a wipe leaves the parent's bearings alone.
+
+    Parameters
+    ----------
+    remotes : iterable of Remote
+        The bearings behind them.
+    """
+
+    def __init__(self, remotes: Iterable[Remote]) -> None:
+        message = (
+            f"WARNING the bearings of this model are those of process {os.getppid()}, which this "
+            "one was forked from; the analysis cannot go on: wipe the model and build it again.\n"
+        )
+        self._guard = Guard(None, message)
+        own = {
+            (tuple(c.laddr), tuple(c.raddr)): c.fd
+            for c in psutil.Process(os.getpid()).net_connections("tcp4")
+            if c.raddr
+        }
+        self._kept = [remote.abandon(own, self._guard) for remote in remotes]
+        self._guard.start()
+
+    def close(self) -> None:
+        """End the guard; what it answered through stays open for the farewell of OpenSees' exit."""
+        self._guard.stop()
+        for sock in self._kept:
+            if sock is not None:
+                sock.detach()
+
+
+class Server:
+    """The process that serves all bearings of this one in the portable route."""
+
+    def __init__(self) -> None:
+        ours, theirs = Pipe()
+        module = "lir_element.opensees.portable.server"
+        command = [sys.executable, "-m", module, str(theirs.fileno()), str(os.getpid())]
+        options: dict[str, Any] = {"pass_fds": [theirs.fileno()]}
+        if sys.platform == "win32":
+            os.set_handle_inheritable(theirs.fileno(), True)
+            handles = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [theirs.fileno()]})
+            options = {"startupinfo": handles}
+        self._process = subprocess.Popen(  # noqa: S603
+            command, stdin=subprocess.DEVNULL, env=child_environment(), **options
+        )
+        theirs.close()
+        self._pipe = ours
+        self._lock = threading.Lock()
+        self._keys = 0
+        self.guard = Guard(ours, f"WARNING {self.end_message()}; the analysis cannot go on.\n")
+        self.guard.start()
+
+    @property
+    def pid(self) -> int:
+        """Process id of the server."""
+        return self._process.pid
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process is there."""
+        return self._process.poll() is None
+
+    def new_key(self) -> int:
+        """Return a number by which a bearing will be known."""
+        self._keys += 1
+        return self._keys
+
+    def ask(self, what: str, key: int, *arguments: Any, sock: socket.socket | None = None) -> Any:
+        """Send a request and return the answer.
+
+        Parameters
+        ----------
+        what : str
+            The request.
+        key : int
+            The bearing's number.
+        *arguments
+            What belongs to it.
+        sock : socket, optional
+            A connection to hand over.
+
+        Returns
+        -------
+        object
+            The answer.
+
+        Raises
+        ------
+        ServerError
+            If the server is gone.
+        """
+        try:
+            with self._lock:
+                self._pipe.send((what, key, *arguments))
+                if sock is not None:
+                    self._hand_over(sock)
+                good, answer = self._pipe.recv()
+        except (EOFError, OSError) as cause:
+            self._process.wait()
+            raise ServerError(self.end_message()) from cause
+        if not good:
+            raise answer
+        return answer
+
+    def close(self) -> None:
+        """End the process."""
+        self.guard.stop()
+        self._pipe.close()
+        try:
+            self._process.wait(5.0)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def leave(self) -> None:
+        """Let go of the parent's server in a forked process: its pipe ends with the parent."""
+        self._pipe.close()
+
+    def end_message(self) -> str:
+        """Return what to tell the user of a server that is gone."""
+        return (
+            f"the server process {self.pid} of the bearings has ended: their states are lost, "
+            "wipe the model and build it again"
+        )
+
+    def _hand_over(self, sock: socket.socket) -> None:
+        if sys.platform == "win32":
+            self._pipe.send_bytes(sock.share(self.pid))
+        else:
+            reduction.send_handle(self._pipe, sock.fileno(), self.pid)

@@ -1,0 +1,234 @@
+"""The process that determines the states of bearings in the portable route.
+
+    python -m lir_element.opensees.portable.server HANDLE PARENT
+
+is started by `remote.Server`. It talks to the model's process through a private pipe (the handle),
+which hands it the connections of the host elements; it never listens anywhere. It ends with the
+pipe, or with its parent.
+"""
+
+from __future__ import annotations
+
+import collections
+import os
+import selectors
+import socket
+import sys
+import threading
+import time
+from multiprocessing import connection, reduction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lir_element.errors import RunStatus
+from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.block.layout import MOST_DOFS
+from lir_element.opensees.portable import protocol
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+_QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
+_NO_FORCE = np.full(MOST_DOFS, np.nan)  # the protocol knows no failure; no test accepts this
+_GRACE = 1e-3
+"""How long a message may be on its way, in another stream than a request sent after it [s]."""
+_AWAKE = 2e-3
+"""How long to look for the next message without sleeping [s]: waking up costs more than answering,
+and an analysis asks again at once."""
+_PATIENCE = 2.0
+"""Time between two looks at whether the parent is still there [s]."""
+
+
+class Channel:
+    """A host element's connection, and the bearing that answers it."""
+
+    def __init__(self, sock: socket.socket, hosted: Hosted) -> None:
+        self.sock = sock
+        self.hosted = hosted
+        count = hosted.placement.dofs
+        size = protocol.vector_length(count)
+        self._inbox = np.zeros(size)
+        self._view = memoryview(self._inbox.view(np.uint8).data)
+        self._motion = self._inbox[1 : 1 + count], self._inbox[1 + count : 1 + 2 * count]
+        self._time = 1 + 3 * count
+        self._zeros = bytes(8 * size)
+        self._out = np.zeros(size)
+        self._status = RunStatus.OK
+        self._told = RunStatus.OK
+        self.is_open = True
+        if not self._read(protocol.HEADER_BYTES):
+            return
+        header = self._inbox.view(np.int32)[: protocol.HEADER_WORDS]
+        if (header[0], header[-1]) != (count, size):
+            msg = (
+                f"host element of {header[0]} DOFs and {header[-1]} words: {count}, {size} expected"
+            )
+            raise ValueError(msg)
+
+    def close(self) -> None:
+        """Close the connection."""
+        self.is_open = False
+        self.sock.close()
+
+    def serve(self) -> bool:
+        """Read one message and answer it; False when the element is gone."""
+        if not self._read(self._inbox.nbytes):
+            return False
+        action = int(self._inbox[0])
+        if action == protocol.SET_TRIAL:
+            self._trial()
+        elif action == protocol.COMMIT:
+            self.hosted.commit()
+        elif action == protocol.GET_FORCE:
+            self._send(self.hosted.force if self._status is RunStatus.OK else _NO_FORCE)
+        elif action == protocol.GET_TANGENT:
+            self._send(self.hosted.tangent_by_columns())
+        elif action == protocol.GET_INITIAL:
+            self._send(self.hosted.initial)
+        elif action in protocol.ANSWERED:  # damping and mass: none
+            self.sock.sendall(self._zeros)
+        return action != protocol.END
+
+    def _trial(self) -> None:
+        hosted = self.hosted
+        clock = float(self._inbox[self._time])
+        if not clock and not self._inbox[1 : self._time].any():
+            hosted.restart()  # `reset` has no message: no motion at all, at time 0
+        # the model's clock may have been set back: then the step is not known, and counts as none
+        self._status = hosted.trial(*self._motion, clock - hosted.committed_time, clock)
+        if self._status is not RunStatus.OK and self._status is not self._told:
+            print(f"WARNING {hosted.message(self._status)}", file=sys.stderr, flush=True)
+        self._told = self._status
+
+    def _send(self, values: np.ndarray) -> None:
+        self._out[: len(values)] = values
+        self.sock.sendall(self._out.data)
+
+    def _read(self, count: int) -> bool:
+        got = 0
+        while got < count:
+            try:
+                received = self.sock.recv_into(self._view[got:count])
+            except ConnectionError:
+                return False
+            if received == 0:
+                return False
+            got += received
+            if _QUICK is not None:
+                self.sock.setsockopt(socket.IPPROTO_TCP, _QUICK, 1)
+        return True
+
+
+class Service:
+    """All bearings of one model's process.
+
+    Parameters
+    ----------
+    pipe : Connection
+        To the model's process.
+    parent : int
+        Its process id.
+    """
+
+    def __init__(self, pipe: Connection, parent: int) -> None:
+        self._pipe = pipe
+        self._parent = parent
+        self._hosted: dict[int, Hosted] = {}
+        self._channels: dict[int, Channel] = {}
+        self._requests: collections.deque[tuple[Any, ...]] = collections.deque()
+        self._selector = selectors.DefaultSelector()
+        self._wake, self._bell = socket.socketpair()
+        self._selector.register(self._wake, selectors.EVENT_READ, None)
+
+    def run(self) -> None:
+        """Serve until the pipe is closed."""
+        threading.Thread(target=self._listen_to_pipe, daemon=True).start()
+        asked, busy_until = False, 0.0
+        while os.getppid() == self._parent:
+            busy = time.perf_counter() < busy_until
+            ready = self._selector.select(_GRACE if asked else 0.0 if busy else _PATIENCE)
+            if ready:
+                busy_until = time.perf_counter() + _AWAKE
+            for key, _ in ready:
+                channel = key.data
+                if channel is None:
+                    self._wake.recv(4096)
+                    asked = True
+                elif not channel.serve():
+                    self._selector.unregister(channel.sock)
+                    channel.close()
+            # what the model sent before a request was made comes first, though it may arrive later
+            if ready or not asked:
+                continue
+            asked = False
+            while self._requests:
+                request = self._requests.popleft()
+                if request[0] == "end":
+                    return
+                self._answer(*request)
+
+    def _listen_to_pipe(self) -> None:
+        # Requests, and the connections that come with some of them.
+        try:
+            while True:
+                request = self._pipe.recv()
+                if request[0] == "connect":
+                    request = (*request, _receive_socket(self._pipe))
+                self._requests.append(request)
+                self._bell.send(b"!")
+        except (EOFError, ConnectionError, OSError):
+            self._requests.append(("end",))
+            self._bell.send(b"!")
+
+    def _answer(self, what: str, key: int, *arguments: Any) -> None:
+        try:
+            result = getattr(self, f"_do_{what}")(key, *arguments)
+        except (KeyError, ValueError, ArithmeticError, MemoryError) as error:
+            self._pipe.send((False, error))
+        else:
+            self._pipe.send((True, result))
+
+    def _do_prepare(self, key: int, *arguments: Any) -> None:
+        self._hosted[key] = Hosted(*arguments)
+
+    def _do_connect(self, key: int, sock: socket.socket) -> None:
+        channel = Channel(sock, self._hosted[key])
+        self._channels[key] = channel
+        self._selector.register(sock, selectors.EVENT_READ, channel)
+
+    def _do_is_open(self, key: int) -> bool:
+        return key in self._channels and self._channels[key].is_open
+
+    def _do_response(self, key: int, name: str) -> Any:
+        return self._hosted[key].response(name)
+
+    def _do_record(self, key: int, every: int) -> None:
+        self._hosted[key].start_recording(every)
+
+    def _do_recorded(self, key: int) -> Any:
+        return self._hosted[key].recorded()
+
+    def _do_forget(self, key: int) -> None:
+        self._channels.pop(key, None)
+        del self._hosted[key]
+
+
+def _receive_socket(pipe: Connection) -> socket.socket:
+    if sys.platform == "win32":
+        return socket.fromshare(pipe.recv_bytes())
+    return socket.socket(fileno=reduction.recv_handle(pipe))
+
+
+def main(arguments: list[str]) -> None:
+    """Serve the process that started this one."""
+    handle, parent = (int(each) for each in arguments)
+    if sys.platform == "win32":
+        pipe: Any = connection.PipeConnection(handle)
+    else:
+        pipe = connection.Connection(handle)
+    Service(pipe, parent).run()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,153 @@
+"""The testing rig: a bearing taken through a lateral path under axial load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import xarray as xr
+
+from lir_element.bundles.contact_data import as_rows, contact_arrays
+from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.door import require_positive
+from lir_element.element import ALL_LEVELS, AnyLevel, initial_state, limit_detail
+from lir_element.errors import RunStatus
+from lir_element.kernels.cyclic_kernel import run_path
+from lir_element.layout import BODIES, STATE, WORK
+from lir_element.results.dataset import (
+    bearing_coordinates,
+    bearing_variables,
+    body_variables,
+    labelled,
+    report,
+    require_on_failure,
+)
+from lir_element.rig.rigid_rig import drive_path
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from lir_element.device.bearing import LIRBearing
+    from lir_element.layout import Floats, Records
+
+_INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
+
+
+def cyclic_test(
+    bearing: LIRBearing,
+    displacement: ArrayLike,
+    axial_load: float | ArrayLike,
+    velocity: float = 0.02,
+    level: AnyLevel = "pendulum",
+    on_failure: Literal["warn", "raise"] = "warn",
+) -> xr.Dataset:
+    """Impose a lateral path on the top plate under axial load, plates kept parallel.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+    displacement : array_like, shape (n,) or (n, 2)
+        Path of the top plate, x or (x, y) [m], from the centre to the first point and on; between
+        the points it is straight, in increments below a fifth of the yield displacement.
+    axial_load : float or array_like, shape (n,)
+        Compression held by the vertical actuator [N], linear between the points.
+    velocity : float
+        Speed along the path [m/s].
+    level : {"pendulum", "contact", "rigid_body"}
+        Level of fidelity; "rigid_body" drives the top plate, which weighs what it carries.
+    on_failure : {"warn", "raise"}
+        Whether a failure hands back what was computed with a warning, or raises AnalysisError
+        (whose `data` holds it).
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimension 'step' (one entry a point), with the bearing variables of docs/results.md.
+
+    Raises
+    ------
+    ValueError
+        If an input is out of bounds.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> data = cyclic_test(bearing, [0.0, 0.1, 0.185], axial_load=150e3)
+    >>> round(float(data.interface_slip.sel(axis="x")[-1, 0]), 3)
+    0.01
+    """
+    if level not in ALL_LEVELS:
+        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
+        raise ValueError(msg)
+    require_on_failure(on_failure)
+    path, loads = _path(displacement), _loads(axial_load, displacement)
+    speed = require_positive("velocity", velocity, "m/s")
+    props = bearing.to_record()
+    old, new = initial_state(props), initial_state(props)
+    contacts = None
+    if level != "pendulum":
+        contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
+
+    def go(points: Floats, out: Records, v_out: Floats, bodies: Records) -> tuple[int, int, float]:
+        return run_path(
+            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts,
+            points, loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12),
+            np.zeros(12), np.zeros((12, 12)), np.zeros(3), np.eye(3), as_rows(out), v_out,
+            as_rows(bodies),
+        )  # fmt: skip
+
+    out, v_out = np.zeros(len(path), dtype=STATE), np.zeros((len(path), 2))
+    bodies = np.zeros(len(path), dtype=BODIES)
+    if level == "rigid_body":
+        reached, code, time = go(np.zeros((1, 2)), out[:1], v_out[:1], bodies[:1])
+        if code == int(RunStatus.OK) and contacts is not None:
+            out, bodies, reached, code, time, new = drive_path(
+                props, contacts, old, path, loads, speed
+            )
+        v_out = np.ascontiguousarray(bodies["velocity"][:, 2, :2])
+    else:
+        reached, code, time = go(path, out, v_out, bodies)
+    status = RunStatus(code)
+    velocities = np.zeros((reached, 1, 3))
+    velocities[:, 0, :2] = v_out[:reached]
+    variables = bearing_variables("step", out[:reached, None], velocities)
+    variables["time"] = labelled(("step",), out["time"][:reached], "s", "time")
+    if contacts is not None:
+        variables |= body_variables(
+            "step", bodies[:reached, None], out["displacement"][:reached, None]
+        )
+    data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
+    data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
+    detail = limit_detail(props, new, 0)
+    return report(data, status, time, "bearing in the rig", detail, on_failure=on_failure)
+
+
+def _path(displacement: ArrayLike) -> Floats:
+    path = np.asarray(displacement, dtype=np.float64)
+    if path.ndim == 1:
+        path = np.column_stack([path, np.zeros_like(path)])
+    if path.ndim != 2 or path.shape[1] != 2 or len(path) == 0:
+        msg = f"displacement has shape {np.shape(displacement)}: give (n,) or (n, 2) with n >= 1"
+        raise ValueError(msg)
+    if not np.isfinite(path).all():
+        where = int(np.argmin(np.isfinite(path).all(axis=1)))
+        msg = f"displacement[{where}] = {path[where]} is not finite: remove or replace it"
+        raise ValueError(msg)
+    return np.ascontiguousarray(path)
+
+
+def _loads(axial_load: float | ArrayLike, displacement: ArrayLike) -> Floats:
+    count = len(np.asarray(displacement))
+    loads = np.asarray(axial_load, dtype=np.float64)
+    if loads.ndim > 1 or (loads.ndim == 1 and len(loads) != count):
+        msg = f"axial_load has shape {loads.shape}: give one number or ({count},), one a point"
+        raise ValueError(msg)
+    loads = np.ascontiguousarray(np.broadcast_to(loads, (count,)))
+    if not (np.isfinite(loads).all() and (loads > 0.0).all()):
+        worst = float(loads[int(np.argmin(np.where(np.isfinite(loads), loads, -np.inf)))])
+        msg = f"axial_load = {worst:g} N: it must be positive (compression) and finite everywhere"
+        raise ValueError(msg)
+    return loads

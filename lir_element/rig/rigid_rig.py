@@ -1,0 +1,77 @@
+"""The testing rig at the level 'rigid_body': the top plate driven along its path under load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lir_element.bundles.contact_data import as_rows
+from lir_element.bundles.rigid_data import (
+    FIRST_STEP,
+    RigidInput,
+    rigid_run,
+    rigid_setup,
+    state_words,
+)
+from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.kernels.rigid_body.march import march, start
+from lir_element.layout import BODIES
+
+if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Floats, Records
+
+
+def drive_path(
+    props: Records, contacts: Contacts, state: Records, path: Floats, loads: Floats,
+    velocity: float,
+) -> tuple[Records, Records, int, int, float, Records]:  # fmt: skip
+    """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
+
+    Parameters
+    ----------
+    props, contacts, state
+        The bearing, its sliders and its record in equilibrium under ``loads[0]``.
+    path : ndarray, (n, 2)
+        Places of the top plate [m], gone through at `velocity`.
+    loads : ndarray, (n,)
+        Compression held at the points [N], linear between.
+    velocity : float
+        Speed along the path [m/s].
+
+    Returns
+    -------
+    tuple
+        States (n,), bodies (n,), number of points reached, status code, time of the end, and the
+        last state tried (1,).
+
+    Notes
+    -----
+    The rig's plate weighs what it carries: axial load over standard gravity.
+    """
+    mass = np.max(loads) / STANDARD_GRAVITY
+    run = rigid_run(
+        props, contacts, state, np.full(3, mass), np.zeros(3), np.array([0, 0, 1, 0, 0, 0]),
+        driven=True,
+    )  # fmt: skip
+    points = np.vstack([np.zeros((1, 2)), path])
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    count = len(points)
+    states, words = state_words(count)
+    bodies = np.zeros(count, dtype=BODIES)
+    load = np.zeros((count, 6))
+    load[:, 2] = -np.concatenate([loads[:1], loads])
+    given = RigidInput(
+        motion=np.zeros((2, 3)), motion_dt=1.0,
+        times=np.concatenate([[0.0], np.cumsum(lengths / velocity)]), drive=points, load=load,
+        words=words, bodies=as_rows(bodies), energy=np.zeros((count, 6)),
+    )  # fmt: skip
+    length = float(props["length"][0])
+    largest = 0.2 * float(props["yield_displacement"].min()) / velocity
+    setup = rigid_setup(length, largest)
+    run.clock[1] = min(FIRST_STEP, largest)
+    start(run, given)
+    code = march(run, given, setup, 1, count)
+    reached = int(run.counters[3]) - 1
+    return states[1:], bodies[1:], reached, code, float(run.clock[0]), run.states[2:]

@@ -1,0 +1,1 @@
+"""One script a claim: a statement with its source, computed."""

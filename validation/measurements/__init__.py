@@ -1,0 +1,1 @@
+"""What measures, and makes no claim: speed, cost, robustness."""

@@ -1,0 +1,208 @@
+"""What a bearing costs inside OpenSees: writes docs/validation/opensees_cost.md.
+
+    python -m validation.measurements.opensees_cost
+
+Buildings of three sizes under one motion, on bearings of OpenSees and on ours by both routes. All
+that stand in one row of the tables are run in turn, several times; the ratios are medians of the
+ratios within a turn, and hold on a noisy machine.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from frames import Frame, GroundMotion, gravity, lumped_mass, moment_frame, time_history
+from frames.model.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import bearing_element, builtin_element, macro_model, opensees
+from validation.cases import EXAMPLE_MASS, example_bearing
+from validation.opensees.building import slender
+from validation.opensees.frames import add_loads, build
+from validation.opensees.model import (
+    empty_model,
+    gravity_analysis,
+    ground_motion,
+    solver,
+    transient_steps,
+)
+from validation.page import table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+TARGET = Path(__file__).parents[2] / "docs" / "validation" / "opensees_cost.md"
+TURNS = 3
+STEPS, STEP = 1000, 0.005  # of the transient analysis, s
+FAST_GOAL, PORTABLE_GOAL = 1.5, 3.0
+BASE = "singleFPBearing"
+MACRO = "LIR-DCFP, macro-model"
+
+Place: TypeAlias = Callable[[int, int, int, LIRBearing], object]
+"""Puts an element with a tag between node i and node j, for a bearing."""
+
+
+def pulse() -> GroundMotion:
+    """Return the motion: two seconds and a half of waves in three directions, then rest."""
+    t = np.arange(0.0, STEPS * STEP, STEP)
+    shaking = t < 2.5
+    return GroundMotion(
+        x=2.2 * np.sin(2.0 * np.pi * t / 1.6) * shaking,
+        y=1.3 * np.sin(2.0 * np.pi * t / 1.1) * shaking,
+        z=1.0 * np.sin(2.0 * np.pi * t / 0.3) * shaking,
+        dt=STEP,
+    )
+
+
+def scenes(bearing: LIRBearing) -> dict[str, Frame]:
+    """Return the structures, from one bearing to nine."""
+    return {
+        "a mass on one bearing": lumped_mass(bearing, EXAMPLE_MASS),
+        "1 × 1 bay, 1 storey": _building((1, 1), 1, bearing),
+        "2 × 2 bays, 3 storeys": _building((2, 2), 3, bearing),
+    }
+
+
+def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Place]]:
+    """Return the bearings that are compared, and what puts them into the model."""
+    plain = bearing.as_dcfp(rims=False)
+
+    def builtin(kind: Any) -> Place:
+        return lambda tag, i, j, device: builtin_element(kind, tag, i, j, device, load)
+
+    def ours(route: Any) -> Place:
+        return lambda tag, i, j, device: bearing_element(tag, i, j, device, route=route)
+
+    return {
+        BASE: (plain, builtin(BASE)),
+        "TripleFrictionPendulum": (plain, builtin("TripleFrictionPendulum")),
+        "plain DCFP, fast route": (plain, ours("fast")),
+        "plain DCFP, portable route": (plain, ours("portable")),
+        "LIR-DCFP, fast route": (bearing, ours("fast")),
+        "LIR-DCFP, portable route": (bearing, ours("portable")),
+        MACRO: (bearing, lambda _, i, j, device: macro_model(device, i, j, load=load)),
+    }
+
+
+def microseconds(frame: Frame, place: Place, motion: GroundMotion) -> float:
+    """Run a structure in OpenSees and return the time of a step of the transient analysis [us].
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure.
+    place : callable
+        Puts the bearings.
+    motion : GroundMotion
+        The motion.
+
+    Returns
+    -------
+    float
+        Mean over all steps; not a number if the analysis fails.
+    """
+    with empty_model() as ops:
+        add_loads(ops, frame, build(ops, frame, place))
+        gravity_analysis(ops)
+        ground_motion(ops, motion)
+        solver(ops)
+        transient_steps(ops)
+        began = time.perf_counter()
+        if ops.analyze(STEPS, STEP):
+            return math.nan
+        return 1e6 * (time.perf_counter() - began) / STEPS
+
+
+def in_frames(frame: Frame, motion: GroundMotion) -> float:
+    """Return the time of a step of the same length in `frames` [us]."""
+    data = time_history(frame, motion, duration=STEPS * STEP, dt=STEP)
+    return 1e6 * float(data.attrs["seconds_loop"]) / STEPS
+
+
+def measure(name: str, bearing: LIRBearing, motion: GroundMotion) -> dict[str, list[float]]:
+    """Run all devices under one structure in turn; return the times by device."""
+    load = float(gravity(scenes(bearing)[name]).axial_forces.mean())
+    bearing = replace(bearing, design_load=load)
+    found: dict[str, list[float]] = {}
+    for turn in range(TURNS + 1):  # the first one compiles and connects
+        for device, (kind, place) in devices(bearing, load).items():
+            value = microseconds(scenes(kind)[name], place, motion)
+            if turn:
+                found.setdefault(device, []).append(value)
+        value = in_frames(scenes(bearing)[name], motion)
+        if turn:
+            found.setdefault("LIR-DCFP, the whole in frames", []).append(value)
+    return found
+
+
+def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
+    """Return the page in Markdown."""
+    head = ["bearings", *(f"{name} [µs]" for name in found), *(f"ratio, {n}" for n in found)]
+    rows = []
+    for device in next(iter(found.values())):
+        numbers = [statistics.median(each[device]) for each in found.values()]
+        times = ["stops" if math.isnan(number) else f"{number:.0f}" for number in numbers]
+        ratios = [ratio(each, device) for each in found.values()]
+        rows.append([device, *times, *("-" if math.isnan(r) else f"{r:.2f}" for r in ratios)])
+    return "\n\n".join([
+        "# Cost of a bearing inside OpenSees",
+        f"Written by `python -m validation.measurements.opensees_cost`, OpenSees "
+        f"{opensees().version()}, Python "
+        f"{platform.python_version()}, {os.cpu_count()} cores. Time of a step of the whole "
+        f"transient analysis: {STEPS} steps of {1e3 * STEP:g} ms, Newmark, Newton's method to a "
+        "norm of the correction of 1e-8, UmfPack; medians of "
+        f"{TURNS} turns. Ratios to {BASE}. The LIR-DCFP meets its rims and slips; {BASE} and the "
+        "plain DCFP have no rims.",
+        table(head, rows),
+        f"Goals in buildings: fast route {FAST_GOAL:g}, portable route {PORTABLE_GOAL:g}. "
+        + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
+        "An element of the portable route waits for some four answers of another process an "
+        "iteration; the smaller the rest of the model, the more that counts. \"stops\": plain "
+        "Newton finds no equilibrium in some step (the "
+        "macro-model asks for smaller ones, [opensees_macro_model.md](opensees_macro_model.md)). "
+        "The last row is the driver of this package with the same step.",
+    ]) + "\n"  # fmt: skip
+
+
+def verdict(name: str, times: Mapping[str, list[float]]) -> str:
+    """Say whether the goals are met in a building."""
+    parts = []
+    for route, goal in (("fast", FAST_GOAL), ("portable", PORTABLE_GOAL)):
+        worst = max(ratio(times, device) for device in times if f"{route} route" in device)
+        parts.append(f"{route} {worst:.2f} ({'met' if worst <= goal else '**missed**'})")
+    return f"{name}: {', '.join(parts)}."
+
+
+def ratio(times: Mapping[str, list[float]], device: str) -> float:
+    """Return the median over the turns of the time over that of `BASE`."""
+    pairs = zip(times[device], times[BASE], strict=True)
+    return statistics.median(a / b for a, b in pairs)
+
+
+def _building(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
+    return moment_frame(
+        bays=bays, storeys=storeys, bearing=bearing, damping=None, column=slender(DEFAULT_COLUMN),
+        beam=slender(DEFAULT_BEAM), base_beam=slender(DEFAULT_BASE_BEAM),
+    )  # fmt: skip
+
+
+def main() -> None:
+    """Measure and write the page."""
+    bearing = example_bearing(friction=CoulombFriction(0.065))
+    motion = pulse()
+    found = {name: measure(name, bearing, motion) for name in scenes(bearing)}
+    TARGET.write_text(page(found), encoding="utf-8")
+    print(TARGET.read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    main()

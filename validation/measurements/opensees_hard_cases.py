@@ -1,0 +1,274 @@
+"""Hard cases with OpenSeesPy's own elements: writes docs/validation/opensees_hard_cases.md.
+
+    python -m validation.measurements.opensees_hard_cases
+
+Impacts, axial load through zero, extreme steps, as in `hard_cases`, with the elements of OpenSees
+and the macro-model beside the element of this package. For every run: did it complete, or
+stop, hang or crash; how far is it from the reference (level 'rigid_body'); does the balance of
+energy close; did the device hand out more energy than it had stored. The bearing is that of the
+paper (COMPDYN 2023), section 3.1, with constant friction and wide limits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames import lumped_mass, time_history
+from lir_element import CoulombFriction, Element
+from lir_element.device.bearing import STANDARD_GRAVITY
+from validation.cases import example_bearing
+from validation.measurements.hard_cases import given_back, outcome, quiet
+from validation.measurements.hard_scenes import Case, impact, vertical
+from validation.measurements.opensees_hard_page import Entry, write
+from validation.opensees.devices import DEVICES
+from validation.opensees.trials import (
+    PLAIN,
+    ROBUST,
+    Shaken,
+    Steps,
+    shake,
+    take_back,
+)
+from validation.opensees.worker import Worker
+from validation.page import table
+from validation.scenes import MASS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames import GroundMotion
+    from lir_element import LIRBearing
+    from lir_element.layout import Floats
+
+TARGET = Path(__file__).parents[2] / "docs" / "validation" / "opensees_hard_cases.md"
+WEIGHT = MASS * STANDARD_GRAVITY
+SETTINGS: tuple[tuple[Steps, float], ...] = ((PLAIN, 5e-3), (PLAIN, 1e-3), (ROBUST, 1e-3))
+DT = 5e-3
+NAMES = {PLAIN: "Newton", ROBUST: "fallback"}
+ALIKE = 0.05
+"""Axial load over the weight less one, within which energies are compared."""
+STEP_SIZES = (5e-2, 2e-2, 1e-3, 1e-4, 1e-5)
+STEP_SPAN = 0.5  # s
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a group of elements models, and the bearing of ours that models the same."""
+
+    name: str
+    bearing: LIRBearing
+    devices: tuple[str, ...]
+
+
+def kinds() -> tuple[Kind, ...]:
+    """Return the three groups."""
+    bearing = example_bearing(
+        friction=CoulombFriction(0.065), slip_capacity=3.0, rim_overrun=0.1
+    )  # fmt: skip
+    return (
+        Kind("pendulum", bearing.as_dcfp(rims=False), ("singleFPBearing", "FPBearingPTV")),
+        Kind("with rims", bearing.as_dcfp(), ("TripleFrictionPendulum", "TFP")),
+        Kind("LIR-DCFP", bearing, ("macro-model",)),
+    )
+
+
+def cases() -> list[Case]:
+    """Return the motions."""
+    return [
+        *(impact(speed, oblique=False) for speed in (0.1, 0.3, 1.0, 3.0)),
+        *(impact(speed, oblique=True) for speed in (0.3, 3.0)),
+        vertical("axial load down to zero, 2 Hz", 9.9, 0.5, 6.0),
+        vertical("axial load creeping to a hundredth", 9.7, 3.0, 1.0),
+        vertical("uplift and landing, 1.3 g", 13.0, 0.35, 6.0),
+        vertical("uplift and landing, 2 g", 20.0, 0.3, 8.0),
+        vertical("vertical at 38 Hz, resonance", 4.0, 1.0 / 38.0, 60.0),
+    ]
+
+
+def energies(done: Shaken, motion: GroundMotion, bearing: LIRBearing) -> tuple[float, float]:
+    """Return how far the balance of energy stays open, and the energy that the device made.
+
+    Parameters
+    ----------
+    done : Shaken
+        A run.
+    motion : GroundMotion
+        Acceleration of the ground.
+    bearing : LIRBearing
+        What the device stands for.
+
+    Returns
+    -------
+    (float, float)
+        Input less kinetic energy less work done on the device, over the largest input; and how much
+        of what the device had taken up, less what it stores, it gave back, over the largest.
+    """
+    if len(done.time) < 3:
+        return float("nan"), float("nan")
+    ground = np.column_stack(
+        [np.interp(done.time, motion.time, values, right=0.0) for values in motion.components.T]
+    )
+    push = -MASS * ground - np.array([0.0, 0.0, WEIGHT])
+    work = _work(done.force, done.displacement)
+    given = _work(push, done.displacement)
+    kinetic = 0.5 * MASS * (done.velocity**2).sum(axis=1)
+    gap = float(np.abs(given - kinetic - work).max() / np.abs(given).max())
+    pressed = np.maximum(-done.force[:, 2], 0.0)
+    place = (done.displacement - (done.displacement - done.middle) * done.middle.any())[:, :2]
+    reach = np.linalg.norm(place, axis=1)
+    stored = 0.5 * pressed**2 / bearing.resolved()["axial_stiffness"]
+    stored += 0.5 * pressed * reach**2 / bearing.effective_radius
+    # like is compared with like: off the rims, which store nothing there, and under the weight
+    alike = reach < 0.99 * bearing.lateral_capacity
+    alike &= np.abs(pressed / WEIGHT - 1.0) < ALIKE
+    taken = (work - stored)[alike]
+    drop = np.maximum.accumulate(taken) - taken
+    return gap, float(drop.max() / np.abs(work).max())
+
+
+def _work(force: Floats, displacement: Floats) -> Floats:
+    middle = 0.5 * (force[1:] + force[:-1])
+    steps = (middle * np.diff(displacement, axis=0)).sum(axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def peak_until(time: Floats, displacement: Floats, end: float) -> float:
+    """Return the largest horizontal displacement until a time [m]."""
+    return float(np.linalg.norm(displacement[time <= end + 1e-9, :2], axis=1).max())
+
+
+def reference_of(case: Case, kind: Kind, duration: float) -> xr.Dataset:
+    """Run the level 'rigid_body'."""
+    model = lumped_mass(kind.bearing, MASS)
+    data: xr.Dataset = quiet(
+        time_history, model, case.motion, duration, level="rigid_body", dt=1e-3
+    )
+    return data
+
+
+def ours(
+    case: Case, kind: Kind, level: str, dt: float, duration: float, reference: xr.Dataset
+) -> Entry:
+    """Run the element of this package."""
+    model = lumped_mass(kind.bearing, MASS)
+    data = quiet(time_history, model, case.motion, duration, dt=dt, level=level)
+    found = outcome(case.name, level, dt, data)
+    u = data["bearing_displacement"][:, 0].to_numpy()
+    return Entry(
+        case.name, kind.name, f"**element ({level})**", f"{1e3 * dt:g}",
+        found.status, found.reached, found.peak,
+        _error(data["time"].to_numpy(), u, reference), found.ledger, abs(given_back(data)),
+    )  # fmt: skip
+
+
+def _error(time: Floats, u: Floats, reference: xr.Dataset) -> float:
+    other = reference["bearing_displacement"][:, 0].to_numpy()
+    clock = reference["time"].to_numpy()
+    end = min(float(time[-1]), float(clock[-1]))
+    return 100.0 * abs(peak_until(time, u, end) / peak_until(clock, other, end) - 1.0)
+
+
+def theirs(
+    worker: Worker, case: Case, kind: Kind, device: str, dt: float, algorithms: Steps,
+    duration: float, reference: xr.Dataset,
+) -> Entry:  # fmt: skip
+    """Run an element of OpenSees."""
+    status, done = worker.run(
+        shake, make=DEVICES[device], bearing=kind.bearing, mass=MASS, motion=case.motion,
+        duration=duration, dt=dt, algorithms=algorithms,
+    )  # fmt: skip
+    setting = f"{1e3 * dt:g}, {NAMES[algorithms]}"
+    if done is None:
+        nothing = float("nan")
+        return Entry(case.name, kind.name, device, setting, status, nothing, nothing, nothing,
+                     nothing, nothing)  # fmt: skip
+    gap, made = energies(done, case.motion, kind.bearing)
+    return Entry(
+        case.name, kind.name, device, setting, done.status, float(done.time[-1]),
+        peak_until(done.time, done.displacement, np.inf),
+        _error(done.time, done.displacement, reference), gap, made,
+    )  # fmt: skip
+
+
+def run_cases(worker: Worker) -> list[Entry]:
+    """Run all cases with all elements."""
+    found = []
+    for case in cases():
+        for kind in kinds():
+            reference = reference_of(case, kind, case.duration)
+            levels = (("pendulum", DT), ("contact", 1e-3))[: 1 + ("uplift" in case.name)]
+            found += [ours(case, kind, level, dt, case.duration, reference) for level, dt in levels]
+            for device in kind.devices:
+                for algorithms, dt in SETTINGS:
+                    found.append(theirs(
+                        worker, case, kind, device, dt, algorithms, case.duration, reference
+                    ))  # fmt: skip
+        print(case.name, flush=True)
+    return found
+
+
+def run_steps(worker: Worker) -> list[Entry]:
+    """Run an impact at steps over almost four orders."""
+    case = impact(0.5, oblique=False)
+    found = []
+    for kind in kinds():
+        reference = reference_of(case, kind, STEP_SPAN)
+        for dt in STEP_SIZES:
+            found.append(ours(case, kind, "pendulum", dt, STEP_SPAN, reference))
+            found += [
+                theirs(worker, case, kind, device, dt, PLAIN, STEP_SPAN, reference)
+                for device in kind.devices
+            ]
+        print("steps", kind.name, flush=True)
+    return found
+
+
+def element_taken_back() -> float:
+    """Return the element's force over friction after a trial far off that was taken back."""
+    bearing = kinds()[2].bearing
+    element = Element(bearing)
+    squeeze = WEIGHT / bearing.resolved()["axial_stiffness"]
+    rest, far = np.zeros(12), np.zeros(12)
+    rest[8] = far[8] = -squeeze
+    far[6] = 2e-3
+    element.set_trial(rest, np.zeros(12), 0.0)
+    element.commit()
+    element.set_trial(far, np.zeros(12), 0.0)
+    element.revert_to_last_commit()
+    element.set_trial(rest, np.zeros(12), 0.0)
+    element.commit()
+    return float(element.resisting_force()[6] / (bearing.effective_friction * WEIGHT))
+
+
+def taken_back(worker: Worker) -> str:
+    """Return the table of what a step taken back leaves behind."""
+    rows = [("**element (pendulum)**", f"{element_taken_back():.3f}")]
+    for kind in kinds():
+        for device in kind.devices:
+            status, force = worker.run(
+                take_back, make=DEVICES[device], bearing=kind.bearing, load=WEIGHT
+            )
+            said = status if force is None else f"{force:.3f}"
+            if force is not None and np.isnan(force):
+                said = "the step did not fail"
+            rows.append((device, said))
+    return table(("model", "lateral force over friction force, at rest"), rows)
+
+
+def main() -> None:
+    """Run all and write the page."""
+    with Worker() as worker:
+        page = write(
+            run_cases(worker), run_steps(worker), taken_back(worker),
+            capacity=kinds()[1].bearing.lateral_capacity, dt=DT, alike=ALIKE,
+        )  # fmt: skip
+    TARGET.write_text(page, encoding="utf-8")
+    print(page)
+
+
+if __name__ == "__main__":
+    main()

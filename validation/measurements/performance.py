@@ -1,0 +1,230 @@
+"""Speed of the element and of the driver, measured: writes docs/performance.md.
+
+    python -m validation.measurements.performance
+
+Medians of several runs; ratios hold on a noisy machine, single times do not. Compile times are
+taken in child processes with an empty and with a filled kernel cache.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import subprocess  # runs this interpreter on the lines below  # noqa: S404
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from frames import GroundMotion, gravity, lumped_mass, moment_frame, time_history
+from frames._jit import kernel
+from lir_element import LIRBearing
+from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
+from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.element import Level, initial_state
+from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
+from lir_element.layout import WORK, Floats, Records, Words
+from validation.cases import example_bearing
+
+REPEATS = 9
+TARGET = Path(__file__).parents[2] / "docs" / "performance.md"
+
+START = "import numpy as np; from lir_element import *; "
+ELEMENT = START + (
+    "e = Element(LIRBearing(radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2, "
+    "friction=CoulombFriction(0.05), interface_friction=0.1)); e.tangent_stiffness(); e.commit()"
+)
+HISTORY = START + (
+    "from frames import *; b = LIRBearing(radius=1.0, slider_height=0.1, slider_radius=0.1, "
+    "capacity=0.2, friction=CoulombFriction(0.05), interface_friction=0.1); "
+    "time_history(lumped_mass(b, 1e5), GroundMotion(x=np.ones(20), dt=0.005))"
+)
+
+
+@kernel
+def repeat_element(
+    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
+    contacts: Contacts | None, path: Floats, dt: float, with_tangent: bool, k: Floats,
+    zero: Floats, axes: Floats,
+) -> int:  # fmt: skip
+    """Run trial (, tangent) and commit along `path` (n, 12); returns the iterations inside."""
+    v = np.zeros(12)
+    total = 0
+    for step in range(path.shape[0]):
+        bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt, zero)
+        if with_tangent:
+            bearing_tangent(props, new, work, contacts, 0, k, zero, axes)
+        bearing_commit(props, old, new, old_words, new_words, contacts, 0)
+        total += old[0].iterations
+    return total
+
+
+def element_path(bearing: LIRBearing, count: int, reach: float) -> Floats:
+    """Return displacements (count, 12): an orbit of radius `reach`, plates tilting slightly."""
+    t = np.linspace(0.0, 4.0 * np.pi, count)
+    path = np.zeros((count, 12))
+    path[:, 6] = reach * np.sin(t) * np.minimum(t, 1.0)
+    path[:, 7] = 0.6 * reach * np.sin(0.7 * t)
+    path[:, 3], path[:, 10] = 1e-3 * np.sin(t), 1e-3 * np.cos(t)
+    squeeze = bearing.resolved()["design_load"] / bearing.resolved()["axial_stiffness"]
+    length = bearing.effective_radius
+    path[:, 8] = length - squeeze - np.sqrt(length**2 - path[:, 6] ** 2 - path[:, 7] ** 2)
+    return path
+
+
+def element_microseconds(
+    bearing: LIRBearing, reach: float, level: Level, *, tangent: bool
+) -> tuple[float, float]:
+    """Return microseconds and inner iterations a state determination, medians."""
+    path = element_path(bearing, 20000 if level == "pendulum" else 4000, reach)
+    props = bearing.to_record()
+    times, iterations = [], 0
+    for _ in range(REPEATS):
+        old, new = initial_state(props), initial_state(props)
+        contacts = None
+        if level == "contact":
+            contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
+        began = time.perf_counter()
+        iterations = repeat_element(
+            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
+            0.001, tangent, np.zeros((12, 12)), np.zeros(3), np.eye(3),
+        )  # fmt: skip
+        times.append((time.perf_counter() - began) / len(path) * 1e6)
+    return statistics.median(times[1:]), iterations / len(path)
+
+
+def near_fault(scale: float) -> GroundMotion:
+    """Return a made three-component pulse motion of 10 s (a record is not needed for timing)."""
+    t = np.arange(0.0, 10.0, 0.01)
+    envelope = np.minimum(t / 2.0, 1.0) * np.minimum((10.0 - t) / 4.0, 1.0)
+    rng = np.random.default_rng(1)
+    waves = [
+        scale * a * envelope * (np.sin(2 * np.pi * t / p) + 0.15 * rng.normal(size=len(t)))
+        for a, p in ((1.7, 1.6), (1.2, 2.1), (0.8, 0.25))
+    ]
+    return GroundMotion(*waves, dt=0.01, name="made pulse")
+
+
+def run_microseconds(model: Any, dt: float) -> tuple[float, dict[str, Any]]:
+    """Return microseconds a step of the time loop (median), and the last run's attributes."""
+    times, attributes = [], {}
+    for _ in range(REPEATS):
+        attributes = time_history(model, near_fault(1.0), dt=dt).attrs
+        times.append(attributes["seconds_loop"] / attributes["steps"] * 1e6)
+    return statistics.median(times[1:]), attributes
+
+
+def start_seconds(code: str, folder: str) -> float:
+    """Return the seconds that a new process takes for `code`, kernels cached in `folder`."""
+    began = time.perf_counter()
+    subprocess.run(  # noqa: S603
+        [sys.executable, "-c", code], check=True, env={**os.environ, "LIR_CACHE_DIR": folder}
+    )
+    return time.perf_counter() - began
+
+
+def compile_rows() -> list[str]:
+    """Measure cold and cached starts."""
+    rows = []
+    for name, code in (("element", ELEMENT), ("time history", HISTORY)):
+        with tempfile.TemporaryDirectory() as folder:
+            cold = start_seconds(code, folder)
+            cached = statistics.median(start_seconds(code, folder) for _ in range(3))
+        imports = statistics.median(
+            start_seconds(code.split("; ")[1] + "; import frames", folder) for _ in range(3)
+        )
+        rows.append(f"| {name} | {cold:.1f} | {cached:.2f} | {imports:.2f} |")
+    return rows
+
+
+def element_rows() -> list[str]:
+    """Measure the element's state determination."""
+    rows = []
+    example = example_bearing(slip_capacity=1.0)
+    cases: list[tuple[str, LIRBearing, float, Level]] = [
+        ("LIR-DCFP, sliding", example_bearing(), 0.2, "pendulum"),
+        ("LIR-DCFP, rim contact and interface slip", example, 0.3, "pendulum"),
+        ("LIR-DCFP, Bouc-Wen friction, sliding", example_bearing(friction_law="bouc-wen"), 0.2,
+         "pendulum"),
+        ("DCFP, sliding", example_bearing().as_dcfp(), 0.2, "pendulum"),
+        ("LIR-DCFP, sliding", example_bearing(), 0.2, "contact"),
+        ("the same, 4 contact points an interface", example_bearing(contact_points=4), 0.2,
+         "contact"),
+        ("LIR-DCFP, rim contact and interface slip", example, 0.3, "contact"),
+    ]  # fmt: skip
+    for name, bearing, reach, level in cases:
+        with_tangent, iterations = element_microseconds(bearing, reach, level, tangent=True)
+        alone, _ = element_microseconds(bearing, reach, level, tangent=False)
+        rows.append(f"| {level} | {name} | {alone:.2f} | {with_tangent:.2f} | {iterations:.1f} |")
+    return rows
+
+
+def run_rows() -> list[str]:
+    """Measure the time loop."""
+    rows = []
+    building = moment_frame(bays=(2, 2), storeys=3, bearing=example_bearing(slider_radius=0.12))
+    tower = moment_frame(bays=(3, 3), storeys=8, bearing=example_bearing())
+    for name, model in (
+        ("one bearing, lumped mass", lumped_mass(example_bearing(), 204e3)),
+        ("demo building: 3 storeys, 9 bearings", building),
+        ("8 storeys, 16 bearings", tower),
+    ):
+        count = len(gravity(model).basis.bearing_dofs)
+        for dt in (0.005, 0.001):
+            cost, run = run_microseconds(model, dt)
+            rows.append(
+                f"| {name} | {run['degrees_of_freedom']} ({count}) | {dt:g} | {cost:.1f} | "
+                f"{run['newton_iterations'] / run['steps']:.2f} | {cost * 1e-6 / dt:.4f} |"
+            )
+    return rows
+
+
+def write() -> str:
+    """Measure everything and return the page."""
+    lines = [
+        "# Performance",
+        "",
+        "Written by `python -m validation.measurements.performance`; medians, on a machine with "
+        f"{os.cpu_count()} cores ({platform.machine()}), Python {platform.python_version()}, "
+        f"numba {numba.__version__}, numpy {np.__version__}.",
+        "",
+        "## Element",
+        "",
+        "Microseconds a state determination (20 000 steps along an orbit with tilting plates, at "
+        "the level 'contact' 4000; commit and energies included).",
+        "",
+        "| level | case | force only | with the 12 x 12 tangent | iterations inside |",
+        "|---|---|---|---|---|",
+        *element_rows(),
+        "",
+        "## Time history",
+        "",
+        "Ten seconds of a made three-component motion, Newmark, Newton's method to 1e-7 of the "
+        "weight. 'Share' is time of computation over time of the earthquake.",
+        "",
+        "| model | DOFs (of bearings) | dt (s) | µs a step | Newton iterations | share |",
+        "|---|---|---|---|---|---|",
+        *run_rows(),
+        "",
+        "## Start",
+        "",
+        "Seconds of a new process until the first result: with an empty kernel cache (compiling), "
+        "with a filled one, and for the imports alone.",
+        "",
+        "| first | cold | cached | imports |",
+        "|---|---|---|---|",
+        *compile_rows(),
+        "",
+    ]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    page = write()
+    TARGET.write_text(page, encoding="utf-8")
+    print(page)
