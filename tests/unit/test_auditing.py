@@ -14,13 +14,13 @@ from frames import (
     GroundMotion,
     audit,
     audit_report,
-    automatic,
     load,
     lumped_mass,
     moment_frame,
     save,
     time_history,
 )
+from frames.analysis import automatic
 from frames.results.auditing import centre_shift, is_missing, needed_level
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
 from lir_element.results.eccentricity import interface_eccentricity
