@@ -14,10 +14,9 @@ from frames import (
     gravity,
     modes,
     moment_frame,
-    static,
     storey_drift,
-    transient,
 )
+from frames.analysis import static, transient
 from frames.results.summary import table_of
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY as G
