@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import lir_element
+from lir_element._cache import Sources
 from lir_element._jit import kernels_of
 
-kernel = kernels_of(Path(lir_element.__file__).parent, Path(__file__).parent)
+_SOURCES = Sources(Path(lir_element.__file__).parent, Path(__file__).parent)
 
-inlined = kernels_of(Path(lir_element.__file__).parent, Path(__file__).parent, inline=True)
+kernel = kernels_of(_SOURCES)
+
+inlined = kernels_of(_SOURCES, inline=True)
 """The same for kernels that become part of their callers (see `kernels_of`)."""

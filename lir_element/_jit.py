@@ -1,24 +1,24 @@
-"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash.
-
-numba's own cache does not notice an edit in a *callee* of another file and would go on
-running the old code. The cache folder is therefore named by a hash over all sources that can end
-up in compiled code: the kernels of every package involved, and what they import.
-"""
+"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash."""
 
 from __future__ import annotations
 
-import hashlib
-import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import numba
-from numba.core import config
+from numba.core import config, event, sigutils
+from numba.core.ccallback import CFunc
+
+from lir_element._cache import KernelCache, Sources, cache_folder
+from lir_element._progress import Progress
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 F = TypeVar("F", bound="Callable[..., object]")
+
+OWN = Sources(Path(__file__).parent)
+"""What the kernels of this package depend on."""
 
 
 class KernelDecorator(Protocol):
@@ -29,39 +29,13 @@ class KernelDecorator(Protocol):
         ...
 
 
-COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
-            "bundles/*.py", "opensees/block/*.py", "opensees/portable/*.py")  # fmt: skip
-"""Patterns of the sources, in a package, that kernels consist of or import."""
-
-
-def compiled_sources(folder: Path) -> list[Path]:
-    """Return the sources of the package in `folder` that compiled code depends on, sorted."""
-    return sorted({path for pattern in COMPILED for path in folder.glob(pattern)})
-
-
-def source_hash(*folders: Path) -> str:
-    """Return a short hash over the sources of the packages in `folders` that kernels depend on."""
-    digest = hashlib.sha256()
-    for folder in folders:
-        for path in compiled_sources(folder):
-            digest.update(path.relative_to(folder).as_posix().encode())
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def cache_folder(*folders: Path) -> Path:
-    """Return the folder that holds the compiled kernels of the packages in `folders`."""
-    base = os.environ.get("LIR_CACHE_DIR") or Path.home() / ".cache" / "lir-dcfp"
-    return Path(base) / source_hash(*folders)
-
-
-def kernels_of(*folders: Path, inline: bool = False) -> KernelDecorator:
-    """Make a decorator that compiles kernels of the packages in `folders`.
+def kernels_of(sources: Sources, inline: bool = False) -> KernelDecorator:
+    """Make a decorator that compiles the kernels of some packages.
 
     Parameters
     ----------
-    *folders : Path
-        Packages whose sources the cache depends on.
+    sources : Sources
+        What the kernels depend on, by which they are kept on disk.
     inline : bool
         Whether a kernel becomes part of those that call it: for kernels that pass bundles of many
         arrays on, whose every call would otherwise cost as much as a small kernel's work.
@@ -71,18 +45,12 @@ def kernels_of(*folders: Path, inline: bool = False) -> KernelDecorator:
     KernelDecorator
         The decorator.
     """
-    target = str(cache_folder(*folders))
 
     def decorate(function: F) -> F:
-        kept = config.CACHE_DIR
-        config.CACHE_DIR = target
-        try:
-            compiled: F = numba.njit(
-                cache=True, error_model="numpy", nogil=True, forceinline=inline
-            )(function)
-        finally:
-            config.CACHE_DIR = kept
-        return compiled
+        compiled: Any = numba.njit(error_model="numpy", nogil=True, forceinline=inline)(function)
+        if not config.DISABLE_JIT:  # else it is the plain function
+            compiled._cache = KernelCache(function, sources)
+        return cast("F", compiled)
 
     return decorate
 
@@ -101,17 +69,28 @@ def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
         The decorator; what it returns has the function's `address`. It compiles at once (or takes
         the code from the cache).
     """
-    target = str(cache_folder(Path(__file__).parent))
+    types = sigutils.normalize_signature(signature)
 
     def decorate(function: Callable[..., Any]) -> Any:
-        kept = config.CACHE_DIR
-        config.CACHE_DIR = target
-        try:
-            return numba.cfunc(signature, cache=True, error_model="numpy")(function)
-        finally:
-            config.CACHE_DIR = kept
+        compiled: Any = CFunc(function, types, locals={}, options={"error_model": "numpy"})
+        compiled._cache = KernelCache(function, OWN)
+        compiled.compile()
+        return compiled
 
     return decorate
 
 
-kernel = kernels_of(Path(__file__).parent)
+kernel = kernels_of(OWN)
+"""The kernel decorator of this package."""
+
+
+def _ours(dispatcher: Any) -> bool:
+    return isinstance(getattr(dispatcher, "_cache", None), KernelCache)
+
+
+def _where() -> str:
+    folder = cache_folder()
+    return f"they are kept in {folder}" if folder else "there is no home to keep them in"
+
+
+event.register("numba:compile", Progress(_ours, _where))

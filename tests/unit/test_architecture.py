@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lir_element
-from lir_element._jit import compiled_sources
+from lir_element._cache import compiled_sources
 
 ROOT = Path(lir_element.__file__).parents[1]
 PACKAGES = ("lir_element", "frames", "validation")

@@ -6,6 +6,7 @@ import subprocess  # what the self-test runs is exchanged here  # noqa: S404
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -26,7 +27,7 @@ EXCEPTION = "raise RuntimeError('the spring is off')"
 @pytest.fixture
 def door(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Any]:
     """An empty verdict file, an unasked self-test, and two nodes to put a bearing between."""
-    monkeypatch.setattr(selftest, "cache_folder", lambda *_: tmp_path)
+    monkeypatch.setattr(selftest, "OWN", SimpleNamespace(folder=lambda: tmp_path))
     monkeypatch.setattr(plugin._SESSION, "told", False)
     selftest.why_not_fast.cache_clear()
     symbols.addresses.cache_clear()
@@ -62,6 +63,17 @@ def test_the_verdict_is_kept(door: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     assert len(runs) == 1
     assert list(json.loads(door.read_text(encoding="utf-8")).values()) == [""]
     assert os.listdir(door.parent) == ["opensees.json"]  # no partial file
+
+
+@pytest.mark.parametrize("content", ["", "{", "[1]", '{"another": ""}'])
+def test_a_damaged_verdict_is_asked_for_again(
+    door: Path, monkeypatch: pytest.MonkeyPatch, content: str
+) -> None:
+    runs = instead(monkeypatch, "pass")
+    door.write_text(content, encoding="utf-8")
+    assert selftest.why_not_fast() == ""
+    assert len(runs) == 1
+    assert "" in json.loads(door.read_text(encoding="utf-8")).values()
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-import os
 import subprocess  # noqa: S404  # this module, by our own interpreter
 import sys
 from pathlib import Path
@@ -21,7 +20,9 @@ from typing import Any
 import numpy as np
 
 from lir_element import CoulombFriction, LIRBearing
-from lir_element._jit import cache_folder
+from lir_element._cache import keep
+from lir_element._jit import OWN
+from lir_element._progress import say
 from lir_element.opensees.block.hosted import Hosted
 from lir_element.opensees.fast.grafted import Grafted
 from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
@@ -47,16 +48,24 @@ def why_not_fast() -> str:
         path = library_path()
     except NotPossibleError as error:
         return str(error)
-    verdicts = cache_folder(Path(__file__).parents[2]) / "opensees.json"
+    folder = OWN.folder()
+    verdicts = folder / "opensees.json" if folder else None
     key = _fingerprint(path)
-    known = json.loads(verdicts.read_text(encoding="utf-8")) if verdicts.exists() else {}
+    known = _kept(verdicts)
     if key not in known:
+        say("trying whether OpenSees takes the bearing by the fast route: once, a minute or three")
         known[key] = _run_child()
-        verdicts.parent.mkdir(parents=True, exist_ok=True)
-        partial = verdicts.with_suffix(f".{os.getpid()}")
-        partial.write_text(json.dumps(known, indent=1), encoding="utf-8")
-        partial.replace(verdicts)
-    return str(known[key])
+        keep(verdicts, json.dumps(known, indent=1).encode())
+    return known[key]
+
+
+def _kept(verdicts: Path | None) -> dict[str, str]:
+    # A file that is missing or damaged holds no verdict.
+    try:
+        known = json.loads(verdicts.read_bytes()) if verdicts else {}
+    except (OSError, ValueError):
+        return {}
+    return {k: str(v) for k, v in known.items()} if isinstance(known, dict) else {}
 
 
 def _fingerprint(path: Path) -> str:

@@ -1,0 +1,210 @@
+"""Compiled kernels kept on disk: never a stale one, and no failure of the disk ends a run.
+
+numba's own cache does not notice an edit in a *callee* of another file, and where its folder cannot
+be written it takes another one, which the hash of the sources does not name. Here a kernel is kept
+under the hash of all sources that it may depend on, behind a checksum. Whatever goes wrong (no
+folder, no space, a damaged file, sources edited since) means compiling in memory, with one warning.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import pickle  # noqa: S403  # what this program has written, behind a checksum
+import sys
+import uuid
+import warnings
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+from numba.core.caching import NullCache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+
+COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
+            "bundles/*.py", "opensees/block/*.py", "opensees/portable/*.py")  # fmt: skip
+"""Patterns of the sources, in a package, that kernels consist of or import."""
+
+VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
+"""What else the code depends on, beside the processor."""
+
+_DIGEST = hashlib.sha256().digest_size
+_UNREADABLE = (pickle.PickleError, AttributeError, EOFError, ImportError, LookupError, TypeError,
+               ValueError)  # fmt: skip
+_said: set[str] = set()
+
+
+def compiled_sources(folder: Path) -> list[Path]:
+    """Return the sources of the package in `folder` that compiled code depends on, sorted."""
+    return sorted({path for pattern in COMPILED for path in folder.glob(pattern)})
+
+
+def cache_folder() -> Path | None:
+    """Return the folder of all caches: LIR_CACHE_DIR, or one at home; None without a home."""
+    try:
+        chosen = os.environ.get("LIR_CACHE_DIR")
+        base = Path(chosen).expanduser() if chosen else Path.home() / ".cache" / "lir-dcfp"
+        return base.absolute()
+    except (OSError, RuntimeError):  # no home, or a working directory that is gone
+        return None
+
+
+class Sources:
+    """The sources that the kernels of some packages depend on, as this process found them.
+
+    Parameters
+    ----------
+    *folders : Path
+        The packages.
+    """
+
+    def __init__(self, *folders: Path) -> None:
+        self._paths = [(folder, path) for folder in folders for path in compiled_sources(folder)]
+        self._stamps = self._look()
+        self.hash = self._digest()
+        self._same = True
+
+    def _look(self) -> list[tuple[int, int]]:
+        stats = [path.stat() for _, path in self._paths]
+        return [(stat.st_mtime_ns, stat.st_size) for stat in stats]
+
+    def _digest(self) -> str:
+        digest = hashlib.sha256()
+        for folder, path in self._paths:
+            digest.update(path.relative_to(folder).as_posix().encode())
+            digest.update(path.read_bytes())
+        return digest.hexdigest()[:16]
+
+    def unchanged(self) -> bool:
+        """Return whether the files on disk are still those of the hash."""
+        try:
+            stamps = self._look()
+            if stamps != self._stamps:
+                self._stamps, self._same = stamps, self._digest() == self.hash
+        except OSError:
+            self._same = False
+        return self._same
+
+    def folder(self) -> Path | None:
+        """Return the folder that holds what belongs to these sources; None without a home."""
+        base = cache_folder()
+        return None if base is None else base / self.hash
+
+
+def keep(path: Path | None, content: bytes) -> bool:
+    """Write a file of the cache: all of it or nothing.
+
+    Parameters
+    ----------
+    path : Path or None
+        The file; None where there is no folder for it.
+    content : bytes
+        What it shall hold.
+
+    Returns
+    -------
+    bool
+        Whether it is kept. If not, the first time a warning says why and names the remedy.
+    """
+    if path is None:
+        _warn("cannot be kept: this user has no home folder", again=True)
+        return False
+    partial = path.with_name(f"{path.name}.{uuid.uuid4().hex[:12]}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial.write_bytes(content)
+        partial.replace(path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            partial.unlink()
+        _warn(f"cannot be kept in {path.parent} ({error.strerror or error})", again=True)
+        return False
+    return True
+
+
+def _warn(what: str, again: bool) -> None:
+    # Once a process and kind of trouble: a run may compile a hundred kernels.
+    kind = "again" if again else what
+    if kind in _said:
+        return
+    _said.add(kind)
+    cost = ", so that every start compiles them again" if again else ""
+    warnings.warn(
+        f"compiled kernels {what}{cost}. Set LIR_CACHE_DIR to a folder that can be written and has "
+        "some 200 MB free.",
+        RuntimeWarning,
+        stacklevel=2,
+    )
+
+
+class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
+    """Where one kernel is looked for before it is compiled, and kept afterwards.
+
+    Parameters
+    ----------
+    function : callable
+        The kernel as Python.
+    sources : Sources
+        What it may depend on.
+    """
+
+    def __init__(self, function: Any, sources: Sources) -> None:
+        self._name = f"{function.__module__}.{function.__qualname__}"
+        self._sources = sources
+
+    @property
+    def cache_path(self) -> str | None:
+        """The folder of the kernel's file; None without a home."""
+        folder = self._sources.folder()
+        return None if folder is None else str(folder)
+
+    def _key(self, signature: Any, codegen: Any) -> tuple[Any, ...]:
+        return (self._name, signature, codegen.magic_tuple(), VERSIONS)
+
+    def _path(self, key: tuple[Any, ...]) -> Path | None:
+        folder = self._sources.folder()
+        code = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
+        return None if folder is None else folder / f"{self._name}-{code}.kernel"
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the compiled kernel for a signature, or None if it has to be compiled."""
+        target_context.refresh()
+        key = self._key(sig, target_context.codegen())
+        path = self._path(key)
+        if path is None or not self._sources.unchanged():
+            return None
+        try:
+            content = path.read_bytes()
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        except OSError as error:
+            _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
+            return None
+        reduced = self._opened(key, content)
+        if reduced is None:
+            _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
+            return None
+        return CompileResult._rebuild(target_context, *reduced)
+
+    @staticmethod
+    def _opened(key: tuple[Any, ...], content: bytes) -> Any:
+        # What is kept, or None if the file is damaged or another kernel's.
+        if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
+            return None
+        try:
+            known, reduced = pickle.loads(content[_DIGEST:])  # noqa: S301  # written here
+        except _UNREADABLE:
+            return None
+        return reduced if known == key else None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a compiled kernel, if it may be kept and there is room for it."""
+        lasting = not data.library.has_dynamic_globals and not data.lifted
+        if "again" in _said or not lasting or not self._sources.unchanged():
+            return
+        key = self._key(sig, data.codegen)
+        content = dumps((key, data._reduce()))
+        keep(self._path(key), hashlib.sha256(content).digest() + content)

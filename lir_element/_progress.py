@@ -1,0 +1,115 @@
+"""A word while kernels compile: the first run of an installation takes a minute or three.
+
+Written to the standard error, once: a line that says what happens and, on a terminal, how far it
+is. Nothing is written where the kernels come from the cache, nor with LIR_QUIET=1.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from numba.core import event
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+PATIENCE = 1.0
+"""Seconds of compiling before anything is said: a kernel or two are not worth a word."""
+
+_WIDTH = 78
+
+
+def quiet() -> bool:
+    """Return whether LIR_QUIET asks for silence."""
+    return os.environ.get("LIR_QUIET", "") not in {"", "0"}
+
+
+def say(text: str) -> None:
+    """Write a line to the standard error, unless LIR_QUIET asks for silence."""
+    _write(f"lir-dcfp: {text}\n")
+
+
+def _write(text: str) -> bool:
+    # Whether it was written: a program may have closed its standard error, or have none.
+    if quiet() or sys.stderr is None:
+        return False
+    try:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+    except (OSError, ValueError):
+        return False
+    return True
+
+
+def on_terminal() -> bool:
+    """Return whether the standard error is a terminal."""
+    try:
+        return sys.stderr is not None and sys.stderr.isatty()
+    except ValueError:  # closed
+        return False
+
+
+class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
+    """Follows the compiler, which compiles a kernel inside of the one that calls it.
+
+    Parameters
+    ----------
+    ours : callable
+        Whether a numba dispatcher belongs to this program.
+    where : callable
+        In words, what becomes of the kernels.
+    clock : callable
+        Seconds, from any origin.
+    """
+
+    def __init__(
+        self,
+        ours: Callable[[Any], bool],
+        where: Callable[[], str],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._ours = ours
+        self._where = where
+        self._clock = clock
+        self._open: list[str] = []
+        self._began = 0.0
+        self._spent = 0.0
+        self._done = 0
+        self._told = False
+        self._drawn = False
+
+    def on_start(self, event: Any) -> None:
+        """Take note of a kernel whose compilation begins."""
+        if not self._ours(event.data["dispatcher"]):
+            return
+        if not self._open:
+            self._began = self._clock()
+        self._open.append(event.data["dispatcher"].__name__)
+        self._show()
+
+    def on_end(self, event: Any) -> None:
+        """Take note of a kernel that is compiled, or failed to."""
+        if not self._ours(event.data["dispatcher"]):
+            return
+        self._open.pop()
+        self._done += 1
+        if self._open:
+            self._show()
+            return
+        self._spent += self._clock() - self._began
+        if self._drawn:  # what comes next shall find an empty line
+            self._drawn = not _write(f"\r{'':{_WIDTH}}\r")
+
+    def _show(self) -> None:
+        seconds = self._spent + self._clock() - self._began
+        if seconds < PATIENCE:
+            return
+        if not self._told:
+            say(f"compiling kernels for the first use, one to three minutes; {self._where()}")
+            self._told = True
+        if on_terminal():
+            line = f"  {self._done} kernels, {seconds:.0f} s: {self._open[-1]}"
+            self._drawn = _write(f"\r{line[:_WIDTH]:{_WIDTH}}")

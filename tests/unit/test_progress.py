@@ -1,0 +1,128 @@
+"""What is said while kernels compile."""
+
+import io
+import os
+import subprocess  # what a new process writes  # noqa: S404
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import lir_element
+from lir_element._progress import Progress
+
+ROOT = Path(lir_element.__file__).parents[1]
+SAID = "lir-dcfp: compiling kernels for the first use, one to three minutes; they are kept in /c\n"
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+class Compiler:
+    """Compiles a kernel of so many seconds, and first those that it calls."""
+
+    def __init__(self, progress: Progress) -> None:
+        self.now = 0.0
+        self.progress = progress
+
+    def compile(self, name: str, seconds: float, *calls: tuple[Any, ...]) -> None:
+        event = SimpleNamespace(data={"dispatcher": SimpleNamespace(__name__=name)})
+        self.progress.on_start(event)
+        for call in calls:
+            self.compile(*call)
+        self.now += seconds
+        self.progress.on_end(event)
+
+
+@pytest.fixture
+def compiler(monkeypatch: pytest.MonkeyPatch) -> Compiler:
+    monkeypatch.delenv("LIR_QUIET", raising=False)
+    made: list[Compiler] = []
+    made.append(
+        Compiler(
+            Progress(
+                lambda d: d.__name__ != "foreign",
+                lambda: "they are kept in /c",
+                lambda: made[0].now,
+            )
+        )
+    )
+    return made[0]
+
+
+@pytest.fixture
+def written(monkeypatch: pytest.MonkeyPatch) -> Callable[[type[io.StringIO]], io.StringIO]:
+    def to(kind: type[io.StringIO]) -> io.StringIO:
+        stream = kind()
+        monkeypatch.setattr(sys, "stderr", stream)
+        return stream
+
+    return to
+
+
+def test_one_line_where_nobody_watches(compiler: Compiler, written: Any) -> None:
+    stream = written(io.StringIO)
+    compiler.compile("run", 20.0, ("trial", 3.0, ("slip", 1.0)), ("commit", 2.0))
+    compiler.compile("audit", 5.0, ("tangent", 3.0))
+    assert stream.getvalue() == SAID
+
+
+def test_progress_on_a_terminal(compiler: Compiler, written: Any) -> None:
+    stream = written(Terminal)
+    compiler.compile("run", 20.0, ("trial", 3.0, ("slip", 1.0)), ("commit", 2.0))
+    assert stream.getvalue().startswith(SAID)
+    shown = [part.rstrip() for part in stream.getvalue()[len(SAID) :].split("\r")]
+    assert shown == [
+        "", "  1 kernels, 1 s: trial", "  2 kernels, 4 s: run", "  2 kernels, 4 s: commit",
+        "  3 kernels, 6 s: run", "", "",
+    ]  # fmt: skip
+
+
+def test_a_small_kernel_is_not_worth_a_word(compiler: Compiler, written: Any) -> None:
+    stream = written(Terminal)
+    compiler.compile("slip", 0.4)
+    compiler.compile("foreign", 90.0)
+    assert stream.getvalue() == ""
+    compiler.compile("run", 3.0, ("trial", 0.7))
+    assert stream.getvalue().startswith(SAID)  # with the one before it is more than a second
+
+
+def test_silence_on_request(
+    compiler: Compiler, written: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LIR_QUIET", "1")
+    stream = written(Terminal)
+    compiler.compile("run", 20.0, ("trial", 3.0))
+    assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_without_a_standard_error(
+    compiler: Compiler, monkeypatch: pytest.MonkeyPatch, closed: bool
+) -> None:
+    stream = io.StringIO()
+    stream.close()
+    monkeypatch.setattr(sys, "stderr", stream if closed else None)
+    compiler.compile("run", 20.0, ("trial", 3.0))
+    assert compiler.now == 23.0
+
+
+def test_the_compiler_is_followed(tmp_path: Path) -> None:
+    """One line in the first process, none in the next, which takes the kernels from the cache."""
+    code = (
+        "from lir_element import _progress; _progress.PATIENCE = 0.0; "
+        "from lir_element.kernels.rotation import coefficients; coefficients(1.0)"
+    )
+    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(tmp_path), "LIR_QUIET": "0"}
+    told = [
+        subprocess.run(  # noqa: S603
+            [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
+        ).stderr
+        for _ in range(2)
+    ]
+    assert told == [SAID.replace("/c", str(tmp_path)), ""]
