@@ -318,7 +318,7 @@ def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") 
     shapes = np.asarray(system.transform @ q).reshape(-1, 6, len(omega2))
     shares = (system.inertia_load.T @ q) ** 2
     total = system.node_mass[:, :3].sum(axis=0)
-    total[total == 0.0] = np.inf  # a plane model: nothing takes part out of its plane
+    total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
     return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
 
 

@@ -213,7 +213,8 @@ def _interface_modes(
 
 def _largest(system: System, direction: FloatArray, places: IntArray) -> str:
     # Name of the largest displacement of a direction over some of the free ones.
-    return system.dof_labels[places[int(np.argmax(np.abs(direction)))]]
+    place = int(places[int(np.argmax(np.abs(direction)))])
+    return system.dof_labels[place]
 
 
 def _damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:

@@ -50,9 +50,7 @@ def with_matrix_damping(
     )
 
 
-def _with_lag(
-    basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray
-) -> Basis:
+def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray) -> Basis:
     count = still.shape[1]
     if not count:
         return basis

@@ -70,7 +70,7 @@ class Isolation:
         if self.tied:
             lines.append(f"{len(self.tied)} rigid diaphragm(s) over the base nodes")
         lines.append(
-            "bring up the loads again; constraints('Transformation') and an unsymmetric system, "
+            "find equilibrium next; constraints('Transformation') and an unsymmetric system, "
             "as system('UmfPack'), are needed"
         )
         return "\n".join([*lines, *self.notes])
@@ -127,6 +127,8 @@ def isolate(
     ------
     ValueError
         If something is not what it must be; the model is as it was.
+    TypeError
+        If a bearing is not a LIRBearing, or a tag or unit no number.
     RuntimeError
         If the route asked for is not possible; the model is as it was.
 
@@ -147,8 +149,9 @@ def isolate(
     axes: supports (`base_rotations`), base beams or continuous columns. A bearing does not.
 
     Call it where the base nodes are where they were built, before the gravity analysis or after
-    it; bring the loads up (again) then, for now the bearings carry them. Rayleigh damping that
-    is set later by ``rayleigh`` acts on the bearings' elements, too: give it by region.
+    it; find equilibrium then (one static step at least), for now the bearings carry the loads.
+    ``rayleigh`` leaves the bearings alone, but its part by mass, and modal damping, also damp the
+    motion of the whole building on them.
 
     Examples
     --------

@@ -51,7 +51,12 @@ def table(ops, up="z", length=1.0, force=1.0, *, fibres=False, base_mass=5e3, su
     ops.geomTransf("PDelta", 1, 1.0, 0.0, 0.0)
     ops.geomTransf("Linear", 2, *((0.0, 0.0, 1.0) if up == "z" else (0.0, 1.0, 0.0)))
     stress, second = force / length**2, length**4
-    beam = (0.02 / length**2, 2e11 / stress, 8e10 / stress, *(v / second for v in (1e-4, 2e-4, 2e-4)))
+    beam = (
+        0.02 / length**2,
+        2e11 / stress,
+        8e10 / stress,
+        *(v / second for v in (1e-4, 2e-4, 2e-4)),
+    )
     if fibres:
         ops.uniaxialMaterial("Steel01", 1, YIELD / stress, 2e11 / stress, 0.02)
         ops.section("Fiber", 1, "-GJ", 1e7 / (force * length**2))
