@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from scipy import linalg, sparse
+from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames._validate import ModelError
 from frames.assembly.assemble import assemble, geometric_stiffness, member_axial_forces
 from frames.assembly.basis import Basis, bearing_rows, build_basis
+from frames.assembly.natural_modes import UnstableError, natural_modes
 from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
 from frames.kernels.stepping import solve_gravity
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
@@ -263,7 +264,7 @@ class Modes:
     shapes : ndarray, (n_nodes, 6, n)
         Nodal displacements of each mode, scaled to a modal mass of 1 kg.
     mass_ratios : ndarray, (n, 3)
-        Share of the total mass that takes part along x, y, z.
+        Share of the total mass that takes part along x, y, z; 0 where there is none.
     """
 
     periods: FloatArray
@@ -287,7 +288,7 @@ def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") 
     Returns
     -------
     Modes
-        Periods, shapes and participating masses (scipy.linalg.eigh, dense).
+        Periods, shapes and participating masses (dense; frames/assembly/natural_modes.py).
 
     Raises
     ------
@@ -304,29 +305,20 @@ def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") 
     system = state.system
     k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
     m = system.mass.toarray()
-    massive = np.flatnonzero(m.any(axis=1))
-    massless = np.setdiff1d(np.arange(len(m)), massive)
-    follow = np.zeros((len(massless), len(massive)))
-    if len(massless):
-        follow = -linalg.solve(k[np.ix_(massless, massless)], k[np.ix_(massless, massive)])
-    condensed = k[np.ix_(massive, massive)] + k[np.ix_(massive, massless)] @ follow
-    count = min(count, len(massive))
-    omega2, vectors = linalg.eigh(
-        0.5 * (condensed + condensed.T),
-        m[np.ix_(massive, massive)],
-        subset_by_index=[0, count - 1],
-    )
-    if omega2[0] <= 0.0:
+    try:
+        found = natural_modes(k, m, count)
+    except UnstableError as error:
+        label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
         message = (
-            f"the first mode has no positive stiffness (eigenvalue {omega2[0]:.4g} 1/s2): with "
+            f'the first mode has no positive stiffness, at "{label}": with '
             f'bearings="{bearings}" the frame is unstable under its permanent loads'
         )
-        raise ModelError(message)
-    q = np.zeros((len(m), count))
-    q[massive], q[massless] = vectors, follow @ vectors
-    shapes = np.asarray(system.transform @ q).reshape(-1, 6, count)
+        raise ModelError(message) from error
+    omega2, q = found.omega2, found.shapes
+    shapes = np.asarray(system.transform @ q).reshape(-1, 6, len(omega2))
     shares = (system.inertia_load.T @ q) ** 2
     total = system.node_mass[:, :3].sum(axis=0)
+    total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
     return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
 
 

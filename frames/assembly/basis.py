@@ -5,7 +5,8 @@ motion as the quasi-static one that follows b plus all modes with b fixed (Hurty
 Bampton 1968), ``q_r = Psi q_b + Phi eta``, makes stiffness and damping of the rest diagonal: a
 time step of any size costs a small dense solve in b and a division a mode. All modes are kept, so
 this is the full model in other coordinates, not an approximation. Degrees of freedom without mass
-follow statically and are eliminated first, which is exact too.
+follow statically and are eliminated first, which is exact too; so do modes with next to no mass
+(frames/assembly/natural_modes.py), whose periods are below 1e-6 of the longest.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from scipy import linalg, sparse
 
 from frames._validate import ModelError
 from frames.assembly.matrix_damping import with_matrix_damping
+from frames.assembly.natural_modes import UnstableError, natural_modes, weakest
 from frames.model.damping import ModalDamping, RayleighDamping
 
 if TYPE_CHECKING:
@@ -37,7 +39,7 @@ class Basis:
     expand_b, expand_e : ndarray, (n_free, n_b), (n_free, n_e)
         ``q = expand_b @ b + expand_e @ eta + offset``.
     offset : ndarray, (n_free,)
-        Static displacement of massless DOFs under their own loads.
+        Static displacement of what has no mass under its own loads.
     mass_b, mass_be : ndarray, (n_b, n_b), (n_b, n_e)
         Mass of b, and what couples it with eta.
     mass_e : ndarray, (n_e,)
@@ -128,15 +130,20 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
     m = mass[np.ix_(kept, kept)]
     load = system.load[kept] + follow.T @ system.load[massless]
     inertia = system.inertia_load[kept]
-    psi, phi, omega2 = _interface_modes(system, k, m, kept, n_b)
+    psi, phi, omega2, static = _interface_modes(system, k, m, kept, n_b)
     to_kept_b = np.vstack([np.eye(n_b), psi])
     to_kept_e = np.vstack([np.zeros((n_b, phi.shape[1])), phi])
     expand_b, expand_e = np.zeros((n_free, n_b)), np.zeros((n_free, phi.shape[1]))
-    offset = np.zeros(n_free)
-    offset[massless] = offset_m
-    for expand, part in ((expand_b, to_kept_b), (expand_e, to_kept_e)):
+    still = np.zeros((n_free, static.shape[1]))
+    for expand, part in (
+        (expand_b, to_kept_b),
+        (expand_e, to_kept_e),
+        (still, np.vstack([np.zeros((n_b, static.shape[1])), static])),
+    ):
         expand[kept] = part
         expand[massless] = follow @ part
+    offset = still @ (static.T @ load[n_b:])
+    offset[massless] += offset_m
     damping_e, beta = _damping(damping, omega2)
     basis = Basis(
         bearing_dofs=touched,
@@ -159,7 +166,8 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
     )
     if not system.damping.nnz:
         return basis
-    return with_matrix_damping(basis, system.damping.toarray(), stiffness, massless)
+    still = np.hstack([np.eye(n_free)[:, massless], still])
+    return with_matrix_damping(basis, system.damping.toarray(), stiffness, still)
 
 
 def _static_following(
@@ -173,7 +181,7 @@ def _static_following(
     try:
         solution = linalg.solve(block, right, assume_a="pos")
     except linalg.LinAlgError as error:
-        label = system.dof_labels[massless[int(np.argmin(np.diag(block)))]]
+        label = _largest(system, weakest(block), massless)
         message = (
             f'the structure is unstable under its permanent loads near "{label}" (a degree of '
             "freedom without mass): reduce the loads or stiffen the members there"
@@ -184,21 +192,29 @@ def _static_following(
 
 def _interface_modes(
     system: System, k: FloatArray, m: FloatArray, kept: IntArray, n_b: int
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    # Quasi-static following of b, mass-normalised modes with b held, squared frequencies.
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    # Quasi-static following of b; with b held the mass-normalised modes, their squared
+    # frequencies, and shapes without mass.
     if len(kept) == n_b:
-        return np.zeros((0, n_b)), np.zeros((0, 0)), np.zeros(0)
+        return np.zeros((0, n_b)), np.zeros((0, 0)), np.zeros(0), np.zeros((0, 0))
     inner = k[n_b:, n_b:]
-    omega2, phi = linalg.eigh(_symmetric(inner), _symmetric(m[n_b:, n_b:]))
-    if omega2[0] <= 0.0:
-        label = system.dof_labels[kept[n_b + int(np.argmax(np.abs(phi[:, 0])))]]
+    try:
+        omega2, phi, static = natural_modes(inner, m[n_b:, n_b:])
+    except UnstableError as error:
+        label = _largest(system, error.direction, kept[n_b:])
         message = (
-            "the structure buckles under its permanent loads with its bearings held: lowest "
-            f'eigenvalue {omega2[0]:.4g} 1/s2 at "{label}"; reduce the loads or stiffen columns'
+            "the structure buckles under its permanent loads with its bearings held, at "
+            f'"{label}": reduce the loads or stiffen columns'
         )
-        raise ModelError(message)
+        raise ModelError(message) from error
     psi = -linalg.solve(_symmetric(inner), k[n_b:, :n_b], assume_a="pos")
-    return psi, phi, omega2
+    return psi, phi, omega2, static
+
+
+def _largest(system: System, direction: FloatArray, places: IntArray) -> str:
+    # Name of the largest displacement of a direction over some of the free ones.
+    place = int(places[int(np.argmax(np.abs(direction)))])
+    return system.dof_labels[place]
 
 
 def _damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:

@@ -1,7 +1,7 @@
 """Damping given as a matrix, in bearing coordinates and fixed-interface modes.
 
 Such damping couples the modes with each other and with the bearings' displacements. Where it does
-not follow the stiffness, displacements without mass do not follow the rest statically any more:
+not follow the stiffness, directions without mass do not follow the rest statically any more:
 they lag. Their deviation from the static shape then joins the modes, as coordinates without mass.
 """
 
@@ -14,14 +14,14 @@ import numpy as np
 from scipy import linalg
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, IntArray
+    from frames._types import FloatArray
     from frames.assembly.basis import Basis
 
 _CONSISTENT = 1e-6  # cosine of damping forces, up to which massless ones follow statically
 
 
 def with_matrix_damping(
-    basis: Basis, damping: FloatArray, stiffness: FloatArray, massless: IntArray
+    basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray
 ) -> Basis:
     """Add damping that is given as a matrix.
 
@@ -31,15 +31,15 @@ def with_matrix_damping(
         The frame without it.
     damping, stiffness : ndarray, (n_free, n_free)
         Damping of the motion relative to the ground; stiffness, geometric part included.
-    massless : ndarray
-        Places of the free displacements that follow the rest statically.
+    still : ndarray, (n_free, n_still)
+        Directions without mass, which follow the rest statically.
 
     Returns
     -------
     Basis
         With full damping matrices, and coordinates without mass where massless ones lag.
     """
-    basis = _with_lag(basis, damping, stiffness, massless)
+    basis = _with_lag(basis, damping, stiffness, still)
     to_b, to_e = basis.expand_b, basis.expand_e
     own_b, own_e = to_b.T @ damping @ to_b, to_e.T @ damping @ to_e
     return replace(
@@ -50,23 +50,22 @@ def with_matrix_damping(
     )
 
 
-def _with_lag(
-    basis: Basis, damping: FloatArray, stiffness: FloatArray, massless: IntArray
-) -> Basis:
-    if not len(massless):
+def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray) -> Basis:
+    count = still.shape[1]
+    if not count:
         return basis
+    still = still / np.sqrt(np.sum(still * (stiffness @ still), axis=0))
     shapes = np.hstack([basis.expand_b, basis.expand_e])
-    forces = np.abs(damping[massless] @ shapes)
+    forces = np.abs(still.T @ damping @ shapes)
     # the work of each shape with itself, all terms counted positive: no round-off where it is zero
-    work = np.sum(np.abs(shapes) * (np.abs(damping) @ np.abs(shapes)), axis=0)
-    bound = np.sqrt(np.outer(damping.diagonal()[massless].clip(0.0), work))
-    if not (forces > _CONSISTENT * bound).any():
+    work, own = (
+        np.sum(np.abs(part) * (np.abs(damping) @ np.abs(part)), axis=0) for part in (shapes, still)
+    )
+    if not (forces > _CONSISTENT * np.sqrt(np.outer(own, work))).any():
         return basis
-    block = stiffness[np.ix_(massless, massless)]
+    block = still.T @ stiffness @ still
     omega2, vectors = linalg.eigh(0.5 * (block + block.T))
-    count = len(massless)
-    more = np.zeros((len(stiffness), count))
-    more[massless] = vectors
+    more = still @ vectors
     none = np.zeros(count)
     return replace(
         basis,

@@ -8,6 +8,7 @@ import numpy as np
 
 from frames._validate import ModelError
 from frames.model.superelement import asymmetry
+from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -23,9 +24,6 @@ LINEAR = (
 
 YIELDED = 0.2
 """Change of stiffness of an element, of its initial one, from which on it is refused [-]."""
-
-NAMED = 8
-"""How many tags a message lists."""
 
 _SYMMETRY = 1e-6
 _RANK = 1e-4  # of the largest singular value of a block, below which it has no stiffness
@@ -195,9 +193,3 @@ def refuse_other_supports(
         remedy = "name them in base_nodes, or in other_supports if they shall stay"
     message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
     raise ModelError(message)
-
-
-def listed(tags: Collection[int]) -> str:
-    """Return tags as text, the first few of many."""
-    shown = ", ".join(str(tag) for tag in list(tags)[:NAMED])
-    return shown if len(tags) <= NAMED else f"{shown} and {len(tags) - NAMED} more"

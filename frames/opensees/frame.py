@@ -17,12 +17,12 @@ from frames.model.parts import DOFS, bearing_height
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
-    listed,
     refuse_other_supports,
     refuse_unsymmetric,
 )
 from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
+from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix

@@ -20,6 +20,7 @@ from scipy import sparse
 
 from frames._validate import ModelError
 from lir_element.opensees import opensees
+from lir_element.opensees.leftovers import leftovers
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
@@ -96,11 +97,15 @@ def read_model() -> OpenSeesModel:
     ------
     ModelError
         If there is no model, it is not of a shape that can be read, too large, not at rest, or
-        shaken.
+        shaken; or if constraints or elements of removed nodes are left.
     """
     ops = opensees()
     tags = tuple(int(tag) for tag in ops.getNodeTags() or ())
     ndf = _shape(ops, tags)
+    left = leftovers(ops)
+    if left:
+        message = f"the OpenSees model cannot be analysed: {left}"
+        raise ModelError(message)
     _refuse_motion(ops, tags)
     with contextlib.redirect_stderr(io.StringIO()):
         places = _number(ops, tags, ndf, 0.0, 0.0)

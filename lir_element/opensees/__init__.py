@@ -7,6 +7,9 @@ from lir_element.opensees.compare.builtin_mapping import BuiltinValues as Builti
 from lir_element.opensees.compare.builtin_mapping import builtin_values as builtin_values
 from lir_element.opensees.compare.macro_model import MacroModel as MacroModel
 from lir_element.opensees.compare.macro_model import macro_model as macro_model
+from lir_element.opensees.isolation import Isolation as Isolation
+from lir_element.opensees.isolation import IsolationWarning as IsolationWarning
+from lir_element.opensees.isolation import isolate as isolate
 from lir_element.opensees.library import opensees as opensees
 from lir_element.opensees.plugin import RouteWarning as RouteWarning
 from lir_element.opensees.plugin import bearing_element as bearing_element

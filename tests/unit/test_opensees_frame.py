@@ -161,6 +161,39 @@ def test_isolators_and_ties_to_the_ground_are_refused(ops):
         Frame.from_opensees([1, 2], BEARING, gravity=9.81, base_diaphragm=False)
 
 
+def spare_node(ops):
+    ops.node(101, 0.0, 0.0, -0.1)
+    ops.node(102, 0.0, 0.0, -0.1)
+
+
+@pytest.mark.parametrize(
+    ("leave", "message", "cure"),
+    [
+        (lambda ops: ops.fix(101, 1, 1, 0, 0, 0, 1),
+         r"nodes 101 were removed, but their fix was not: .*remove\('sp', 101, dof\) .* 1, 2, 6",
+         lambda ops: [ops.remove("sp", 101, dof) for dof in (1, 2, 6)]),
+        (lambda ops: ops.equalDOF(11, 101, 1), r"constraints of nodes 101 .*remove\('mp', 101\)",
+         lambda ops: ops.remove("mp", 101)),
+        (lambda ops: ops.equalDOF(101, 12, 1), r"constraints of nodes 12 .*remove\('mp', 12\)",
+         lambda ops: ops.remove("mp", 12)),
+        (lambda ops: ops.element("elasticBeamColumn", 77, 101, 11, *BEAM, 1),
+         r"elements 77 end at a node that was removed: .*remove\('element', 77\)",
+         lambda ops: ops.remove("element", 77)),
+    ],
+)  # fmt: skip
+def test_what_removed_nodes_leave_behind_is_refused(ops, leave, message, cure):
+    """OpenSees would end the process; with the remedy that the message gives the model is taken."""
+    portal(ops, loaded=False)
+    spare_node(ops)
+    leave(ops)
+    ops.remove("node", 101)
+    ops.remove("node", 102)
+    with pytest.raises(ModelError, match=message):
+        Frame.from_opensees([1, 2], BEARING, gravity=9.81)
+    cure(ops)
+    assert len(Frame.from_opensees([1, 2], BEARING, gravity=9.81).nodes) == 6
+
+
 def test_supports_that_are_meant_stay(ops):
     portal(ops)
     with pytest.raises(ModelError, match="nodes 2 are supports"):

@@ -1,0 +1,123 @@
+"""Natural modes of matrices whose masses span many orders of magnitude, none among them.
+
+The usual way, to divide by the mass, loses all digits where rotations have masses of 1e-10: the
+largest squared frequency sets the round-off of all. Here the problem is turned round,
+``M y = mu K y`` with ``mu = 1 / omega^2``: what has next to no mass has next to no mu, and the long
+periods, which matter, are the accurate ones. Modes are taken from the longest on, a million in mu
+at a time, each group made orthogonal to those before: so all keep ten digits.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy import linalg
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+
+STATIC = 1e-12
+"""Squared period over the longest squared period, up to which a mode follows statically [-]."""
+
+_SPAN = 1e-6  # in squared period, of a group of modes that is resolved at once
+
+
+class UnstableError(ValueError):
+    """The stiffness is not positive definite.
+
+    Attributes
+    ----------
+    direction : ndarray, (n,)
+        Displacements in which it is least, as large as their own stiffness lets them be.
+    """
+
+    def __init__(self, direction: FloatArray) -> None:
+        super().__init__("the stiffness is not positive definite")
+        self.direction = direction
+
+
+class NaturalModes(NamedTuple):
+    """Modes of ``K y = omega^2 M y``, longest period first."""
+
+    omega2: FloatArray
+    """Squared circular frequencies (n_modes,) [1/s2]."""
+    shapes: FloatArray
+    """Shapes (n, n_modes) of modal mass 1."""
+    static: FloatArray
+    """Shapes (n, n_static) of modal stiffness 1 that have no mass that could be told."""
+
+
+def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> NaturalModes:
+    """Find the natural modes of a structure.
+
+    Parameters
+    ----------
+    k : ndarray, (n, n)
+        Stiffness, symmetric.
+    m : ndarray, (n, n)
+        Mass, symmetric and not negative; it may have rows of zeros.
+    count : int, optional
+        How many are wanted, those of the longest periods; all if None, and only then the static
+        shapes besides.
+
+    Returns
+    -------
+    NaturalModes
+        The modes that have mass: periods down to 1e-6 of the longest.
+
+    Raises
+    ------
+    UnstableError
+        If the stiffness is not positive definite.
+    """
+    size = len(k)
+    diagonal = np.diag(k)
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    scaled = _symmetric(k * np.outer(scale, scale))
+    inert = _symmetric(m * np.outer(scale, scale))
+    few = count is not None and 2 * count < size
+    try:
+        mu, y = linalg.eigh(
+            inert, scaled, subset_by_index=(size - count, size - 1) if few and count else None
+        )
+    except linalg.LinAlgError as error:
+        raise UnstableError(weakest(k)) from error
+    mu, y = mu[::-1], y[:, ::-1]
+    longest = float(mu[0])
+    found, shapes = [np.zeros(0)], [np.zeros((size, 0))]
+    while len(mu) and mu[0] > STATIC * longest:
+        clear = int(np.count_nonzero(mu > _SPAN * mu[0]))
+        found.append(mu[:clear])
+        shapes.append(y[:, :clear])
+        mu, y = _rest(inert, found[-1], shapes[-1], y[:, clear:])
+    periods2 = np.concatenate(found)[:count]
+    static = np.zeros((size, 0)) if few else y
+    return NaturalModes(
+        omega2=1.0 / periods2,
+        shapes=scale[:, None] * np.hstack(shapes)[:, :count] / np.sqrt(periods2),
+        static=scale[:, None] * static,
+    )
+
+
+def _rest(
+    inert: FloatArray, mu: FloatArray, done: FloatArray, rest: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    # The modes in the span of `rest`, without what round-off left there of those that are done.
+    if not rest.shape[1]:
+        return np.zeros(0), rest
+    rest = rest - done @ ((done.T @ (inert @ rest)) / mu[:, None])
+    values, turned = linalg.eigh(_symmetric(rest.T @ inert @ rest))
+    return values[::-1], (rest @ turned)[:, ::-1]
+
+
+def weakest(k: FloatArray) -> FloatArray:
+    """Return the displacements (n,) in which a stiffness is least, relative to its diagonal."""
+    diagonal = np.abs(np.diag(k))
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    _, vectors = linalg.eigh(_symmetric(k * np.outer(scale, scale)), subset_by_index=(0, 0))
+    return np.asarray(scale * vectors[:, 0])
+
+
+def _symmetric(matrix: FloatArray) -> FloatArray:
+    return 0.5 * (matrix + matrix.T)
