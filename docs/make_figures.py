@@ -238,12 +238,9 @@ def _forces(
 
 def demo_sections() -> Figure:
     """Draw the sections of the demo's most displaced LIR-DCFP bearing."""
-    bearings = demo.design()
-    frame = moment_frame(bearing=bearings, name=demo.LIR)
-    results = {demo.LIR: time_history(frame, demo.pacoima(demo.DEFAULT_SCALE))}
-    worst = worst_bearing(results[demo.LIR])
-    ix, iy = (int(part) for part in worst.split("-")[1:])
-    return bearing_sections(results[demo.LIR], bearings[ix, iy], worst)
+    frame = moment_frame(bearing=demo.design(), name=demo.LIR)
+    data = time_history(frame, demo.pacoima(demo.DEFAULT_SCALE))
+    return bearing_sections(data, worst_bearing(data))
 
 
 def main() -> None:

@@ -233,6 +233,27 @@ def new_name(name: object, taken: Collection[str], kind: str) -> str:
     return name
 
 
+def likely(name: object, known: Collection[str]) -> str:
+    """Return what the caller may have meant instead of `name`; empty where nothing is known.
+
+    Parameters
+    ----------
+    name : object
+        The name given by the caller.
+    known : collection of str
+        The names that exist.
+
+    Returns
+    -------
+    str
+        A part of a sentence, for a message.
+    """
+    close = difflib.get_close_matches(str(name), list(known), n=3)
+    if close:
+        return "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"
+    return f'{len(known)} exist, the first is "{next(iter(known))}"' if known else ""
+
+
 def known_name(name: object, known: Collection[str], kind: str) -> str:
     """Accept a name that exists.
 
@@ -257,12 +278,6 @@ def known_name(name: object, known: Collection[str], kind: str) -> str:
     """
     if isinstance(name, str) and name in known:
         return name
-    close = difflib.get_close_matches(str(name), list(known), n=3)
-    if close:
-        hint = "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"
-    elif known:
-        hint = f'{len(known)} exist, the first is "{next(iter(known))}"'
-    else:
-        hint = f"the model has no {kind} yet"
+    hint = likely(name, known) or f"the model has no {kind} yet"
     message = f'there is no {kind} "{name}": add it before it is used ({hint})'
     raise ModelError(message)

@@ -64,7 +64,6 @@ QUICK_DURATION = 4.5  # s: covers the first impacts
 ELASTIC = """The frame stays elastic in this model: a real one yields where the base shear comes
 near the weight. The impact on the rims depends on their stiffness, here the default.
 """
-FORCE_LIMIT = 0.4  # of weight, end of the axes where impacts would flatten the loops
 RESOLUTION = 150  # dots per inch
 
 
@@ -147,28 +146,23 @@ def systems_of(bearings: Mapping[Place, LIRBearing]) -> dict[str, dict[Place, LI
     }
 
 
-def figures_of(
-    results: Mapping[str, xr.Dataset], bearings: Mapping[Place, LIRBearing]
-) -> dict[str, Figure]:
+def figures_of(results: Mapping[str, xr.Dataset]) -> dict[str, Figure]:
     """Return the figures by file name without ending."""
     worst = worst_bearing(results[LIR])
-    ix, iy = (int(part) for part in worst.split("-")[1:])
-    window = _strong_part(max(results.values(), key=lambda data: float(data["time"][-1])))
-    capacity = {LIR: CAPACITY, DCFP: CAPACITY, FREE: math.inf}
+    end = _strong_part(max(results.values(), key=lambda data: float(data["time"][-1])))
     return {
-        "01-isolation-loops": hysteresis(results, force_limit=FORCE_LIMIT),
-        "02-bearing-loops": hysteresis(results, worst, force_limit=2.0 * FORCE_LIMIT),
-        "03-orbits": orbits(results, worst, capacity=capacity),
+        "01-isolation-loops": hysteresis(results),
+        "02-bearing-loops": hysteresis(results, worst),
+        "03-orbits": orbits(results, worst),
         "04-histories": histories(
             results,
             ("ground_acceleration", "displacement", "base_shear", "interface_slip", "axial_force"),
             worst,
-            window=window,
-            limits={"base_shear": FORCE_LIMIT},
+            end=end,
         ),
         "05-profiles": storey_profiles(results),
-        "06-energy": energy(results, window=window),
-        "07-bearing-sections": bearing_sections(results[LIR], bearings[ix, iy], worst),
+        "06-energy": energy(results, end=end),
+        "07-bearing-sections": bearing_sections(results[LIR], worst),
     }
 
 
@@ -214,7 +208,7 @@ def run(output: Path, scale: float, *, quick: bool = False) -> dict[str, xr.Data
     print(ELASTIC, flush=True)
     console.say("writing results.nc and summary.csv")
     write_results(results, output)
-    for file, figure in figures_of(results, bearings).items():
+    for file, figure in figures_of(results).items():
         figure.savefig(output / f"{file}.png", dpi=RESOLUTION)
         console.say(f"wrote {output / file}.png")
     console.say(f"done: see {output.resolve()}")
@@ -264,13 +258,13 @@ def _describe(console: Console, bearings: Mapping[Place, LIRBearing]) -> None:
                 " t, 3 storeys, 2 x 2 bays, 2 % modal damping")  # fmt: skip
 
 
-def _strong_part(data: xr.Dataset) -> tuple[float, float]:
-    # From the start to 2 s after the last displacement above a fifth of the largest [s].
+def _strong_part(data: xr.Dataset) -> float:
+    # The time until 2 s after the last displacement above a fifth of the largest [s].
     u = data["bearing_displacement"].sel(axis=["x", "y"]).isel(bearing=0).to_numpy()
     size = np.linalg.norm(u, axis=-1)
     last = int(np.flatnonzero(size > 0.2 * size.max())[-1])
     time = data["time"].to_numpy()
-    return 0.0, float(min(time[-1], math.ceil(time[last] + 2.0)))
+    return float(min(time[-1], math.ceil(time[last] + 2.0)))
 
 
 if __name__ == "__main__":

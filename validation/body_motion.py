@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from frames.plots.bearing_geometry import interface_height, slider_axis
+from frames.plots.bearing_geometry import plane_height, slider_axis
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -82,7 +82,7 @@ def _from_kinematics(
     axis = slider_axis(data, bearing, name)
     chosen = data.sel(bearing=name)
     slip = chosen["interface_slip"].transpose("time", "axis").to_numpy()
-    lower = interface_height(bearing)
+    lower = plane_height(bearing)
     heights = (0.5 * lower, 0.5 * (lower + bearing.slider_height))  # over the bottom contact
     bottom, top = ((h - bearing.radii[0]) * (axis - up) for h in heights)
     plate = chosen["bearing_displacement"].transpose("time", "axis").to_numpy()

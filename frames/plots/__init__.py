@@ -1,16 +1,17 @@
 """Figures of results: loops, orbits, histories, profiles over the height, energies, sections.
 
 Each function takes one Dataset of `frames.time_history`, or several by name for comparison, and
-returns a matplotlib Figure of the width of a page; it draws on no display and keeps no state.
-Save one with ``figure.savefig("loops.png", dpi=150)``. Colours follow the order of the systems,
-so they agree between figures of the same systems.
+returns a matplotlib Figure of the width of a page, which a notebook shows as a picture; it draws on
+no display and keeps no state. ``start`` and ``end`` [s] show a part of the time. Save a figure with
+``figure.savefig("loops.png", dpi=150)``. Colours follow the order of the systems, so they agree
+between figures of the same systems.
 """
 
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
+from frames.plots.plot_choice import worst_bearing as worst_bearing
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
-from frames.plots.plot_style import worst_bearing as worst_bearing
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import storey_profiles as storey_profiles

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patches import Polygon
 
+from frames.plots import plot_choice as pick
+from frames.plots import plot_style as ps
 from frames.plots.bearing_geometry import (
     BODIES,
     Posture,
@@ -16,25 +19,26 @@ from frames.plots.bearing_geometry import (
     posture,
     rim_face,
 )
-from frames.plots.plot_style import GREY, PAGE_WIDTH, SMALL, TITLE, add_legend, new_figure
+from frames.plots.drawn_device import device_of, require_own
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
+    from frames.plots.drawn_device import Geometry
     from lir_element import LIRBearing
 
 FILLS = {
     "bottom plate": "#B8BEC4",
     "bottom slider": "#56B4E9",
-    "top slider": "#E69F00",
+    "top slider": "#F7D488",
     "top plate": "#B8BEC4",
 }
 INTERFACE = "#B2182B"
+_LIFTED = 5e-4  # m, gap that is told
+_SLIPS = 1e-3  # m, interface slip that tells which swing matters
 
 
 def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
@@ -51,114 +55,112 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
     -------
     dict of str to float
         Times [s]: "before the impact" (half the displacement of the contact), "rim contact" (the
-        first that leads to the largest slip), "largest displacement" (the sliders slip) and
-        "after the impact" (the bearing passes its centre, if the run lasts until then). Without
-        any contact: "before", "largest displacement" and "after".
+        first of the swing with the largest slip), "largest displacement" (of the whole result; if
+        that is another swing, the largest of this one is "turn of the swing") and "after the
+        impact" (the bearing passes its centre, if the run lasts until then). Without any contact:
+        "before", "largest displacement" and "after".
     """
     time = data["time"].to_numpy()
-    u = data["bearing_displacement"].sel(bearing=name, axis=["x", "y"]).to_numpy()
+    u = data["bearing_displacement"].sel(bearing=name, axis=list(ps.PLANE)).to_numpy()
     size = np.linalg.norm(u, axis=1)
-    force = data["rim_force"].sel(bearing=name).max("surface").to_numpy()
-    slip = data["interface_slip_size"].sel(bearing=name).to_numpy()
-    touches = np.flatnonzero(force > 0.0)
-    found: dict[str, float] = {}
+    far = int(np.argmax(size))
+    touches = np.flatnonzero(data["rim_force"].sel(bearing=name).max("surface").to_numpy() > 0.0)
+    middle = start = far
     if len(touches):
-        end = int(np.argmax(slip)) if slip.max() > 1e-3 else int(np.argmax(size))
-        start = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
-        rise = start
-        while rise > 0 and size[rise - 1] > size[rise]:  # already on the way back: to the turn
-            rise -= 1
-        while rise > 0 and size[rise - 1] <= size[rise]:  # back to the first touch of this way out
-            rise -= 1
-            start = rise if force[rise] > 0.0 else start
-        found["rim contact"] = float(time[start])
-    else:
-        start = int(np.argmax(size))
+        slip = data["interface_slip_size"].sel(bearing=name).to_numpy()
+        end = int(np.argmax(slip)) if slip.max() > _SLIPS else far
+        middle = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
+    aside = np.flatnonzero(u @ u[middle] <= 0.0)  # on the other side of the centre
+    swing = range(int(max(aside[aside < middle], default=-1)) + 1,
+                  int(min(aside[aside > middle], default=len(u))))  # fmt: skip
+    if len(touches):
+        start = int(touches[touches >= swing.start][0])
     begin = start
     while begin > 0 and size[begin] > 0.5 * size[start]:
         begin -= 1
-    peak = start
-    while peak < len(size) - 1 and size[peak + 1] >= size[peak]:
-        peak += 1
-    inward = np.flatnonzero(u[peak:] @ u[peak] <= 0.0)
-    found["before the impact" if len(touches) else "before"] = float(time[begin])
-    found["largest displacement"] = float(time[peak])
+    turn = swing.start + int(np.argmax(size[swing.start : swing.stop]))
+    inward = np.flatnonzero(u[turn:] @ u[turn] <= 0.0)
+    found = {"before the impact" if len(touches) else "before": begin}
+    if len(touches):
+        found["rim contact"] = start
+    if size[turn] < size[far]:
+        found["turn of the swing"] = turn
+    found["largest displacement"] = far
     if len(inward):
-        found["after the impact" if len(touches) else "after"] = float(time[peak + inward[0]])
-    return dict(sorted(found.items(), key=lambda item: item[1]))
+        found["after the impact" if len(touches) else "after"] = turn + int(inward[0])
+    steps = sorted(found.items(), key=lambda item: item[1])
+    return {title: float(time[step]) for title, step in steps}
 
 
 def impact_direction(data: xr.Dataset, name: str, time: float) -> FloatArray:
     """Return the horizontal unit vector of a bearing's displacement at an instant, shape (2,)."""
     now = data["bearing_displacement"].sel(time=time, method="nearest")
-    u = now.sel(bearing=name, axis=["x", "y"]).to_numpy()
+    u = now.sel(bearing=name, axis=list(ps.PLANE)).to_numpy()
     size = float(np.linalg.norm(u))
     return u / size if size > 0.0 else np.array([1.0, 0.0])
 
 
 def bearing_sections(
     data: xr.Dataset,
-    bearing: LIRBearing,
-    name: str,
-    instants: Mapping[str, float] | None = None,
+    bearing: LIRBearing | str | None = None,
+    name: str | None = None,
+    instants: Mapping[str, float] | Sequence[float] | None = None,
     *,
     direction: FloatArray | None = None,
+    start: float | None = None,
+    end: float | None = None,
 ) -> Figure:
     """Draw the vertical section of a bearing at some instants, to one scale.
 
     Parameters
     ----------
     data : Dataset
-        Result of `frames.time_history`.
-    bearing : LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-    instants : mapping of title to float, optional
+        Result of `frames.time_history`; it has the geometry of its bearings.
+    bearing : str or LIRBearing, optional
+        Name of the bearing; that with the largest slip if left out (the largest displacement where
+        nothing slips). A device is compared with the one that the Dataset has under `name`.
+    name : str, optional
+        The name, beside a device.
+    instants : mapping of title to float, or sequence of float, optional
         Times [s]; by default those of `impact_instants`.
     direction : ndarray, shape (2,), optional
         Horizontal direction of the section; left out: of the displacement at the rim contact,
         or at the largest of the instants.
+    start, end : float, optional
+        Window of time [s] in which the instants are looked for.
 
     Returns
     -------
     Figure
         A panel for each instant. Movements across the section are not shown; each panel names
-        those of more than 1 mm.
+        those of more than 1 mm, and the gap of a bearing that has lifted.
 
     Raises
     ------
     ValueError
-        If there is no instant.
+        If there is no such bearing, the device is not the one of that name, there is no instant, or
+        one outside of the result.
 
     Notes
     -----
-    Surfaces, sliders, tilt, slip and the place of the rims are to scale. The thickness of the
+    Surfaces, sliders, tilt, slip, lift and the place of the rims are to scale. The thickness of the
     plates and the height of the rims are for the picture: the model does not depend on them.
     """
-    chosen = impact_instants(data, name) if instants is None else dict(instants)
-    if not chosen:
-        msg = "instants is empty: give one or more times [s] by title, or leave it out"
-        raise ValueError(msg)
-    plane = _plane(data, name, chosen) if direction is None else direction
-    columns = 1 if len(chosen) == 1 else 2
-    rows = math.ceil(len(chosen) / columns)
-    postures = [posture(data, bearing, name, time, plane) for time in chosen.values()]
-    reach = _reach(data, bearing, name)
-    frame = _window([outlines(bearing, now, reach) for now in postures])
-    share = (frame[3] - frame[2]) / (frame[1] - frame[0])
-    figure = new_figure(0.75 + rows * (0.62 + share * (PAGE_WIDTH / columns - 0.15)))
-    panels = [ax for row in figure.subplots(rows, columns, squeeze=False) for ax in row]
-    for ax, now, (title, time) in zip(panels, postures, chosen.items(), strict=False):
-        draw_section(ax, bearing, now, reach=reach)
-        ax.set_xlim(frame[0], frame[1])
-        ax.set_ylim(frame[2], frame[3])
-        _annotate(ax, data.sel(time=time, method="nearest").sel(bearing=name), plane, now)
-        ax.set_title(f"{title}, t = {_shown(data, time):.2f} s", fontsize=TITLE, loc="left")
-    for ax in panels[len(chosen) :]:
-        ax.set_axis_off()
-    _scale_bar(panels[0], frame)
-    names = ("plates", "slider") if bearing.is_dcfp else ("plates", "bottom slider", "top slider")
+    data = pick.in_window(data, start, end)
+    if isinstance(bearing, str):
+        if name is not None and name != bearing:
+            msg = f"two names are given, {bearing!r} and {name!r}: give one, or a device and a name"
+            raise ValueError(msg)
+        bearing, name = None, bearing
+    name = pick.choose_bearing({"the Dataset": data}, name)
+    if bearing is not None:
+        require_own(data, name, bearing)
+    device = device_of(data, name)
+    chosen = impact_instants(data, name) if instants is None else _instants(data, instants)
+    plane = _plane(data, name, chosen) if direction is None else _unit(direction)
+    postures = [posture(data, device, name, time, plane) for time in chosen.values()]
+    figure = _draw_panels(data.sel(bearing=name), device, chosen, postures, plane)
+    names = ("plates", "slider") if device.is_dcfp else ("plates", "bottom slider", "top slider")
     handles = [
         Polygon(np.zeros((1, 2)), facecolor=FILLS[body], edgecolor="black", linewidth=0.6,
                 label=label)
@@ -166,20 +168,48 @@ def bearing_sections(
     ]  # fmt: skip
     angle = math.degrees(math.atan2(plane[1], plane[0])) % 360.0
     heading = f"{name}, to scale: vertical section at {round(angle) % 360}° from x"
-    add_legend(figure, handles, title=heading)
+    ps.add_legend(figure, handles, title=heading)
     return figure
 
 
-def draw_section(
-    ax: Axes, bearing: LIRBearing, now: Posture, *, reach: float | None = None
-) -> None:
+def _draw_panels(
+    data: xr.Dataset,
+    device: Geometry,
+    chosen: Mapping[str, float],
+    postures: Sequence[Posture],
+    plane: FloatArray,
+) -> Figure:
+    columns = 1 if len(chosen) == 1 else 2
+    rows = math.ceil(len(chosen) / columns)
+    reach = _reach(data, device)
+    frame = _window([outlines(device, now, reach) for now in postures])
+    share = (frame[3] - frame[2]) / (frame[1] - frame[0])
+    figure = ps.new_figure(0.75 + rows * (0.62 + share * (ps.PAGE_WIDTH / columns - 0.15)))
+    panels = [ax for row in figure.subplots(rows, columns, squeeze=False) for ax in row]
+    for ax, now, (title, time) in zip(panels, postures, chosen.items(), strict=False):
+        draw_section(ax, device, now, reach=reach)
+        ax.set_xlim(frame[0], frame[1])
+        ax.set_ylim(frame[2], frame[3])
+        state = data.sel(time=time, method="nearest")
+        _annotate(ax, state, plane, now)
+        text = ", ".join(
+            part for part in (title.strip(), f"t = {float(state['time']):.2f} s") if part
+        )
+        ps.caption(ax, title=ps.wrapped(text, 0.9 * ps.PAGE_WIDTH / columns))
+    for ax in panels[len(chosen) :]:
+        ax.remove()
+    _scale_bar(panels[0], frame)
+    return figure
+
+
+def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | None = None) -> None:
     """Draw the four bodies of a bearing into a panel, to scale, without its frame.
 
     Parameters
     ----------
     ax : Axes
         The panel.
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     now : Posture
         Its bodies.
@@ -209,21 +239,50 @@ def draw_section(
 
 
 def _annotate(ax: Axes, state: xr.Dataset, plane: FloatArray, now: Posture) -> None:
-    # Displacement in the section and across it, slip, rim force.
-    u = state["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
-    aside = float(u @ np.array([-plane[1], plane[0]]))
-    rim = float(state["rim_force"].max())
-    along = round(1e3 * float(u @ plane))
-    text = f"displacement {along:d} mm".replace("-", "−")
-    if abs(aside) > 1e-3:
-        text += f", and {1e3 * abs(aside):.0f} mm across"
+    # Displacement in the section, across it and in plan; slip, rim force, lift.
+    u = state["bearing_displacement"].sel(axis=list(ps.PLANE)).to_numpy()
+    aside = abs(float(u @ np.array([-plane[1], plane[0]])))
+    text = f"displacement {round(1e3 * float(u @ plane)):d} mm".replace("-", "−")
+    if aside > 1e-3:
+        text += f", across {1e3 * aside:.0f} mm, in plan {1e3 * np.linalg.norm(u):.0f} mm"
     slip = float(state["interface_slip_size"])
     text += f"\nslip {1e3 * abs(now.slip):.1f} mm"
     if slip - abs(now.slip) > 1e-3:
         text += f" ({1e3 * slip:.1f} mm in plan)"
+    rim = float(state["rim_force"].max())
     if rim > 0.0:
         text += f", rim force {1e-3 * rim:.0f} kN"
-    ax.text(0.0, -0.01, text, transform=ax.transAxes, ha="left", va="top", fontsize=SMALL)
+    if now.lift > _LIFTED:
+        text += f", lifted {1e3 * now.lift:.1f} mm"
+    ax.text(0.0, -0.01, text, transform=ax.transAxes, ha="left", va="top", fontsize=ps.SMALL)
+
+
+def _instants(
+    data: xr.Dataset, instants: Mapping[str, float] | Sequence[float]
+) -> dict[str, float]:
+    # Titles (empty without) and times, in the order given and within the result.
+    if isinstance(instants, Mapping):
+        chosen = {str(title): float(time) for title, time in instants.items()}
+    else:
+        chosen = {" " * k: float(time) for k, time in enumerate(instants)}
+    if not chosen:
+        msg = "instants is empty: give one or more times [s] by title, or leave it out"
+        raise ValueError(msg)
+    first, last = (float(data["time"][k]) for k in (0, -1))
+    for title, time in chosen.items():
+        if not first <= time <= last:
+            msg = f"instant {title!r} = {time:g} s: the result goes from {first:g} to {last:g} s"
+            raise ValueError(msg)
+    return chosen
+
+
+def _unit(direction: FloatArray) -> FloatArray:
+    plane = np.asarray(direction, dtype=np.float64)
+    size = float(np.linalg.norm(plane))
+    if plane.shape != (2,) or not 0.0 < size < math.inf:
+        msg = f"direction = {direction}: give two components, x and y, of a horizontal vector"
+        raise ValueError(msg)
+    return plane / size
 
 
 def _plane(data: xr.Dataset, name: str, instants: Mapping[str, float]) -> FloatArray:
@@ -231,23 +290,19 @@ def _plane(data: xr.Dataset, name: str, instants: Mapping[str, float]) -> FloatA
     times = list(instants.values())
     if "rim contact" in instants:
         return impact_direction(data, name, instants["rim contact"])
-    u = data["bearing_displacement"].sel(bearing=name, axis=["x", "y"])
+    u = data["bearing_displacement"].sel(bearing=name, axis=list(ps.PLANE))
     sizes = np.linalg.norm(u.sel(time=times, method="nearest").to_numpy(), axis=1)
     return impact_direction(data, name, times[int(np.argmax(sizes))])
 
 
-def _shown(data: xr.Dataset, time: float) -> float:
-    return float(data["time"].sel(time=time, method="nearest"))
-
-
-def _reach(data: xr.Dataset, bearing: LIRBearing, name: str) -> float:
+def _reach(data: xr.Dataset, device: Geometry) -> float:
     # Half the width of the surfaces, also where there are no rims [m].
-    face = max(rim_face(bearing, 0), rim_face(bearing, 1))
+    face = max(rim_face(device, 0), rim_face(device, 1))
     if math.isfinite(face):
         return face
-    sliding = data["slider_displacement"].sel(bearing=name, axis=["x", "y"]).to_numpy()
-    far = 1.05 * float(np.linalg.norm(sliding, axis=-1).max()) + bearing.slider_radius
-    return min(far, 0.95 * min(bearing.radii))
+    sliding = data["slider_displacement"].sel(axis=list(ps.PLANE)).to_numpy()
+    far = 1.05 * float(np.linalg.norm(sliding, axis=-1).max()) + device.slider_radius
+    return min(far, 0.95 * min(device.radii))
 
 
 def _window(drawn: Sequence[Mapping[str, FloatArray]]) -> tuple[float, float, float, float]:
@@ -261,5 +316,5 @@ def _window(drawn: Sequence[Mapping[str, FloatArray]]) -> tuple[float, float, fl
 def _scale_bar(ax: Axes, frame: tuple[float, float, float, float]) -> None:
     # A bar of 100 mm in the upper left corner of the panel.
     left, top = frame[0] + 0.01, frame[3] - 0.012
-    ax.plot([left, left + 0.1], [top, top], color=GREY, linewidth=2.0, solid_capstyle="butt")
-    ax.text(left + 0.11, top, "100 mm", fontsize=SMALL, color=GREY, va="center")
+    ax.plot([left, left + 0.1], [top, top], color=ps.GREY, linewidth=2.0, solid_capstyle="butt")
+    ax.text(left + 0.11, top, "100 mm", fontsize=ps.SMALL, color=ps.GREY, va="center")

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lir_element.device.sliders import interface_height
+
 if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from lir_element import LIRBearing
+    from frames.plots.drawn_device import Geometry
 
 _ARC_POINTS = 121
 _RIM_SHARE = 0.6  # of the height that is free for a rim
@@ -36,11 +38,14 @@ class Posture:
         Unit vector of the top plate e_j, upwards; that of the bottom plate is (0, 1).
     slip : float
         Interface slip of the top slider on the bottom one, along `across` [m].
+    lift : float
+        Gap that has opened between the top slider and the top plate, along `axis` [m].
     """
 
     axis: FloatArray
     plate_axis: FloatArray
     slip: float
+    lift: float = 0.0
 
     @property
     def across(self) -> FloatArray:
@@ -48,7 +53,7 @@ class Posture:
         return np.array([self.axis[1], -self.axis[0]])
 
 
-def slider_axis(data: xr.Dataset, bearing: LIRBearing, name: str) -> FloatArray:
+def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
     """Return the slider's axis of a bearing over time, from its sliding on the bottom plate.
 
     With ``d1 = -R1 (n - e_i)`` and a bottom plate that stays level, ``n = (0, 0, 1) - d1 / R1``.
@@ -57,7 +62,7 @@ def slider_axis(data: xr.Dataset, bearing: LIRBearing, name: str) -> FloatArray:
     ----------
     data : Dataset
         Holds `slider_displacement`.
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     name : str
         Its name in the Dataset.
@@ -72,7 +77,7 @@ def slider_axis(data: xr.Dataset, bearing: LIRBearing, name: str) -> FloatArray:
 
 
 def posture(
-    data: xr.Dataset, bearing: LIRBearing, name: str, time: float, direction: FloatArray
+    data: xr.Dataset, bearing: Geometry, name: str, time: float, direction: FloatArray
 ) -> Posture:
     """Return the bodies at an instant, projected on a vertical plane.
 
@@ -80,7 +85,7 @@ def posture(
     ----------
     data : Dataset
         Result of `frames.time_history`.
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     name : str
         Its name in the Dataset.
@@ -92,7 +97,12 @@ def posture(
     Returns
     -------
     Posture
-        Axes and slip in the plane.
+        Axes, slip and lift in the plane.
+
+    Notes
+    -----
+    The gap of a bearing that carries nothing is what its string l is shorter than L:
+    ``c = C2 - C1 = -l n + s`` (docs/theory.md, section 1), with c from the nodes' displacement.
     """
     now = data.sel(time=time, method="nearest")
     place = int(np.argmin(np.abs(data["time"].to_numpy() - time)))
@@ -103,15 +113,22 @@ def posture(
     slip = now["interface_slip"].sel(bearing=name).to_numpy()
     across = np.array([flat[1], -flat[0]])
     inside = np.array([slip[:2] @ direction, slip[2]])
-    return Posture(flat, _in_plane(plate, direction), float(inside @ across))
+    lift = 0.0
+    if not float(now["axial_force"].sel(bearing=name)) > 0.0:
+        length = sum(bearing.radii) - bearing.slider_height
+        up, lever = np.array([0.0, 0.0, 1.0]), float(now["lever"].sel(bearing=name, surface="top"))
+        u = now["bearing_displacement"].sel(bearing=name).to_numpy()
+        centres = u - length * up - lever * (plate - up)
+        lift = max(0.0, length + float(centres @ axis))
+    return Posture(flat, _in_plane(plate, direction), float(inside @ across), lift)
 
 
-def contact_points(bearing: LIRBearing, now: Posture) -> dict[str, FloatArray]:
+def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
     """Return the points that fix the bodies, shape (2,) each [m].
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     now : Posture
         Its bodies.
@@ -126,10 +143,10 @@ def contact_points(bearing: LIRBearing, now: Posture) -> dict[str, FloatArray]:
     r_1, r_2 = bearing.radii
     centre = np.array([0.0, r_1])
     bottom = centre - r_1 * now.axis
-    middle = bottom + interface_height(bearing) * now.axis
+    middle = bottom + plane_height(bearing) * now.axis
     middle_top = middle + now.slip * now.across
-    top = middle_top + (bearing.slider_height - interface_height(bearing)) * now.axis
-    centre_top = top - r_2 * now.axis
+    top = middle_top + (bearing.slider_height - plane_height(bearing)) * now.axis
+    centre_top = top + (now.lift - r_2) * now.axis
     return {
         "centre bottom": centre,
         "centre top": centre_top,
@@ -141,28 +158,12 @@ def contact_points(bearing: LIRBearing, now: Posture) -> dict[str, FloatArray]:
     }
 
 
-def interface_height(bearing: LIRBearing) -> float:
-    """Return the height of the interface over the bottom contact, along the axis [m].
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-
-    Returns
-    -------
-    float
-        Half the slider's height; where a cap is higher than that, the height that gives both
-        sliders the same thickness at their edges.
-    """
-    half = 0.5 * bearing.slider_height
-    caps = [_sagitta(r, bearing.slider_radius) for r in bearing.radii]
-    if half > max(caps):
-        return half
-    return caps[0] + 0.5 * (bearing.slider_height - sum(caps))
+def plane_height(bearing: Geometry) -> float:
+    """Return the height of the interface over the bottom contact, along the axis [m]."""
+    return float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
 
 
-def rim_face(bearing: LIRBearing, surface: int) -> float:
+def rim_face(bearing: Geometry, surface: int) -> float:
     """Return the distance of a rim's inner face from the plate's axis [m].
 
     The slider's edge, `slider_radius` from its axis on the sphere, is there when the axis has slid
@@ -170,7 +171,7 @@ def rim_face(bearing: LIRBearing, surface: int) -> float:
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     surface : {0, 1}
         Bottom or top plate.
@@ -186,12 +187,12 @@ def rim_face(bearing: LIRBearing, surface: int) -> float:
     return radius * math.sin(math.asin(reach / radius) + math.asin(bearing.slider_radius / radius))
 
 
-def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
+def rim_gap(bearing: Geometry, now: Posture, surface: int) -> float:
     """Return the distance from the slider's edge to the nearer rim face [m].
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     now : Posture
         Its bodies.
@@ -209,14 +210,14 @@ def rim_gap(bearing: LIRBearing, now: Posture, surface: int) -> float:
     return rim_face(bearing, surface) - edge
 
 
-def rim_height(bearing: LIRBearing) -> float:
+def rim_height(bearing: Geometry) -> float:
     """Return a height of the rims over the plates' edges that leaves all bodies free [m].
 
     The model does not know it: this one is for the picture.
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
 
     Returns
@@ -231,7 +232,7 @@ def rim_height(bearing: LIRBearing) -> float:
     free = bearing.slider_height - sum(
         _sagitta(r, face) for r, face in zip(bearing.radii, faces, strict=True)
     )
-    lower = interface_height(bearing)
+    lower = plane_height(bearing)
     edges = (
         lower - _sagitta(bearing.radii[0], bearing.slider_radius),
         bearing.slider_height - lower - _sagitta(bearing.radii[1], bearing.slider_radius),
@@ -239,14 +240,12 @@ def rim_height(bearing: LIRBearing) -> float:
     return _RIM_SHARE * max(0.0, min(0.5 * free, *edges))
 
 
-def outlines(
-    bearing: LIRBearing, now: Posture, reach: float | None = None
-) -> dict[str, FloatArray]:
+def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dict[str, FloatArray]:
     """Return the outlines of the four bodies, closed polygons of shape (n, 2) [m].
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Device or LIRBearing
         The device.
     now : Posture
         Its bodies.
@@ -261,7 +260,7 @@ def outlines(
         drawn moved outwards, so that nothing overlaps.
     """
     points = contact_points(bearing, now)
-    lower = interface_height(bearing)
+    lower = plane_height(bearing)
     upper = bearing.slider_height - lower
     half = [_half_slider(r, bearing.slider_radius, h)
             for r, h in zip(bearing.radii, (lower, upper), strict=True)]  # fmt: skip
@@ -312,7 +311,7 @@ def _half_slider(radius: float, half_width: float, height: float) -> FloatArray:
     return np.vstack([arc, [[half_width, height], [-half_width, height]]])
 
 
-def _plate(bearing: LIRBearing, now: Posture, surface: int, reach: float | None) -> FloatArray:
+def _plate(bearing: Geometry, now: Posture, surface: int, reach: float | None) -> FloatArray:
     # Concave surface upwards, vertex at the origin.
     radius, face = bearing.radii[surface], rim_face(bearing, surface)
     has_rim = math.isfinite(face)

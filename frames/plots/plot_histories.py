@@ -8,25 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from frames.plots.plot_style import (
-    GREY,
-    LINES,
-    PALETTE,
-    PLANE,
-    SMALL,
-    WIDTHS,
-    Systems,
-    add_legend,
-    as_systems,
-    caption,
-    engineering,
-    grid_of,
-    new_figure,
-    peak_of,
-    system_handles,
-    text_of,
-    worst_bearing,
-)
+from frames.plots import plot_choice as pick
+from frames.plots import plot_style as ps
 from frames.results.measures import floor_acceleration
 
 if TYPE_CHECKING:
@@ -35,13 +18,20 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
 
+USUAL = ("displacement", "base_shear", "interface_slip", "axial_force")
+_SPIKY = ("base_shear", "roof_acceleration")  # what impacts outdo by far, for an instant
+_BRIEF = 0.01  # share of the time that a few impacts may take
+_OUTSTANDING = 2.5  # times the largest value of the rest of the time: beyond, peaks are cut
+_ROOM = 1.6  # times that value, where the axis then ends
+
 
 def histories(
-    systems: Systems,
-    quantities: Sequence[str] = ("displacement", "base_shear", "interface_slip", "axial_force"),
+    systems: pick.Systems,
+    quantities: str | Sequence[str] | None = None,
     bearing: str | None = None,
     *,
-    window: tuple[float, float] | None = None,
+    start: float | None = None,
+    end: float | None = None,
     limits: Mapping[str, float] | None = None,
 ) -> Figure:
     """Draw quantities over time, one panel each, the systems over one another.
@@ -50,15 +40,19 @@ def histories(
     ----------
     systems : Dataset or mapping of name to Dataset
         Results to compare.
-    quantities : sequence of str
+    quantities : str or sequence of str, optional
         Of `QUANTITIES`: "displacement", "base_shear", "interface_slip", "axial_force",
-        "rim_force", "roof_acceleration", "ground_acceleration".
+        "rim_force", "roof_acceleration", "ground_acceleration". Left out: the first four, without
+        those in which nothing happens.
     bearing : str, optional
-        The bearing they belong to; that with the largest slip in the first result if left out.
-    window : (float, float), optional
-        From when to when [s].
+        The bearing they belong to; left out: that with the largest slip in the first result (the
+        largest displacement where nothing slips).
+    start, end : float, optional
+        Window of time [s].
     limits : mapping of quantity to float, optional
-        Largest value shown, in SI units; peaks beyond it are marked with their value.
+        Largest value shown, in SI units, > 0; infinite shows all. Left out, base shear and roof
+        acceleration end where impacts shorter than 1 % of the time would flatten the rest. Peaks
+        beyond are marked with their value.
 
     Returns
     -------
@@ -68,54 +62,72 @@ def histories(
     Raises
     ------
     ValueError
-        If a quantity is unknown, or there is none.
+        If a quantity or the bearing is unknown, or nothing lies in the window.
     """
-    unknown = [name for name in quantities if name not in QUANTITIES]
-    if unknown or not quantities:
-        msg = f"quantities = {list(quantities)}: choose one or more of {', '.join(QUANTITIES)}"
+    found = pick.as_systems(systems, start, end)
+    names = list(USUAL) if quantities is None else pick.several(quantities)
+    if not names:
+        msg = f"quantities is empty: choose one or more of {', '.join(QUANTITIES)}"
         raise ValueError(msg)
-    found = as_systems(systems)
-    name_of = worst_bearing(next(iter(found.values()))) if bearing is None else bearing
-    figure = new_figure(0.8 + 1.55 * len(quantities))
-    column = [row[0] for row in grid_of(figure, len(quantities), 1, share_x=True)]
-    for quantity, panel in zip(quantities, column, strict=True):
-        traces = [QUANTITIES[quantity](data, name_of) for data in found.values()]
-        if window is not None:
-            traces = [trace.sel(time=slice(*window)) for trace in traces]
-        _history(panel, traces, (limits or {}).get(quantity))
-    if window is not None:
-        column[0].set_xlim(*window)
-    else:
-        column[0].set_xlim(0.0, max(float(data["time"][-1]) for data in found.values()))
-    caption(column[-1], x="time [s]")
+    ends = dict(limits or {})
+    for name in (*names, *ends):
+        pick.choose(name, QUANTITIES, "quantity")
+    for name, value in ends.items():
+        if not value > 0.0:
+            msg = f"limits[{name!r}] = {value} must be greater than 0: leave it out for a default"
+            raise ValueError(msg)
+    bearing = pick.choose_bearing(found, bearing)
+    for name in names:
+        for data in found.values():
+            pick.need(data, _NEEDS.get(name, (name,)), f"leave the quantity {name!r} out")
+    traces = {name: [QUANTITIES[name](data, bearing) for data in found.values()] for name in names}
+    if quantities is None:
+        moving = {n: t for n, t in traces.items() if ps.peak_of(x.to_numpy() for x in t) > 0.0}
+        traces = moving or traces
+    figure = ps.new_figure(0.8 + 1.55 * len(traces))
+    column = [row[0] for row in ps.grid_of(figure, len(traces), 1, share_x=True)]
+    for (name, values), panel in zip(traces.items(), column, strict=True):
+        usual = max(_telling(trace) for trace in values) if name in _SPIKY else np.inf
+        _history(panel, values, ends.get(name, usual))
+    first = min(float(data["time"][0]) for data in found.values())
+    last = max(float(data["time"][-1]) for data in found.values())
+    column[0].set_xlim(first if start is None else start, last if end is None else end)
+    ps.caption(column[-1], x="time [s]")
     figure.align_ylabels()
-    add_legend(figure, system_handles(found), title=f"Histories, {name_of}")
+    ps.add_legend(figure, pick.system_handles(found), title=f"Histories, {bearing}")
     return figure
 
 
-def _history(panel: Axes, traces: Sequence[xr.DataArray], limit: float | None) -> None:
+def _telling(trace: xr.DataArray) -> float:
+    # The largest size; where brief impacts outdo all the rest by far, what shows the rest.
+    size = np.abs(trace.to_numpy())
+    peak = float(size.max())
+    order = np.argsort(size)
+    share = np.cumsum(np.gradient(trace["time"].to_numpy())[order])
+    rest = float(size[order][np.searchsorted(share, (1.0 - _BRIEF) * share[-1])])
+    return peak if peak <= _OUTSTANDING * rest else _ROOM * rest
+
+
+def _history(panel: Axes, traces: Sequence[xr.DataArray], limit: float) -> None:
     units = str(traces[0].attrs["units"])
-    peak = peak_of(trace.to_numpy() for trace in traces)
-    shown = peak if limit is None else min(limit, peak)
-    factor, unit = engineering(units, shown)
+    peaks = [ps.peak_of([trace.to_numpy()]) for trace in traces]
+    peak = max(peaks)
+    shown = min(limit, peak)
+    factor, unit = ps.engineering(units, shown)
     common = all(np.array_equal(_until(t, traces[0]), _until(traces[0], t)) for t in traces)
     for k, trace in enumerate([max(traces, key=len)] if common else traces):
-        colour, line = (GREY, "-") if common and len(traces) > 1 else (PALETTE[k], LINES[k])
-        width = WIDTHS[2] if common and len(traces) > 1 else WIDTHS[k]
-        values = factor * trace.to_numpy()
-        panel.plot(trace["time"], values, color=colour, linestyle=line, linewidth=width)
+        look = ps.line_of(k)
+        if common and len(traces) > 1:  # one line for all systems
+            look = {"color": ps.GREY, "linestyle": "-", "linewidth": ps.WIDTHS[2]}
+        panel.plot(trace["time"], factor * trace.to_numpy(), **look)
     low = min(float(trace.min()) for trace in traces)
     bottom = -1.05 * factor * min(-low, shown) if low < -1e-6 * peak else 0.0
     panel.set_ylim(bottom, (1.08 * factor * shown) or 1.0)
-    beyond = [
-        (k, factor * float(np.abs(t).max()))
-        for k, t in enumerate(traces)
-        if limit is not None and float(np.abs(t).max()) > limit
-    ]
+    beyond = [(k, factor * value) for k, value in enumerate(peaks) if value > limit]
     for place, (k, value) in enumerate(beyond):
         panel.text(0.015, 0.95 - 0.13 * place, f"▲ {value:.3g}", transform=panel.transAxes,
-                   ha="left", va="top", fontsize=SMALL, color=PALETTE[k])  # fmt: skip
-    caption(panel, y=text_of(str(traces[0].attrs["long_name"]), unit))
+                   ha="left", va="top", fontsize=ps.SMALL, color=ps.PALETTE[k])  # fmt: skip
+    ps.caption(panel, y=ps.text_of(str(traces[0].attrs["long_name"]), unit))
 
 
 def _until(trace: xr.DataArray, other: xr.DataArray) -> FloatArray:
@@ -124,7 +136,7 @@ def _until(trace: xr.DataArray, other: xr.DataArray) -> FloatArray:
 
 
 def _size_in_plan(values: xr.DataArray, long_name: str, units: str) -> xr.DataArray:
-    plane = values.sel(axis=list(PLANE))
+    plane = values.sel(axis=list(ps.PLANE))
     size = xr.DataArray(
         np.linalg.norm(plane.to_numpy(), axis=-1), {"time": values["time"]}, ("time",)
     )
@@ -176,3 +188,10 @@ QUANTITIES: dict[str, Callable[[xr.Dataset, str], xr.DataArray]] = {
     "ground_acceleration": _ground_acceleration,
 }
 """Histories by name, as functions of the Dataset and a bearing."""
+
+_NEEDS = {
+    "displacement": ("bearing_displacement",),
+    "base_shear": ("base_shear", "weight"),
+    "interface_slip": ("interface_slip_size",),
+    "roof_acceleration": ("node_acceleration", "level_node"),
+}

@@ -1,15 +1,15 @@
-"""What all figures share: size, palette, text, units, and several systems side by side."""
+"""What all figures share: size, palette, text and units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal, TypeAlias
+import math
+import textwrap
+from io import BytesIO
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.lines import Line2D
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from frames._types import FloatArray
-
-Systems: TypeAlias = xr.Dataset | Mapping[str, xr.Dataset]
-"""One result, or several by name for comparison."""
 
 PAGE_WIDTH = 6.9
 """Width of a figure, that of the text on an A4 page [in]."""
@@ -34,6 +31,9 @@ WIDTHS = (1.7, 1.1, 0.9, 1.0, 0.8, 0.8)  # pt; falling, so that equal curves sho
 GREY = "#666666"
 PLANE = ("x", "y")
 TITLE, LABEL, SMALL = 9.0, 8.5, 7.5  # pt
+COLUMNS = (0, 1, 2, 3, 2, 3, 3)  # of panels, by their number
+LETTER = 0.56  # width of a letter over the size of its font, about
+SCREEN_DPI = 110
 
 _PREFIXES = {
     "N": ((1e6, "MN"), (1e3, "kN"), (1.0, "N")),
@@ -47,44 +47,19 @@ _PREFIXES = {
 }
 
 
-def as_systems(systems: Systems) -> dict[str, xr.Dataset]:
-    """Return systems by name; a single Dataset goes by its title.
+class PageFigure(Figure):
+    """A figure that a notebook shows as a picture, with or without pyplot's inline backend."""
 
-    Parameters
-    ----------
-    systems : Dataset or mapping of name to Dataset
-        Results of `frames.time_history`.
-
-    Returns
-    -------
-    dict of str to Dataset
-        In the order given, at least one and at most six.
-
-    Raises
-    ------
-    ValueError
-        If there are none, or more than the palette has colours for.
-    """
-    if isinstance(systems, xr.Dataset):
-        return {str(systems.attrs.get("title", "result")): systems}
-    found = dict(systems)
-    if not 1 <= len(found) <= len(PALETTE):
-        msg = f"{len(found)} systems: give 1 to {len(PALETTE)} Datasets to compare"
-        raise ValueError(msg)
-    return found
+    def _repr_png_(self) -> bytes:
+        picture = BytesIO()
+        self.savefig(picture, format="png", dpi=SCREEN_DPI)
+        return picture.getvalue()
 
 
-def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
-    """Return the name of a system; after `space`, a run that stopped early says so."""
-    if data.attrs.get("status", "ok") == "ok":
-        return name
-    return f"{name}{space}(stopped at {data.attrs.get('failed_at', float(data['time'][-1])):.2f} s)"
-
-
-def new_figure(height: float, width: float = PAGE_WIDTH) -> Figure:
+def new_figure(height: float, width: float = PAGE_WIDTH) -> PageFigure:
     """Return an empty figure of `width` x `height` [in] that arranges its parts by itself."""
     layout = ConstrainedLayoutEngine(w_pad=0.05, h_pad=0.05, wspace=0.04, hspace=0.05)
-    return Figure(figsize=(width, height), layout=layout)
+    return PageFigure(figsize=(width, height), layout=layout)
 
 
 def grid_of(
@@ -102,6 +77,24 @@ def grid_of(
     for ax in (ax for row in table for ax in row):
         style(ax)
     return table
+
+
+def panels_of(count: int, columns: int, height: float = 2.1) -> tuple[PageFigure, list[Axes]]:
+    """Return a figure of `count` panels with common axes, row after row of a height [in]."""
+    rows = math.ceil(count / columns)
+    figure = new_figure(0.6 + height * rows)
+    table = grid_of(figure, rows, columns, share_x=True, share_y=True)
+    panels = [panel for row in table for panel in row]
+    for panel in panels[count:]:
+        panel.remove()
+    return figure, panels[:count]
+
+
+def close_column(panel: Axes, text: str, *, is_last: bool) -> None:
+    """Label the horizontal axis of the last panel of a column."""
+    if is_last:
+        caption(panel, x=text)
+        panel.tick_params(labelbottom=True)
 
 
 def style(ax: Axes) -> None:
@@ -133,10 +126,14 @@ def add_legend(
     title: str = "",
     size: float = LABEL,
 ) -> None:
-    """Put one legend, under its title, above all panels: outside of the data."""
+    """Put a legend, under its title, above all panels; of `columns`, or as many as fit."""
+    entries = list(handles)
+    longest = max((len(str(entry.get_label())) for entry in entries), default=0)
+    entry_width = (LETTER * longest + 4.5) * size / 72.0
+    columns = max(1, min(columns, int(figure.get_figwidth() / entry_width)))
     figure.legend(
-        handles=list(handles),
-        title=title or None,
+        handles=entries,
+        title=wrapped(title, figure.get_figwidth(), TITLE + 1.0) or None,
         title_fontsize=TITLE + 1.0,
         loc="outside upper center",
         ncols=columns,
@@ -145,14 +142,21 @@ def add_legend(
     )
 
 
-def system_handles(systems: Mapping[str, xr.Dataset]) -> list[Artist]:
-    """Return the entries of a legend for the systems, in their colours and line styles."""
-    return [
-        Line2D(
-            [], [], color=PALETTE[k], linestyle=LINES[k], linewidth=WIDTHS[k], label=label_of(*item)
-        )
-        for k, item in enumerate(systems.items())
-    ]
+def line_of(place: int, widen: float = 0.0) -> dict[str, Any]:
+    """Return colour, style and width [pt] of the line of a system, by its place in the order."""
+    return {
+        "color": PALETTE[place],
+        "linestyle": LINES[place],
+        "linewidth": WIDTHS[place] + widen,
+    }
+
+
+def wrapped(text: str, width: float, size: float = TITLE) -> str:
+    """Return `text` in lines that fit `width` [in] at a font of `size` [pt]."""
+    letters = max(12, int(width / (LETTER * size / 72.0)))
+    return "\n".join(
+        part for line in text.split("\n") for part in textwrap.wrap(line, letters) or [""]
+    )
 
 
 def engineering(units: str, peak: float) -> tuple[float, str]:
@@ -194,23 +198,3 @@ def text_of(long_name: str, unit: str) -> str:
 def peak_of(values: Iterable[FloatArray]) -> float:
     """Return the largest absolute value of several arrays, 0 without any."""
     return max((float(np.abs(v).max()) for v in values if np.size(v)), default=0.0)
-
-
-def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> str:
-    """Return the name of the bearing with the largest absolute value of a variable.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    variable : str
-        A variable over time and bearing.
-
-    Returns
-    -------
-    str
-        Its name, in the dimension "bearing".
-    """
-    values = np.abs(data[variable].transpose("bearing", ...).to_numpy())
-    peaks = values.reshape(len(values), -1).max(axis=1)
-    return str(data["bearing"].to_numpy()[int(np.argmax(peaks))])

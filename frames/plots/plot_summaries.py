@@ -2,87 +2,89 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from frames.plots.plot_style import (
-    LINES,
-    PALETTE,
-    PLANE,
-    SMALL,
-    WIDTHS,
-    Systems,
-    add_legend,
-    as_systems,
-    caption,
-    engineering,
-    grid_of,
-    label_of,
-    new_figure,
-    peak_of,
-    system_handles,
-    text_of,
-)
+from frames.plots import plot_choice as pick
+from frames.plots import plot_style as ps
 from frames.results.measures import floor_acceleration, storey_drift
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str]] = {
-    "low friction, bottom": (("low_friction_bottom",), "#0072B2"),
-    "low friction, top": (("low_friction_top",), "#56B4E9"),
-    "high-friction interface": (("high_friction",), "#D55E00"),
-    "rims": (("rims",), "#CC79A7"),
-    "damping of the structure": (("damping",), "#009E73"),
-    "contact, elastic sliding": (("contact", "friction_elastic", "numerical"), "#F0E442"),
-    "kinetic, elastic, gravity": (("kinetic", "elastic", "gravity"), "#BBBBBB"),
+ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "low friction, bottom": (("low_friction_bottom",), "#0072B2", ""),
+    "low friction, top": (("low_friction_top",), "#56B4E9", ""),
+    "high-friction interface": (("high_friction",), "#D55E00", "///"),
+    "rims": (("rims",), "#CC79A7", "xxx"),
+    "damping of the structure": (("damping",), "#009E73", "\\\\\\"),
+    "contact, elastic sliding": (("contact", "friction_elastic", "numerical"), "#F0E442", ""),
+    "kinetic, elastic, gravity": (("kinetic", "elastic", "gravity"), "#BBBBBB", "..."),
 }
-"""Terms of the energy drawn together, from below, and their colours."""
+"""Terms of the energy drawn together, from below, their colours and hatches."""
+
+EDGE = "#333333"
+_LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "-", "--", ":", "-.", ":", "--")
 
 
-def storey_profiles(systems: Systems) -> Figure:
+def storey_profiles(
+    systems: pick.Systems, *, start: float | None = None, end: float | None = None
+) -> Figure:
     """Draw peak storey drift and peak floor acceleration over the height.
 
     Parameters
     ----------
     systems : Dataset or mapping of name to Dataset
         Results to compare; of models with two levels or more.
+    start, end : float, optional
+        Window of time [s] of the peaks.
 
     Returns
     -------
     Figure
         Left the drift of each storey, the larger of x and y [%]; right the total horizontal
         acceleration of each level, its largest size in plan [m/s2].
+
+    Raises
+    ------
+    ValueError
+        If a model has fewer than two levels, or nothing lies in the window.
     """
-    found = as_systems(systems)
-    figure = new_figure(3.6)
-    left, right = grid_of(figure, 1, 2, share_y=True)[0]
+    found = pick.as_systems(systems, start, end)
+    figure = ps.new_figure(3.6)
+    left, right = ps.grid_of(figure, 1, 2, share_y=True)[0]
     for k, data in enumerate(found.values()):
+        pick.need(data, ("node_displacement", "level_height"), "profiles need a frame's levels")
         z = data["level_height"].to_numpy()
         drift = 100.0 * np.abs(storey_drift(data).to_numpy()).max(axis=(0, 2))
-        left.stairs(drift, z, orientation="horizontal", baseline=None, color=PALETTE[k],
-                    linestyle=LINES[k], linewidth=WIDTHS[k] + 0.6)  # fmt: skip
-        floors = floor_acceleration(data).sel(axis=list(PLANE)).to_numpy()
+        left.stairs(drift, z, orientation="horizontal", baseline=None, **ps.line_of(k, 0.6))
+        floors = floor_acceleration(data).sel(axis=list(ps.PLANE)).to_numpy()
         peaks = np.linalg.norm(floors, axis=-1).max(axis=0)
-        right.plot(peaks, z, color=PALETTE[k], linestyle=LINES[k], marker="os^Dvp"[k],
-                   markersize=6.0 - 1.5 * k if k < 3 else 2.0, linewidth=WIDTHS[k])  # fmt: skip
+        right.plot(peaks, z, marker="os^Dvp"[k], markersize=6.0 - 1.5 * k if k < 3 else 2.0,
+                   **ps.line_of(k))  # fmt: skip
     first = next(iter(found.values()))
     names = [str(name) for name in first["level"].to_numpy()]
     left.set_yticks(first["level_height"].to_numpy(), names)
-    caption(left, x="peak storey drift [%]", title="Storey drift")
-    caption(right, x="peak total acceleration in plan [m/s²]", title="Floor acceleration")
+    ps.caption(left, x="peak storey drift [%]", title="Storey drift")
+    ps.caption(right, x="peak total acceleration in plan [m/s²]", title="Floor acceleration")
     left.set_xlim(0.0, 1.06 * left.dataLim.x1)
     right.set_xlim(0.0, 1.06 * right.dataLim.x1)
-    add_legend(figure, system_handles(found), title="Peaks over the height")
+    ps.add_legend(figure, pick.system_handles(found), title="Peaks over the height")
     return figure
 
 
 def energy(
-    systems: Systems, *, stacked: bool = True, window: tuple[float, float] | None = None
+    systems: pick.Systems,
+    *,
+    stacked: bool = True,
+    start: float | None = None,
+    end: float | None = None,
 ) -> Figure:
     """Draw where the energy of the ground motion goes, over time.
 
@@ -92,38 +94,63 @@ def energy(
         Results to compare, a panel each.
     stacked : bool
         Areas on top of one another, which add up to the input; else lines.
-    window : (float, float), optional
-        From when to when [s].
+    start, end : float, optional
+        Window of time [s].
 
     Returns
     -------
     Figure
         Energies since gravity; the dashed line is the input.
+
+    Raises
+    ------
+    ValueError
+        If nothing lies in the window, or the Dataset has no energies.
     """
-    found = as_systems(systems)
-    factor, unit = engineering("J", peak_of(d["energy"].to_numpy() for d in found.values()))
-    figure = new_figure(3.4)
-    row = grid_of(figure, 1, len(found), share_x=True, share_y=True)[0]
-    for panel, (name, data) in zip(row, found.items(), strict=True):
-        time = data["time"].to_numpy()
-        groups = [
-            factor * data["energy"].sel(term=list(terms)).sum("term").to_numpy()
-            for terms, _ in ENERGY_GROUPS.values()
-        ]
-        colours = [colour for _, colour in ENERGY_GROUPS.values()]
-        if stacked:
-            panel.stackplot(time, *groups, colors=colours, linewidth=0.0)
-        else:
-            for values, colour in zip(groups, colours, strict=True):
-                panel.plot(time, values, color=colour, linewidth=1.2)
-        total = factor * data["energy"].sel(term="input").to_numpy()
-        panel.plot(time, total, color="black", linewidth=0.9, linestyle="--")
-        panel.set_xlim(*(window or (0.0, max(float(d["time"][-1]) for d in found.values()))))
-        caption(panel, x="time [s]", title=label_of(name, data, "\n"))
-    caption(row[0], y=text_of("energy since gravity", unit))
-    lowest = min(ax.dataLim.y0 for ax in row)
-    row[0].set_ylim(min(0.0, 1.05 * lowest), 1.05 * max(ax.dataLim.y1 for ax in row))
-    handles: list[Artist] = [Patch(color=c, label=t) for t, (_, c) in ENERGY_GROUPS.items()]
+    found = pick.as_systems(systems, start, end)
+    for data in found.values():
+        pick.need(data, ("energy",), "draw from the whole result of time_history")
+    factor, unit = ps.engineering("J", ps.peak_of(d["energy"].to_numpy() for d in found.values()))
+    columns = ps.COLUMNS[len(found)]
+    figure, panels = ps.panels_of(len(found), columns, 2.8)
+    for place, (panel, (name, data)) in enumerate(zip(panels, found.items(), strict=True)):
+        _energies(panel, data, factor, stacked=stacked)
+        title = ps.wrapped(pick.label_of(name, data, "\n"), 0.82 * ps.PAGE_WIDTH / columns)
+        ps.caption(panel, title=title)
+        if place % columns == 0:
+            ps.caption(panel, y=ps.text_of("energy since gravity", unit))
+        ps.close_column(panel, "time [s]", is_last=place + columns >= len(found))
+    first = min(float(data["time"][0]) for data in found.values())
+    last = max(float(data["time"][-1]) for data in found.values())
+    panels[0].set_xlim(first if start is None else start, last if end is None else end)
+    lowest = min(panel.dataLim.y0 for panel in panels)
+    panels[0].set_ylim(min(0.0, 1.05 * lowest), (1.05 * max(p.dataLim.y1 for p in panels)) or 1.0)
+    handles: list[Artist] = [
+        Patch(facecolor=colour, hatch=hatch, edgecolor=EDGE, linewidth=0.4, label=text)
+        if stacked
+        else Line2D([], [], color=colour, linestyle=_LINES[k], linewidth=1.2, label=text)
+        for k, (text, (_, colour, hatch)) in enumerate(ENERGY_GROUPS.items())
+    ]
     handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle="--", label="input"))
-    add_legend(figure, handles, columns=4, title="Where the energy goes", size=SMALL)
+    ps.add_legend(figure, handles, columns=4, title="Where the energy goes", size=ps.SMALL)
     return figure
+
+
+def _energies(panel: Axes, data: xr.Dataset, factor: float, *, stacked: bool) -> None:
+    time, terms = data["time"].to_numpy(), factor * data["energy"]
+    groups = [
+        terms.sel(term=list(names)).sum("term").to_numpy() for names, _, _ in ENERGY_GROUPS.values()
+    ]
+    colours = [colour for _, colour, _ in ENERGY_GROUPS.values()]
+    if stacked:
+        hatches = [hatch for _, _, hatch in ENERGY_GROUPS.values()]
+        for area, hatch in zip(
+            panel.stackplot(time, *groups, colors=colours, linewidth=0.3, edgecolor=EDGE),
+            hatches, strict=True,
+        ):  # fmt: skip
+            area.set_hatch(hatch)
+    else:
+        for values, colour, line in zip(groups, colours, _LINES, strict=True):
+            panel.plot(time, values, color=colour, linestyle=line, linewidth=1.2)
+    total = terms.sel(term="input").to_numpy()
+    panel.plot(time, total, color="black", linewidth=0.9, linestyle="--")

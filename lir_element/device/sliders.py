@@ -14,6 +14,8 @@ from lir_element.layout import BODIES, POINT, SLIDERS, TOUCH, Floats, Records
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import ArrayLike
+
 INTERFACES = 3
 """Bottom surface, plane interface, top surface: in series along the slider's axis."""
 
@@ -81,16 +83,37 @@ def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
     return np.concatenate([outer, inner]), shares
 
 
-def lower_height(bearing: LIRBearing) -> float:
-    """Return the height of the bottom slider on its axis [m]: both have the same height of edge."""
-    caps = [sphere - math.sqrt(sphere**2 - bearing.slider_radius**2) for sphere in bearing.radii]
-    return caps[0] + 0.5 * (bearing.slider_height - sum(caps))
+def interface_height(
+    radii: ArrayLike, slider_radius: ArrayLike, slider_height: ArrayLike
+) -> Floats:
+    """Return the height of the interface over the vertex of the bottom cap, on the axis.
+
+    The edges of both sliders are equally high, whatever their caps take: with caps of the height
+    ``c = R - sqrt(R^2 - a^2)``, ``h_b - c_1 = (h - h_b) - c_2`` gives ``h_b = (h + c_1 - c_2) / 2``.
+
+    Parameters
+    ----------
+    radii : array_like, shape (..., 2)
+        Radius of the bottom and of the top surface [m].
+    slider_radius, slider_height : array_like, shape (...)
+        Radius in plan and height of the whole slider [m].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        The height h_b [m]: half the slider's height where the radii are equal.
+    """
+    spheres, edge = np.asarray(radii, dtype=np.float64), np.asarray(slider_radius)[..., None]
+    caps = edge**2 / (spheres + np.sqrt(spheres**2 - edge**2))  # R - sqrt(R^2 - a^2)
+    return np.asarray(0.5 * (np.asarray(slider_height) + (caps[..., 0] - caps[..., 1])))
 
 
 def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Records:
     """Return the sliders' constants, a record array of shape (1,)."""
     first, second = bearing.radii
-    lower = lower_height(bearing)
+    lower = float(
+        interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height)
+    )
     upper = bearing.slider_height - lower
     thickness = as_pair("plate_thickness", bearing.plate_thickness)
     bodies = [

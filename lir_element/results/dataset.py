@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 AXES = ("x", "y", "z")
 SURFACES = ("bottom", "top")
 DEVICE = (
-    "length", "slider_radius", "interface_friction", "lever", "rim_displacement", "friction_max",
-    "friction_drop", "friction_rate",
+    "radius", "length", "slider_radius", "interface_friction", "lever", "rim_displacement",
+    "friction_max", "friction_drop", "friction_rate",
 )  # fmt: skip
 """Properties of the bearings that a Dataset keeps, whatever the run left out."""
 

@@ -23,6 +23,7 @@ from frames import (
 from frames.analysis import automatic
 from frames.results.auditing import centre_shift, is_missing, needed_level
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
+from lir_element.device.sliders import slider_record
 from lir_element.results.eccentricity import interface_eccentricity
 
 DT = 0.005
@@ -174,16 +175,17 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
     k = 1.0 / (1.0 + n[2])
     t = np.array([[1.0 - k * n[0] ** 2, -k * n[0] * n[1], -n[0]],
                   [-k * n[0] * n[1], 1.0 - k * n[1] ** 2, -n[1]]])  # fmt: skip
-    load, half = element.response("axial_force"), 0.5 * bearing.slider_height
+    load, sliders = element.response("axial_force"), slider_record(bearing)
+    height = abs(sliders["vertex"] - sliders["plane"])[0, int(top)]  # of the bodies themselves
     pushed = -load * n + element.response("interface_force") @ t  # down on the bottom slider
-    side = 1 if top else 0
+    side = int(top)
     sign = 1.0 if top else -1.0  # the vertex lies above the centre, or below
     outward = sign * np.array([n[0], n[1], 0.0]) / np.hypot(n[0], n[1])
     plate = sign * element.response("friction_force")[side] @ t
     plate = plate - element.response("rim_force")[side] * outward
     moment = np.cross(sign * p["radius"][side] * n, plate)
     pushed = -pushed if top else pushed
-    moment = moment + np.cross(sign * (p["radius"][side] - half) * n, pushed)
+    moment = moment + np.cross(sign * (p["radius"][side] - height) * n, pushed)
     # e x (-+N n) must balance what is across n
     across = moment - (moment @ n) * n
     return float(np.linalg.norm(across) / load)
@@ -192,7 +194,7 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
 @pytest.mark.parametrize("lateral", [0.02, 0.09, 0.115])
 def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
     bearing = device(
-        radius=(1.0, 0.7), friction=(CoulombFriction(0.03), CoulombFriction(0.06)), capacity=0.1,
+        radius=(1.4, 0.5), slider_radius=0.12, friction=(CoulombFriction(0.03), CoulombFriction(0.06)), capacity=0.1,
         axial_stiffness=1e9,
     )  # fmt: skip
     element = Element(bearing)

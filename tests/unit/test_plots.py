@@ -1,6 +1,8 @@
 """Figures of a small real analysis, and the numbers behind the section of a bearing."""
 
 import math
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,16 +17,19 @@ from frames.plots.bearing_geometry import (
     Posture,
     area_of,
     contact_points,
-    interface_height,
     outlines,
+    plane_height,
     posture,
     rim_face,
     rim_gap,
     rim_height,
     slider_axis,
 )
-from frames.plots.plot_style import PALETTE, as_systems, engineering, label_of, worst_bearing
-from lir_element import CoulombFriction, LIRBearing
+from frames.plots.drawn_device import device_of
+from frames.plots.plot_choice import as_systems, label_of, worst_bearing
+from frames.plots.plot_style import PALETTE, engineering, wrapped
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element.results.dataset import bearing_coordinates, device_variables
 
 BEARING = LIRBearing(
     radius=0.75,
@@ -149,16 +154,13 @@ def test_area_of_the_slider_section() -> None:
     assert_allclose(area_of(np.array([[0, 0], [2, 0], [2, 3], [0, 3.0]])), 6.0, rtol=1e-14, atol=0)
 
 
-def test_interface_moves_where_a_cap_is_higher_than_half_the_slider() -> None:
-    flat = LIRBearing(
-        radius=(0.30, 5.0), slider_height=0.03, slider_radius=0.10, capacity=0.05,
-        friction=CoulombFriction(0.05), interface_friction=0.2,
-    )  # fmt: skip
-    lower = interface_height(flat)
-    caps = [r - math.sqrt(r**2 - 0.1**2) for r in flat.radii]
-    assert caps[0] > 0.5 * flat.slider_height
-    assert_allclose(lower - caps[0], flat.slider_height - lower - caps[1], rtol=1e-12, atol=0.0)
-    assert_allclose(interface_height(BEARING), 0.0425, rtol=1e-15, atol=0.0)
+def test_edges_of_both_sliders_are_equally_high_in_the_picture() -> None:
+    for bearing in (BEARING, UNEVEN):
+        bodies, height = outlines(bearing, tilted(0.0)), plane_height(bearing)
+        low, high = bodies["bottom slider"][0, 1], bodies["top slider"][0, 1]
+        assert_allclose(height - low, high - height, rtol=1e-12, atol=0.0)
+    assert_allclose(plane_height(BEARING), 0.0425, rtol=1e-15, atol=0.0)
+    assert abs(plane_height(UNEVEN) - 0.06) > 1e-3  # not half the height
 
 
 def test_rims_leave_room_between_the_plates() -> None:
@@ -225,6 +227,44 @@ def test_slip_of_the_section_is_that_of_the_results(results: dict[str, xr.Datase
     assert_allclose(abs(now.slip), np.linalg.norm(vector), rtol=1e-2, atol=0.0)
 
 
+def test_the_dataset_has_the_geometry_of_its_bearings() -> None:
+    devices = {"uneven": UNEVEN, "thick": replace(UNEVEN, plate_thickness=(0.03, 0.05)),
+               "one": BEARING.as_dcfp(), "free": BEARING.as_dcfp(rims=False)}  # fmt: skip
+    records = np.concatenate([device.to_record() for device in devices.values()])
+    data = xr.Dataset(device_variables(records), bearing_coordinates(list(devices)))
+    for name, device in devices.items():
+        found = device_of(data, name)
+        for key in ("radii", "slider_height", "slider_radius", "rim_displacement"):
+            assert_allclose(getattr(found, key), getattr(device, key), rtol=1e-12, atol=0.0)
+        assert found.is_dcfp == device.is_dcfp
+        assert_allclose(found.lateral_capacity, device.lateral_capacity, rtol=1e-12, atol=0.0)
+    with pytest.raises(ValueError, match="the Dataset has no radius"):
+        device_of(data.drop_vars("radius"), "one")
+
+
+def test_a_lifted_bearing_is_drawn_with_its_gap(results: dict[str, xr.Dataset]) -> None:
+    data = results["LIR"].sel(bearing=[NAME]).copy(deep=True)
+    device, plane = device_of(data, NAME), np.array([1.0, 0.0])
+    assert posture(data, device, NAME, 0.3, plane).lift == 0.0
+    axis = slider_axis(data, device, NAME)[int(np.searchsorted(data["time"], 0.2999))]
+    data["axial_force"][:] = 0.0
+    data["bearing_displacement"][:] += 0.05 * axis  # the plate moves away along the slider's axis
+    now = posture(data, device, NAME, 0.3, plane)
+    # less the closure under the load that was there: 250 kN on some 5 GN/m
+    assert_allclose(now.lift, 0.05, rtol=0.0, atol=1e-4)
+    # the plate's vertex is node j: where the results have it, but for the closure
+    moved = data["bearing_displacement"].sel(bearing=NAME, time=0.3, method="nearest").to_numpy()
+    vertex = contact_points(device, now)["vertex"]
+    assert_allclose(vertex - [0.0, device.slider_height], moved[[0, 2]], rtol=0.0, atol=3e-4)
+    figure = plots.bearing_sections(data, NAME, instants=[0.3])
+    assert "lifted 49.9 mm" in texts(figure)
+
+
+def texts(figure: Figure) -> str:
+    """All that is written into the panels."""
+    return "\n".join(text.get_text() for ax in figure.axes for text in ax.texts)
+
+
 # --- figures ------------------------------------------------------------------------------------
 
 
@@ -236,10 +276,10 @@ def test_every_figure_draws_and_is_written(results: dict[str, xr.Dataset], tmp_p
         "orbits": plots.orbits(results, capacity=capacity),
         "orbit": plots.orbits(results["free"]),
         "histories": plots.histories(results, tuple(plots.QUANTITIES), limits={"base_shear": 0.1}),
-        "window": plots.histories(results["LIR"], ("axial_force",), NAME, window=(0.2, 0.9)),
+        "window": plots.histories(results["LIR"], "axial_force", NAME, start=0.2, end=0.9),
         "profiles": plots.storey_profiles(results),
         "energy": plots.energy(results),
-        "lines": plots.energy(results["LIR"], stacked=False, window=(0.0, 1.0)),
+        "lines": plots.energy(results["LIR"], stacked=False, end=1.0),
         "sections": plots.bearing_sections(results["LIR"], BEARING, NAME),
         "free": plots.bearing_sections(results["free"], SYSTEMS["free"], NAME, {"start": 0.0}),
     }
@@ -279,7 +319,7 @@ def test_energy_areas_add_up_to_the_input(results: dict[str, xr.Dataset]) -> Non
     total = energy.sel(term="input").to_numpy()
     drawn = sum(
         energy.sel(term=list(terms)).sum("term").to_numpy()
-        for terms, _ in _groups().values()
+        for terms, _, _ in _groups().values()
     )  # fmt: skip
     assert_allclose(drawn, total, rtol=0.0, atol=1e-4 * np.abs(total).max())
     assert len(panel.collections) == len(_groups())
@@ -325,10 +365,211 @@ def test_engineering_units() -> None:
     assert engineering("furlong", 1.0) == (1.0, "furlong")
 
 
+def with_spike(data: xr.Dataset, force: float) -> xr.Dataset:
+    """The result with one step of a high base shear along x, over weight."""
+    spiked = data.copy(deep=True)
+    spiked["base_shear"][100, 0] = force * float(data["weight"])
+    return spiked
+
+
+def test_a_spike_does_not_flatten_the_loops(results: dict[str, xr.Dataset]) -> None:
+    plain = np.abs(results["free"]["base_shear"][:, :2]).max() / results["free"]["weight"]
+    whole = plots.hysteresis(results["free"])
+    assert_allclose(whole.axes[0].get_ylim()[1], 1.06 * float(plain), rtol=1e-12, atol=0.0)
+    assert not texts(whole)
+    spiked = {"free": with_spike(results["free"], -3.21)}
+    figure = plots.hysteresis(spiked)
+    assert 1.06 * float(plain) < figure.axes[0].get_ylim()[1] < 2.0 * float(plain)
+    assert texts(figure) == "▼ −3.21"
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "value of a peak beyond the axis"
+    ]
+    for limit, end in ((math.inf, 1.06 * 3.21), (0.5, 0.5)):
+        panel = plots.hysteresis(spiked, force_limit=limit).axes[0]
+        assert_allclose(panel.get_ylim()[1], end, rtol=1e-12, atol=0.0)
+    history = plots.histories(spiked, "base_shear")
+    assert history.axes[0].get_ylim()[1] < 3.0 * float(plain)
+    assert texts(history) == "▲ 3.21"
+    history = plots.histories(spiked, "base_shear", limits={"base_shear": math.inf})
+    assert history.axes[0].get_ylim()[1] > 3.21
+
+
+def test_a_component_without_motion_has_no_panel(results: dict[str, xr.Dataset]) -> None:
+    along = results["LIR"].copy(deep=True)
+    for name in ("base_shear", "bearing_displacement", "bearing_force"):
+        along[name].loc[{"axis": "y"}] *= 1e-6
+    for bearing in (None, NAME):
+        figure = plots.hysteresis(along, bearing)
+        assert [ax.get_xlabel() for ax in figure.axes] == ["displacement x [mm]"]
+        both = plots.hysteresis({"along": along, "LIR": results["LIR"]}, bearing)
+        assert len(both.axes) == 4  # one of them moves along y
+    five = plots.hysteresis(dict.fromkeys("abcde", along))
+    assert [bool(ax.get_xlabel()) for ax in five.axes] == [False, False, True, True, True]
+
+
+def test_a_quantity_without_any_value_is_left_out_unless_named(
+    results: dict[str, xr.Dataset],
+) -> None:
+    one_piece = {name: results[name] for name in ("rims", "free")}
+    assert len(plots.histories(one_piece).axes) == 3  # no interface slip
+    assert len(plots.histories(results).axes) == 4
+    assert len(plots.histories(one_piece, "interface_slip").axes) == 1
+
+
+def test_a_window_shows_its_part_alone(results: dict[str, xr.Dataset]) -> None:
+    data = results["LIR"]
+    part = data.sel(time=slice(0.2, 0.6))
+    u = part["bearing_displacement"].sel(bearing=NAME, axis="x").to_numpy()
+    for figure in (plots.hysteresis(data, NAME, start=0.2, end=0.6),
+                   plots.orbits(data, NAME, start=0.2, end=0.6)):  # fmt: skip
+        drawn = figure.axes[0].lines[0].get_xdata()
+        assert len(drawn) == len(u)
+        assert_allclose(drawn / drawn[0], u / u[0], rtol=1e-12, atol=0.0)
+    for figure in (
+        plots.histories(data, start=0.2, end=0.6),
+        plots.energy(data, start=0.2, end=0.6),
+    ):
+        assert_allclose(figure.axes[0].get_xlim(), (0.2, 0.6), rtol=1e-12, atol=0.0)
+    early = plots.storey_profiles(data, end=0.1).axes[1].lines[0].get_xdata()
+    assert (early < plots.storey_profiles(data).axes[1].lines[0].get_xdata()).all()
+    drawn = plots.bearing_sections(data, NAME, start=0.2, end=0.6)
+    times = [float(ax.get_title(loc="left").split("t = ")[1][:-2]) for ax in drawn.axes]
+    assert all(0.2 <= time <= 0.6 for time in times)
+
+
+def test_windows_that_cannot_be_are_refused(results: dict[str, xr.Dataset]) -> None:
+    with pytest.raises(ValueError, match="start = 2 s is not before end = 1 s"):
+        plots.orbits(results, start=2.0, end=1.0)
+    with pytest.raises(
+        ValueError, match="start = 7 s: LIR has fewer than two steps there, it goes"
+    ):
+        plots.energy(results, start=7.0)
+    with pytest.raises(ValueError, match="end = nan"):
+        plots.hysteresis(results, end=math.nan)
+
+
+def test_rims_are_drawn_as_the_dataset_has_them(results: dict[str, xr.Dataset]) -> None:
+    rim, same, free = plots.orbits(results, NAME).axes
+    for panel in (rim, same):
+        assert_allclose(panel.patches[0].get_radius(), 100.0, rtol=1e-9, atol=0.0)  # mm
+    assert not free.patches
+    circles = plots.orbits(results, NAME, capacity={"LIR": math.inf, "free": 0.05}).axes
+    assert [len(ax.patches) for ax in circles] == [0, 1, 1]
+    with pytest.raises(ValueError, match=r"no system 'lir', as capacity has it; known: LIR, rims"):
+        plots.orbits(results, capacity={"lir": 0.1})
+    assert not plots.orbits(results["LIR"].drop_vars("radius"), NAME).axes[0].patches
+
+
+def test_a_notebook_shows_a_picture(results: dict[str, xr.Dataset], tmp_path: Path) -> None:
+    figure = plots.orbits(results["LIR"])
+    picture = figure._repr_png_()
+    assert picture.startswith(b"\x89PNG\r\n")
+    width, height = (int.from_bytes(picture[k : k + 4], "big") for k in (16, 20))
+    assert_allclose((width, height), 110.0 * figure.get_size_inches(), rtol=0.0, atol=1.0)
+    figure.savefig(tmp_path / "after.pdf")
+    assert (tmp_path / "after.pdf").stat().st_size > 2000
+
+
+def test_sections_show_the_largest_displacement(results: dict[str, xr.Dataset]) -> None:
+    data = results["rims"].copy(deep=True)
+    assert "turn of the swing" not in impact_instants(data, NAME)
+    u = data["bearing_displacement"].sel(bearing=NAME, axis=["x", "y"])
+    assert impact_instants(data, NAME)["largest displacement"] == float(
+        data["time"][int(np.argmax(np.linalg.norm(u, axis=1)))]
+    )
+    data["bearing_displacement"].loc[{"bearing": NAME}][-5:] = [0.501, 0.0, 0.0]  # no contact
+    data["rim_force"][-20:] = 0.0
+    when = impact_instants(data, NAME)
+    assert when["largest displacement"] == float(data["time"][-5])
+    assert when["rim contact"] < when["turn of the swing"] < when["largest displacement"]
+    figure = plots.bearing_sections(data, NAME, direction=[2.0, 0.0])
+    shown = dict(zip([ax.get_title(loc="left") for ax in figure.axes],
+                     [ax.texts[0].get_text() for ax in figure.axes], strict=True))  # fmt: skip
+    (text,) = (text for title, text in shown.items() if title.startswith("largest displacement"))
+    assert text.startswith("displacement 501 mm")
+
+
+def test_only_the_bearing_of_the_dataset_is_drawn(results: dict[str, xr.Dataset]) -> None:
+    data = results["LIR"]
+    by_name = plots.bearing_sections(data, NAME)
+    for figure in (plots.bearing_sections(data, BEARING, NAME), plots.bearing_sections(data)):
+        for ax, other in zip(figure.axes, by_name.axes, strict=True):
+            assert len(ax.patches) == len(other.patches)
+            assert_allclose(ax.patches[0].get_xy(), other.patches[0].get_xy(), rtol=0.0, atol=1e-12)
+    with pytest.raises(
+        ValueError, match=r"not bearing-0-0: its radius is 1 and 0.6 m, that .* 0.75 m"
+    ):
+        plots.bearing_sections(data, UNEVEN, NAME)
+    with pytest.raises(
+        ValueError, match=r"its interface_friction is inf 1.*no bearing of the Data"
+    ):
+        plots.bearing_sections(data, SYSTEMS["free"], NAME)
+    mixed = data.copy(deep=True)
+    mixed["slider_radius"].loc[{"bearing": NAME}] = 0.09
+    with pytest.raises(ValueError, match=r"slider_radius is 0.08 m.* it is that of bearing-0-1"):
+        plots.bearing_sections(mixed, BEARING, NAME)
+    with pytest.raises(TypeError, match="bearing is a dict: give a LIRBearing, or only the name"):
+        plots.bearing_sections(data, {}, NAME)
+    with pytest.raises(ValueError, match="two names"):
+        plots.bearing_sections(data, NAME, "bearing-0-1")
+
+
+def test_long_names_fit(results: dict[str, xr.Dataset]) -> None:
+    assert wrapped("one two three four", 1.0, 9.0) == "one two three\nfour"
+    long = {f"an isolation system with a rather long name, number {k}": results["LIR"]
+            for k in range(3)}  # fmt: skip
+    for draw in (plots.hysteresis, plots.histories, plots.orbits, plots.energy):
+        figure = draw(long)
+        figure.draw_without_rendering()
+        frame = figure.bbox
+        for legend in figure.legends:
+            box = legend.get_window_extent()
+            assert frame.x0 <= box.x0 < box.x1 <= frame.x1
+        titles = [ax._left_title.get_window_extent() for ax in figure.axes[:3]]
+        assert all(a.x1 <= b.x0 or a.y0 != b.y0 for a, b in pairwise(titles))
+        assert max(box.x1 for box in titles) <= frame.x1
+
+
+def test_no_figure_needs_pyplot() -> None:
+    for path in Path(plots.__file__).parent.glob("*.py"):
+        assert "matplotlib.pyplot" not in path.read_text(encoding="utf-8")
+
+
 def test_bad_requests_are_refused(results: dict[str, xr.Dataset]) -> None:
-    with pytest.raises(ValueError, match="choose one or more of displacement"):
+    with pytest.raises(
+        ValueError, match="no quantity 'temperature'; known: displacement, base_shear"
+    ):
         plots.histories(results, ("temperature",))
+    with pytest.raises(ValueError, match=r"no quantity 'displacment'.*did you mean .displacement"):
+        plots.histories(results, "displacment")
+    with pytest.raises(ValueError, match="quantities is empty"):
+        plots.histories(results, ())
+    with pytest.raises(ValueError, match="no quantity 'shear'"):
+        plots.histories(results, limits={"shear": 1.0})
+    with pytest.raises(ValueError, match=r"limits\['base_shear'\] = 0.0 must be greater than 0"):
+        plots.histories(results, limits={"base_shear": 0.0})
+    with pytest.raises(ValueError, match="force_limit = -1 must be"):
+        plots.hysteresis(results, force_limit=-1)
+    for draw in (plots.histories, plots.hysteresis, plots.orbits):
+        with pytest.raises(ValueError, match=r"no bearing 'bearing-0-7' in 'LIR'.*did you mean"):
+            draw(results, bearing="bearing-0-7")
+    with pytest.raises(ValueError, match="no bearing 'west'; known: bearing-0-0, bearing-0-1"):
+        plots.bearing_sections(results["LIR"], "west")
+    with pytest.raises(ValueError, match="no variable of bearings 'slip'"):
+        plots.worst_bearing(results["LIR"], "slip")
     with pytest.raises(ValueError, match="give 1 to 6"):
         as_systems({})
+    with pytest.raises(TypeError, match="systems is a list: give a Dataset"):
+        plots.orbits([results["LIR"]])  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="LIR is a float: give a Dataset"):
+        plots.orbits({"LIR": 1.0})  # type: ignore[dict-item]
+    with pytest.raises(ValueError, match="has no dimension 'time', but step"):
+        plots.hysteresis(cyclic_test(BEARING, [0.0, 0.01], 250e3))
+    with pytest.raises(ValueError, match="has no weight: name a bearing"):
+        plots.hysteresis(results["LIR"].drop_vars("weight"))
     with pytest.raises(ValueError, match="instants is empty"):
         plots.bearing_sections(results["LIR"], BEARING, NAME, {})
+    with pytest.raises(ValueError, match="instant 'late' = 99 s: the result goes from 0"):
+        plots.bearing_sections(results["LIR"], NAME, instants={"late": 99.0})
+    with pytest.raises(ValueError, match="direction = "):
+        plots.bearing_sections(results["LIR"], NAME, direction=np.zeros(2))

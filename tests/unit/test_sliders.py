@@ -13,7 +13,7 @@ from lir_element.bundles.contact_data import as_rows, contact_arrays
 from lir_element.device.sliders import (
     half_slider,
     initial_touches,
-    lower_height,
+    interface_height,
     point_records,
     ring_points,
     slider_record,
@@ -90,6 +90,15 @@ def test_cap_alone_against_its_closed_form() -> None:
     assert_allclose(along, expected, rtol=1e-8, atol=0.0)
 
 
+def test_interface_lies_where_both_edges_are_equally_high() -> None:
+    """By hand for radii of 0.90 and 1.45 m; many bearings at once; half where the radii agree."""
+    caps = [0.90 - math.sqrt(0.90**2 - 0.15**2), 1.45 - math.sqrt(1.45**2 - 0.15**2)]
+    edge = 0.5 * (0.12 - sum(caps))  # what both cylinders share
+    found = interface_height([(0.90, 1.45), (1.0, 1.0)], [0.15, 0.15], [0.12, 0.12])
+    assert_allclose(found, [caps[0] + edge, 0.06], rtol=1e-13, atol=0.0)
+    assert_allclose(found[0], 0.0624, rtol=0.0, atol=5e-5)
+
+
 def test_record_of_the_sliders() -> None:
     """Places: spheres' vertices on the plates, both planes at one height, nodes by thickness."""
     b = bearing(plate_thickness=(0.03, 0.05), slider_density=5000.0)
@@ -99,7 +108,8 @@ def test_record_of_the_sliders() -> None:
     assert_allclose(place[[0, 3]], [-0.03, 0.11 + 0.05], rtol=1e-14, atol=0.0)
     assert_allclose(place[1:3] + c["vertex"][0], [0.0, 0.11], rtol=0.0, atol=1e-15)
     plane = place[1:3] + c["plane"][0]
-    assert_allclose(plane, lower_height(b), rtol=1e-14, atol=0.0)
+    height = interface_height(b.radii, b.slider_radius, b.slider_height)
+    assert_allclose(plane, height, rtol=1e-14, atol=0.0)
     edges = [r - math.sqrt(r * r - 0.08**2) for r in b.radii]
     # both edges are equally high
     assert_allclose(plane[0] - edges[0], 0.11 - edges[1] - plane[0], rtol=1e-12, atol=0.0)

@@ -1,0 +1,241 @@
+"""What a figure shows: the systems, their part in time, the bearing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import xarray as xr
+from matplotlib.lines import Line2D
+
+from frames._validate import likely
+from frames.plots.plot_style import PALETTE, line_of
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+
+Systems: TypeAlias = xr.Dataset | Mapping[str, xr.Dataset]
+"""One result, or several by name for comparison."""
+
+_NAMED = 12  # names that a message lists in full
+
+
+def as_systems(
+    systems: Systems, start: float | None = None, end: float | None = None
+) -> dict[str, xr.Dataset]:
+    """Return systems by name, in a window of time; a single Dataset goes by its title.
+
+    Parameters
+    ----------
+    systems : Dataset or mapping of name to Dataset
+        Results of `frames.time_history`.
+    start, end : float, optional
+        Window [s]; from the beginning and to the end if left out.
+
+    Returns
+    -------
+    dict of str to Dataset
+        In the order given, at least one and at most six.
+
+    Raises
+    ------
+    ValueError
+        If there are none, or more than the palette has colours for; if the window is empty, or
+        holds fewer than two steps of a system.
+    TypeError
+        If something else is given.
+    """
+    given: object = systems  # callers may not check their types
+    if isinstance(given, xr.Dataset):
+        found: dict[str, object] = {str(given.attrs.get("title", "result")): given}
+    elif isinstance(given, Mapping):
+        found = {str(name): data for name, data in given.items()}
+    else:
+        msg = (
+            f"systems is a {type(given).__name__}: give a Dataset of time_history, or several by "
+            'name, as in {"LIR-DCFP": data, "DCFP": other}'
+        )
+        raise TypeError(msg)
+    if not 1 <= len(found) <= len(PALETTE):
+        msg = f"{len(found)} systems: give 1 to {len(PALETTE)} Datasets to compare"
+        raise ValueError(msg)
+    return {name: in_window(data, start, end, name) for name, data in found.items()}
+
+
+def in_window(
+    data: object, start: float | None, end: float | None, name: str = "the Dataset"
+) -> xr.Dataset:
+    """Return the part of a result between two times [s]; errors as in `as_systems`."""
+    if not isinstance(data, xr.Dataset):
+        msg = f"{name} is a {type(data).__name__}: give a Dataset of time_history"
+        raise TypeError(msg)
+    if "time" not in data.dims:
+        msg = (
+            f"{name} has no dimension 'time', but {', '.join(map(str, data.dims))}: figures show "
+            "time histories; draw the variables of a cyclic test over one another"
+        )
+        raise ValueError(msg)
+    for side, value in (("start", start), ("end", end)):
+        if value is not None and not math.isfinite(value):
+            msg = f"{side} = {value}: give a time [s], or leave it out"
+            raise ValueError(msg)
+    if start is not None and end is not None and not start < end:
+        msg = f"start = {start:g} s is not before end = {end:g} s: exchange or widen them"
+        raise ValueError(msg)
+    if start is None and end is None:
+        return data
+    chosen = data.sel(time=slice(start, end))
+    if chosen.sizes["time"] < 2:
+        time = data["time"].to_numpy()
+        low, high = (time[0], time[-1]) if len(time) else (0.0, 0.0)
+        window = " ".join(
+            f"{side} = {value:g} s"
+            for side, value in (("start", start), ("end", end))
+            if value is not None
+        )
+        msg = (
+            f"{window}: {name} has fewer than two steps there, it goes from {low:g} to {high:g} s: "
+            "move the window, or leave the system out"
+        )
+        raise ValueError(msg)
+    return chosen
+
+
+def choose(name: object, known: Collection[str], kind: str, where: str = "") -> str:
+    """Return a name that exists.
+
+    Parameters
+    ----------
+    name : object
+        The name given.
+    known : collection of str
+        The names that exist.
+    kind : str
+        What is named: "bearing", "quantity", ...
+    where : str
+        Where it was looked for, for the message.
+
+    Returns
+    -------
+    str
+        The name.
+
+    Raises
+    ------
+    ValueError
+        If nothing has this name; the message has close names, or the known ones.
+    """
+    if isinstance(name, str) and name in known:
+        return name
+    msg = f"there is no {kind} {name!r}{where}"
+    hint = likely(name, known)
+    if len(known) <= _NAMED:
+        msg += f"; known: {', '.join(known)}"
+        hint = hint if hint.startswith("did") else ""
+    raise ValueError(f"{msg}; {hint}" if hint else msg)
+
+
+def choose_bearing(
+    systems: Mapping[str, xr.Dataset], bearing: str | None, variable: str | None = None
+) -> str:
+    """Return the bearing that a figure shows, which all systems must have.
+
+    Parameters
+    ----------
+    systems : mapping of name to Dataset
+        The results.
+    bearing : str, optional
+        Left out: the `worst_bearing` of the first result.
+    variable : str, optional
+        By which variable; left out: by the slip, or by the displacement where nothing slips.
+
+    Returns
+    -------
+    str
+        Its name.
+
+    Raises
+    ------
+    ValueError
+        If a system has no such bearing.
+    """
+    first = next(iter(systems.values()))
+    need(first, ("bearing",), "figures of bearings need a Dataset of an isolated frame")
+    if bearing is None:
+        slips = float(first["interface_slip_size"].max()) > 0.0
+        usual = "interface_slip_size" if slips else "bearing_displacement"
+        bearing = worst_bearing(first, variable or usual)
+    for name, data in systems.items():
+        where = "" if len(systems) == 1 else f" in {name!r}"
+        choose(bearing, [str(known) for known in data["bearing"].to_numpy()], "bearing", where)
+    return bearing
+
+
+def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> str:
+    """Return the name of the bearing with the largest absolute value of a variable.
+
+    Parameters
+    ----------
+    data : Dataset
+        Result of `frames.time_history`.
+    variable : str
+        A variable over time and bearing; of "bearing_displacement" the size in plan counts.
+
+    Returns
+    -------
+    str
+        Its name, in the dimension "bearing".
+
+    Raises
+    ------
+    ValueError
+        If there is no such variable.
+    """
+    known = [str(name) for name in data.data_vars if "bearing" in data[name].dims]
+    values = data[choose(variable, known, "variable of bearings")].transpose("bearing", ...)
+    if variable == "bearing_displacement":
+        sizes = np.linalg.norm(values.sel(axis=["x", "y"]).to_numpy(), axis=-1)
+    else:
+        sizes = np.abs(values.to_numpy())
+    peaks = sizes.reshape(len(sizes), -1).max(axis=1)
+    return str(data["bearing"].to_numpy()[int(np.argmax(peaks))])
+
+
+def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
+    """Raise a ValueError that says why, if the Dataset lacks one of `names`."""
+    missing = [name for name in names if name not in data.variables]
+    if missing:
+        msg = f"the Dataset has no {', '.join(missing)}: {why}"
+        raise ValueError(msg)
+
+
+def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
+    """Return the name of a system; after `space`, a run that stopped early says so."""
+    if data.attrs.get("status", "ok") == "ok":
+        return name
+    return f"{name}{space}(stopped at {data.attrs.get('failed_at', float(data['time'][-1])):.2f} s)"
+
+
+def system_handles(systems: Mapping[str, xr.Dataset]) -> list[Artist]:
+    """Return the entries of a legend for the systems, in their colours and line styles."""
+    return [
+        Line2D([], [], label=label_of(*item), **line_of(k))
+        for k, item in enumerate(systems.items())
+    ]
+
+
+def several(names: str | Collection[str]) -> list[str]:
+    """Return names as a list; a single string is one name."""
+    return [names] if isinstance(names, str) else list(names)
+
+
+def of_each(values: Any, systems: Collection[str], what: str) -> dict[str, Any]:
+    """Return a value by system from one for all, or from a mapping that may leave some out."""
+    if not isinstance(values, Mapping):
+        return dict.fromkeys(systems, values)
+    return {
+        choose(name, systems, "system", f", as {what} has it"): value
+        for name, value in values.items()
+    }
