@@ -88,8 +88,8 @@ def interface_height(
 ) -> Floats:
     """Return the height of the interface over the vertex of the bottom cap, on the axis.
 
-    The edges of both sliders are equally high, whatever their caps take: with caps of the height
-    ``c = R - sqrt(R^2 - a^2)``, ``h_b - c_1 = (h - h_b) - c_2`` gives ``h_b = (h + c_1 - c_2) / 2``.
+    The edges of both sliders are equally high, whatever their caps take: with the caps' heights
+    ``c = R - sqrt(R^2 - a^2)``, ``h_b - c_1 = (h - h_b) - c_2``, so ``h_b = (h + c_1 - c_2) / 2``.
 
     Parameters
     ----------
@@ -111,9 +111,7 @@ def interface_height(
 def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Records:
     """Return the sliders' constants, a record array of shape (1,)."""
     first, second = bearing.radii
-    lower = float(
-        interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height)
-    )
+    lower = float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
     upper = bearing.slider_height - lower
     thickness = as_pair("plate_thickness", bearing.plate_thickness)
     bodies = [

@@ -194,8 +194,8 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
 @pytest.mark.parametrize("lateral", [0.02, 0.09, 0.115])
 def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
     bearing = device(
-        radius=(1.4, 0.5), slider_radius=0.12, friction=(CoulombFriction(0.03), CoulombFriction(0.06)), capacity=0.1,
-        axial_stiffness=1e9,
+        radius=(1.4, 0.5), slider_radius=0.12, capacity=0.1, axial_stiffness=1e9,
+        friction=(CoulombFriction(0.03), CoulombFriction(0.06)),
     )  # fmt: skip
     element = Element(bearing)
     length = bearing.effective_radius + 2e5 / bearing.resolved()["axial_stiffness"]
