@@ -237,7 +237,7 @@ def index(folder: Path = FOLDER) -> str:
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "
-        "[README](../../README.md#what-has-been-checked-against-what) of the repository; speed in "
+        "[verification.md](../verification.md); speed in "
         "[performance.md](../performance.md).",
     ]) + "\n"  # fmt: skip
 

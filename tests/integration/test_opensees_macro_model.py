@@ -13,8 +13,8 @@ from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFric
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
 from validation.claims import static_test
+from validation.claims.opensees_macro_loops import Loop
 from validation.claims.opensees_macro_model import (
-    Loop,
     element_force,
     loops,
     pendulum_force,

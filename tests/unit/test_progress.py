@@ -118,7 +118,8 @@ def test_the_compiler_is_followed(tmp_path: Path) -> None:
         "from lir_element import _progress; _progress.PATIENCE = 0.0; "
         "from lir_element.kernels.rotation import coefficients; coefficients(1.0)"
     )
-    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(tmp_path), "LIR_QUIET": "0"}
+    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(tmp_path), "LIR_QUIET": "0",
+           "NUMBA_DISABLE_JIT": "0"}  # fmt: skip
     told = [
         subprocess.run(  # noqa: S603
             [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True

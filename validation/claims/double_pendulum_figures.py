@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from validation.claims.double_pendulum import Loops
+    from validation.claims.double_pendulum_loops import Loops
 
 LOOKS: tuple[dict[str, Any], ...] = (
     {"color": PALETTE[0], "linewidth": 2.0, "label": "one piece (element)"},

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from lir_element.layout import Floats
-    from validation.claims.opensees_macro_model import Loop
+    from validation.claims.opensees_macro_loops import Loop
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import statistics
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,6 +21,7 @@ from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
 from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
 from validation.claims.opensees_macro_figures import Rim, draw_loops, draw_rims
+from validation.claims.opensees_macro_loops import SLIPS, Loop
 from validation.claims.opensees_macro_text import SCENES, scenes_table, settings_table, text
 from validation.claims.static_test import LOAD, REACH, STEP, path
 from validation.opensees.devices import Device, macro
@@ -46,7 +46,6 @@ CLAIM = Claim(
     "derived; paper 2.2, 3.1",
     EXAMPLE_RECORD,
 )
-SLIPS = 3e-4  # m, above what the interface gives before it slips
 STEP_HISTORY = 0.002  # s, of both programs
 DURATION = 20.0  # s
 REPEATS = 5
@@ -55,36 +54,6 @@ CORNERS = (8, 16)
 ANGLES = 13
 """Directions of pull between 0 and 90 degrees."""
 BEFORE = 0.17  # m, short of the rims
-
-
-@dataclass(frozen=True)
-class Loop:
-    """One static cyclic test: displacement, force over load and slip, (n,)."""
-
-    name: str
-    displacement: Floats
-    force: Floats
-    slip: Floats
-
-    def first(self) -> int:
-        """Return the point of the first slip."""
-        return int(np.argmax(np.abs(self.slip) > SLIPS))
-
-    def at(self, displacement: float) -> float:
-        """Return the force on the first way out, at a displacement [m]."""
-        turn = round(REACH / STEP)
-        return float(np.interp(displacement, self.displacement[:turn], self.force[:turn]))
-
-    def zero(self) -> int:
-        """Return the point nearest to zero displacement on the first way back."""
-        turn = round(REACH / STEP)
-        return turn + int(np.argmin(np.abs(self.displacement[turn : 3 * turn])))
-
-    def back(self) -> float:
-        """Return the force at zero displacement on the first way back."""
-        turn = round(REACH / STEP)
-        way = slice(turn, 3 * turn)
-        return float(np.interp(0.0, self.displacement[way][::-1], self.force[way][::-1]))
 
 
 def series_with_mu_h(bearing: LIRBearing, weight: float) -> Device:

@@ -16,6 +16,7 @@ import numpy as np
 from frames import GroundMotion
 from lir_element.opensees import BUILTIN_KINDS, builtin_values, opensees
 from validation.cases import EXAMPLE_RECORD
+from validation.claims import opensees_building as building
 from validation.claims import opensees_loops as loops
 from validation.claims.opensees_causes import (
     ELASTIC,
@@ -40,7 +41,6 @@ from validation.claims.opensees_causes import (
 )
 from validation.claims.opensees_pendulum_figures import loops as draw_loops
 from validation.claims.opensees_pendulum_figures import newhall as draw_newhall
-from validation.opensees import building
 from validation.page import Check, Claim, Page, below, figure, run, table
 from validation.scenes import TCU065
 

@@ -26,7 +26,7 @@ from frames.model.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element, builtin_element, macro_model, opensees
 from validation.cases import EXAMPLE_MASS, example_bearing
-from validation.opensees.building import slender
+from validation.claims.opensees_building import slender
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
     empty_model,
