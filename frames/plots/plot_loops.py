@@ -86,7 +86,7 @@ def hysteresis(
     limit = 1.06 * limit if force_limit is None or math.isinf(force_limit) else force_limit
     entries = [(k, axis) for k in range(len(found)) for axis in axes]
     columns = 2 if len(axes) == 2 else ps.COLUMNS[len(found)]
-    figure, panels = ps.panels_of(len(entries), columns)
+    figure, panels = ps.panels_of(len(entries), columns, 3.2 if len(entries) == 1 else 2.1)
     cut = False
     for place, ((k, axis), panel) in enumerate(zip(entries, panels, strict=True)):
         name, data = list(found.items())[k]

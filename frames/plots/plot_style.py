@@ -79,7 +79,7 @@ def grid_of(
     return table
 
 
-def panels_of(count: int, columns: int, height: float = 2.1) -> tuple[PageFigure, list[Axes]]:
+def panels_of(count: int, columns: int, height: float) -> tuple[PageFigure, list[Axes]]:
     """Return a figure of `count` panels with common axes, row after row of a height [in]."""
     rows = math.ceil(count / columns)
     figure = new_figure(0.6 + height * rows)

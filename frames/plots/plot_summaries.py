@@ -24,13 +24,13 @@ ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "high-friction interface": (("high_friction",), "#D55E00", "///"),
     "rims": (("rims",), "#CC79A7", "xxx"),
     "damping of the structure": (("damping",), "#009E73", "\\\\\\"),
-    "contact, elastic sliding": (("contact", "friction_elastic", "numerical"), "#F0E442", ""),
+    "contact, elastic sliding": (("contact", "friction_elastic", "numerical"), "#E0C800", ""),
     "kinetic, elastic, gravity": (("kinetic", "elastic", "gravity"), "#BBBBBB", "..."),
 }
 """Terms of the energy drawn together, from below, their colours and hatches."""
 
 EDGE = "#333333"
-_LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "-", "--", ":", "-.", ":", "--")
+_LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-", ":", "-.", ":", "--")
 
 
 def storey_profiles(
