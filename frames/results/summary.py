@@ -86,16 +86,20 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
 
 
 def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
-    """Write `results.nc`, a group for each system in single precision, and `summary.csv` (SI)."""
-    path = folder / "results.nc"
-    path.unlink(missing_ok=True)
+    """Write `results.nc`, a group for each system in single precision, and `summary.csv` (SI).
+
+    What stood in `results.nc` before is replaced once all systems are written.
+    """
+    beside = folder / ".results.nc.part"
+    beside.unlink(missing_ok=True)  # of a run that was ended
     for name, data in results.items():
         packed = {
             key: {"dtype": "float32", "zlib": True, "complevel": 2, "shuffle": True}
             for key, variable in data.data_vars.items()
             if "time" in variable.dims
         }
-        data.to_netcdf(path, mode="a", engine="h5netcdf", group=group_of(name), encoding=packed)
+        data.to_netcdf(beside, mode="a", engine="h5netcdf", group=group_of(name), encoding=packed)
+    beside.replace(folder / "results.nc")
     with (folder / "summary.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         names = [row.name for row in ROWS if row.name]

