@@ -1,0 +1,163 @@
+"""One random scene, run and run again: repeated, turned, mirrored, with a finer step."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames import ModelError, time_history
+from lir_element import AnalysisError
+from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.motions import mirrored, turned
+from validation.fuzzing.scenes import random_scene
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames import GroundMotion
+    from frames._types import FloatArray
+    from validation.fuzzing.scenes import Scene
+
+TURN = 1e-3
+"""Largest change of the displacement under a turn of the motion, over its peak [-]."""
+MIRROR = 1e-3
+"""The same in a mirror [-]."""
+FINER = 25
+"""How many times finer the step of the reference is."""
+REFERENCE_LEVELS = ("pendulum", "contact")
+FINER_SHARE = 0.6
+"""Share of the scenes with a chosen step that are run with the finer one."""
+
+
+def run(
+    scene: Scene, motion: GroundMotion, *, in_mirror: bool = False, **changes: Any
+) -> tuple[Any, xr.Dataset, list[str]]:
+    """Return the model, the result and the warnings of a scene."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        model = scene.build(in_mirror)
+        data = time_history(model, motion, **{**scene.options, **changes})
+    return model, data, [str(entry.message) for entry in caught]
+
+
+def try_scene(seed: int, number: int, *, finer: bool = True) -> Report:
+    """Run a scene with all its checks.
+
+    Parameters
+    ----------
+    seed, number : int
+        Which scene.
+    finer : bool
+        Whether chosen steps are compared with finer ones, in a share of the scenes.
+
+    Returns
+    -------
+    Report
+        What came out.
+    """
+    began = time.perf_counter()
+    scene = random_scene(seed, number)
+    report = Report(number, scene.describe(), scene.model, scene.level)
+    try:
+        model, data, report.warnings = run(scene, scene.motion)
+    except (ModelError, ValueError) as refusal:
+        report.outcome, report.message = "refused", f"{type(refusal).__name__}: {refusal}"
+    except AnalysisError as failure:
+        report.outcome = f"gravity: {failure.status.name.lower()}"
+        report.message = str(failure)
+        if "What to try" not in report.message:
+            report.found("end", 1.0, "a failure without a remedy")
+    except Exception as defect:  # noqa: BLE001  # what must never happen is what is looked for
+        report.outcome, report.message = "exception", f"{type(defect).__name__}: {defect}"
+        report.found("exception", 1.0, report.message)
+    else:
+        check_result(report, scene, model, data)
+        compare_runs(report, scene, data, finer=finer)
+    report.seconds = time.perf_counter() - began
+    return report
+
+
+def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool) -> None:
+    """Run the scene again in all ways and compare."""
+    rng = np.random.default_rng((scene.seed, scene.number, 9))
+    angle, draw = rng.uniform(0.2, 6.0), rng.random()
+    again = run(scene, scene.motion)[1]
+    if differs := same(data, again):
+        report.found("repeat", 1.0, f"{differs} differs in a second run")
+    if scene.is_axisymmetric:
+        if scene.level != "pendulum":  # contact points look the same in quarter turns only
+            angle = 0.5 * math.pi * float(rng.integers(1, 4))
+        other = run(scene, turned(scene.motion, angle))[1]
+        report.turn = _compared(report, "turn", TURN, data, _turned_back(other, angle))
+    if not scene.is_axisymmetric or draw < 0.5:
+        other = run(scene, mirrored(scene.motion), in_mirror=True)[1]
+        report.mirror = _compared(report, "mirror", MIRROR, data, _mirrored_back(scene, other))
+    if finer and report.controlled and scene.level in REFERENCE_LEVELS and draw < FINER_SHARE:
+        step = data.attrs["dt"] / FINER
+        compare_steps(report, data, run(scene, scene.motion, dt=step, record_every=FINER)[1])
+
+
+def compare_steps(report: Report, data: xr.Dataset, reference: xr.Dataset) -> None:
+    """Put the errors of the chosen step into the report; both ends must be the same."""
+    if data.attrs["status"] != reference.attrs["status"]:
+        report.found(
+            "finer ends differently", 1.0,
+            f"{data.attrs['message']} -- finer: {reference.attrs['message']}",
+        )  # fmt: skip
+    ours, theirs = places(data), places(reference)
+    count = min(len(ours), len(theirs))
+    peaks = [float(np.linalg.norm(u[:count], axis=-1).max()) for u in (ours, theirs)]
+    scale = max(peaks[1], _least(data))
+    report.peak_error = abs(peaks[0] - peaks[1]) / scale
+    report.path_error = float(np.linalg.norm(ours[:count] - theirs[:count], axis=-1).max()) / scale
+
+
+def places(data: xr.Dataset) -> FloatArray:
+    """Return the horizontal displacements of the bearings (time, bearing, 2)."""
+    values = data["bearing_displacement"].sel(axis=["x", "y"])
+    return np.asarray(values.transpose("time", "bearing", "axis").to_numpy(), dtype=np.float64)
+
+
+def _least(data: xr.Dataset) -> float:
+    # A displacement that counts as none: a ten thousandth of the effective radius.
+    return 1e-4 * float(data["length"].min())
+
+
+def _turned_back(data: xr.Dataset, angle: float) -> xr.Dataset:
+    x, y = (data["bearing_displacement"].sel(axis=a) for a in "xy")
+    c, s = math.cos(angle), math.sin(angle)
+    moved = data["bearing_displacement"].copy(deep=True)
+    moved.loc[{"axis": "x"}] = c * x + s * y
+    moved.loc[{"axis": "y"}] = c * y - s * x
+    return data.assign(bearing_displacement=moved)
+
+
+def _mirrored_back(scene: Scene, data: xr.Dataset) -> xr.Dataset:
+    moved = data["bearing_displacement"].copy(deep=True)
+    moved.loc[{"axis": "y"}] *= -1.0
+    names = list(scene.build(False).bearings)
+    if len(names) > 1:
+        rows = max(int(name.split("-")[2]) for name in names)
+        image = [f"bearing-{name.split('-')[1]}-{rows - int(name.split('-')[2])}" for name in names]
+        moved = moved.sel(bearing=image).assign_coords(bearing=names)
+    return data.assign(bearing_displacement=moved)
+
+
+def _compared(
+    report: Report, kind: str, most: float, data: xr.Dataset, other: xr.Dataset
+) -> float:
+    # Largest difference of two runs that must be the same, over the peak.
+    if data.attrs["status"] != other.attrs["status"]:
+        words = f"{data.attrs['message']} -- other: {other.attrs['message']}"
+        report.found(f"{kind} ends differently", 1.0, words)
+    one, two = places(data), places(other)
+    count = min(len(one), len(two))
+    scale = max(float(np.linalg.norm(one, axis=-1).max()), _least(data))
+    worst = float(np.linalg.norm(one[:count] - two[:count], axis=-1).max()) / scale
+    if worst > most:
+        report.found(kind, worst, f"the displacement changes by {100.0 * worst:.3g} % of its peak")
+    return worst
