@@ -19,7 +19,9 @@ DIRECTIONS = {"xyz": 0.45, "xy": 0.25, "x": 0.15, "xz": 0.08, "y": 0.04, "z": 0.
 """Shares of the components that a motion has."""
 
 
-def random_motion(rng: np.random.Generator, period: float, *, shortest: float = 1e-3) -> GroundMotion:
+def random_motion(
+    rng: np.random.Generator, period: float, *, shortest: float = 1e-3
+) -> GroundMotion:
     """Draw a motion that suits a pendulum of this period.
 
     Parameters
@@ -39,7 +41,7 @@ def random_motion(rng: np.random.Generator, period: float, *, shortest: float = 
     duration = min(max(rng.uniform(0.8, 2.5) * period, 1.0), 8.0)
     step = log_uniform(rng, shortest, 0.03) if rng.random() < 0.6 else 0.005
     step = max(step, duration / MOST_SAMPLES)
-    t = np.arange(max(int(duration / step), 20)) * step
+    t: FloatArray = np.arange(max(int(duration / step), 20), dtype=np.float64) * step
     waves: dict[str, FloatArray] = {}
     for axis in chosen(rng, DIRECTIONS):
         if axis == "z":
@@ -50,9 +52,7 @@ def random_motion(rng: np.random.Generator, period: float, *, shortest: float = 
     return GroundMotion(**waves, dt=step, name="random")
 
 
-def random_wave(
-    rng: np.random.Generator, t: FloatArray, peak: float, period: float
-) -> FloatArray:
+def random_wave(rng: np.random.Generator, t: FloatArray, peak: float, period: float) -> FloatArray:
     """Return a mixture of one to three ingredients, with pauses in some, of this peak [m/s2]."""
     wave = np.zeros(len(t))
     kinds = [pulse, noise, spikes, steps, sweep]
