@@ -97,7 +97,9 @@ def try_building(seed: int, number: int) -> Report:
         What came out.
     """
     began = time.process_time()
-    frame, line = random_building(seed, number)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # overloaded sliders are meant
+        frame, line = random_building(seed, number)
     draw = np.random.default_rng((seed, number, 21)).random()
     level = "contact" if draw < CONTACT_SHARE else "pendulum"
     report = Report(number, f"{line}, {level}", "building", level)

@@ -34,11 +34,12 @@ KINDS = {
     "exception": "an exception that is not one of the project's",
     "crash": "the process died",
     "hang": "no end within the limit of time",
+    "refused": "a model or an option that is refused",
     "end": "an end without time, place, remedy or warning",
     "not finite": "a number that is not finite",
     "limits": "computed on beyond a limit of the bearing, or an axial force that pulls",
     "ledger": f"gap of the ledger above {LEDGER:g} of the input",
-    "numerical": f"numerical term of the ledger above {LEDGER:g} of the input, no warning",
+    "numerical": f"numerical term of the ledger above {LEDGER:g} of the input, status ok",
     "given back": f"dissipation that falls by more than {-GIVEN_BACK:g} of its end",
     "store": f"elastic store of friction below -{LEDGER:g} of the input",
     "balance": f"masses times accelerations against forces: off by more than {BALANCE:g}",
@@ -49,7 +50,7 @@ KINDS = {
     "mirror": "seen in a mirror: the same",
     "mirror ends differently": "seen in a mirror: another end",
     "finer ends differently": f"chosen step against one {FINER} times finer: another end",
-    "gravity": "a building without equilibrium",
+    "gravity": "no equilibrium under the weight",
     "weight": "bearings of a building that do not carry its weight",
     "rest": "a building that moves without a motion",
 }
@@ -140,16 +141,20 @@ def _checks(scenes: Sequence[Entry], buildings: Sequence[Entry]) -> str:
     rows = []
     for kind, words in KINDS.items():
         count = len(looked.get(kind, scenes))
-        if kind in {"gravity", "weight", "rest"}:
+        if kind in {"weight", "rest"}:
             count = len(buildings)
+        elif kind == "gravity":
+            count += len(buildings)
         rows.append([words, str(count), f"**{found[kind]}**" if found[kind] else "0"])
+    complete = [entry for entry in scenes if entry["outcome"] == "ok"]
     ledger = max((entry["ledger"] for entry in scenes), default=0.0)
-    quiet = [e for e in scenes if not e["warnings"] and e["outcome"] == "ok"]
-    numerical = max((entry["numerical"] for entry in quiet), default=0.0)
+    numerical = max((entry["numerical"] for entry in complete), default=0.0)
     sensitive = sum((entry["sensitivity"] or 0.0) > TURN / MARGIN for entry in scenes)
+    doubted = sum(bool(entry["doubts"]) for entry in scenes)
     text = (
         f"Worst gap of the ledger: {ledger:.1e} of the input; worst numerical term of a run that "
-        f"completed without a warning: {numerical:.1e}. Scenes seen to be sensitive: {sensitive}."
+        f"completed with the status `ok`: {numerical:.1e}. Scenes seen to be sensitive: "
+        f"{sensitive}. Models or motions found strange before the run: {doubted}."
     )
     return table(["finding", "looked at", "scenes"], rows) + "\n\n" + text
 

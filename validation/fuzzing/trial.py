@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames import GroundMotion, ModelError, time_history
-from lir_element import AnalysisError
+from lir_element import AnalysisError, AnalysisWarning
 from validation.fuzzing.checks import Report, check_result, same
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.scenes import random_scene
@@ -18,6 +18,7 @@ from validation.fuzzing.scenes import random_scene
 if TYPE_CHECKING:
     import xarray as xr
 
+    from frames import Frame
     from frames._types import FloatArray
     from validation.fuzzing.scenes import Scene
 
@@ -38,22 +39,24 @@ FINER_SHARE = 0.6
 
 def run(
     scene: Scene, motion: GroundMotion, *, in_mirror: bool = False, **changes: Any
-) -> tuple[Any, xr.Dataset, list[str]]:
+) -> tuple[Frame, xr.Dataset, list[warnings.WarningMessage]]:
     """Return the model, the result and the warnings of a scene."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         model = scene.build(in_mirror)
         data = time_history(model, motion, **{**scene.options, **changes})
-    return model, data, [str(entry.message) for entry in caught]
+    return model, data, caught
 
 
-def try_scene(seed: int, number: int, *, finer: bool = True) -> Report:
+def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True) -> Report:
     """Run a scene with all its checks.
 
     Parameters
     ----------
     seed, number : int
         Which scene.
+    again : bool
+        Whether it is run again, turned, mirrored.
     finer : bool
         Whether chosen steps are compared with finer ones, in a share of the scenes.
 
@@ -63,23 +66,28 @@ def try_scene(seed: int, number: int, *, finer: bool = True) -> Report:
         What came out.
     """
     began = time.process_time()
-    scene = random_scene(seed, number)
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        scene = random_scene(seed, number)
     report = Report(number, scene.describe(), scene.model, scene.level)
     try:
-        model, data, report.warnings = run(scene, scene.motion)
+        model, data, caught = run(scene, scene.motion)
     except (ModelError, ValueError) as refusal:
         report.outcome, report.message = "refused", f"{type(refusal).__name__}: {refusal}"
+        report.found("refused", 1.0, report.message)
     except AnalysisError as failure:
-        report.outcome = f"gravity: {failure.status.name.lower()}"
-        report.message = str(failure)
-        if "What to try" not in report.message:
-            report.found("end", 1.0, "a failure without a remedy")
+        report.outcome, report.message = failure.status.name.lower(), str(failure)
+        report.found("gravity", 1.0, report.message)
     except Exception as defect:  # what must never happen is what is looked for
         report.outcome, report.message = "exception", f"{type(defect).__name__}: {defect}"
         report.found("exception", 1.0, report.message)
     else:
+        strange = [entry for entry in caught if not issubclass(entry.category, AnalysisWarning)]
+        report.doubts = [str(entry.message) for entry in (*doubts, *strange)]
+        report.warnings = [str(entry.message) for entry in caught if entry not in strange]
         check_result(report, scene, model, data)
-        compare_runs(report, scene, data, finer=finer)
+        if again:
+            compare_runs(report, scene, data, finer=finer)
     report.seconds = time.process_time() - began
     return report
 
