@@ -90,10 +90,11 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         "## How they ended",
         _ends(scenes),
         "## What is looked for",
-        "Every scene is run twice, once more with its motion turned about the vertical (one "
-        "bearing; by a random angle, with contact points by quarter turns) or seen in a mirror, "
-        f"and three fifths of those with a chosen step with one {FINER} times finer. The ledger is "
-        f"not looked at where the input is below {SMALL_INPUT:g} of weight times effective radius. "
+        "Every scene is run twice, once more seen in a mirror, once more with its motion turned "
+        "about the vertical (one bearing; by a random angle, with contact points by quarter "
+        f"turns), and where the program chooses the step with one {FINER} times finer. The ledger "
+        f"is not looked at where the input is below {SMALL_INPUT:g} of weight times effective "
+        "radius. "
         "A turn or a mirror image is a finding where it changes the displacement more than "
         f"{MARGIN:g} times as much as a change of the motion in its ninth digit "
         f"({NOISE:g}): what lands often or hangs on an edge amplifies every difference.",

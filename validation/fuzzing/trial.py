@@ -33,8 +33,6 @@ SENSITIVE_ERROR = 1e-2
 FINER = 25
 """How many times finer the step of the reference is."""
 REFERENCE_LEVELS = ("pendulum", "contact")
-FINER_SHARE = 0.6
-"""Share of the scenes with a chosen step that are run with the finer one."""
 
 
 def run(
@@ -58,7 +56,7 @@ def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True)
     again : bool
         Whether it is run again, turned, mirrored.
     finer : bool
-        Whether chosen steps are compared with finer ones, in a share of the scenes.
+        Whether chosen steps are compared with finer ones.
 
     Returns
     -------
@@ -95,7 +93,7 @@ def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True)
 def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool) -> None:
     """Run the scene again in all ways and compare."""
     rng = np.random.default_rng((scene.seed, scene.number, 9))
-    angle, draw = rng.uniform(0.2, 6.0), rng.random()
+    angle = rng.uniform(0.2, 6.0)
     if differs := same(data, run(scene, scene.motion)[1]):
         report.found("repeat", 1.0, f"{differs} differs in a second run")
     turned_too = []
@@ -105,11 +103,10 @@ def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool)
         other = run(scene, turned(scene.motion, angle))[1]
         report.turn = change(data, _turned_back(other, angle))
         turned_too.append(("turn", report.turn, other))
-    if not scene.is_axisymmetric or draw < 0.5:
-        other = run(scene, mirrored(scene.motion), in_mirror=True)[1]
-        report.mirror = change(data, _mirrored_back(scene, other))
-        turned_too.append(("mirror", report.mirror, other))
-    if finer and report.controlled and scene.level in REFERENCE_LEVELS and draw < FINER_SHARE:
+    other = run(scene, mirrored(scene.motion), in_mirror=True)[1]
+    report.mirror = change(data, _mirrored_back(scene, other))
+    turned_too.append(("mirror", report.mirror, other))
+    if finer and report.controlled and scene.level in REFERENCE_LEVELS:
         step = data.attrs["dt"] / FINER
         compare_steps(report, data, run(scene, scene.motion, dt=step, record_every=FINER)[1])
     for kind, changed, other in turned_too:
