@@ -4,7 +4,8 @@
     python -m validation.random_scenes --seed 1 --only 1234
 
 Scene `number` of the series `seed` is always the same one, whatever the count. Scenes are run in
-child processes: one that hangs or dies is a finding, and the rest goes on. With `--minutes` no
+child processes: one that hangs or dies (of any exception that is not the project's own; its
+traceback goes to the terminal) is a finding, and the rest goes on. With `--minutes` no
 scene is begun after that time; with `--only` one scene is run here, and nothing is written.
 """
 

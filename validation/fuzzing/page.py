@@ -31,8 +31,7 @@ SHARES = (0.5, 0.9, 0.95, 0.99, 1.0)
 GOALS = {False: (0.99, 0.01), True: (0.95, 0.03)}
 """Without and with uplift: share of the scenes [-], largest error of the peak [-]."""
 KINDS = {
-    "exception": "an exception that is not one of the project's",
-    "crash": "the process died",
+    "crash": "an exception that is not one of the project's, or the process died",
     "hang": "no end within the limit of time",
     "refused": "a model or an option that is refused",
     "end": "an end without time, place, remedy or warning",
