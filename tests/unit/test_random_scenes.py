@@ -1,0 +1,226 @@
+"""Random scenes: the same from the same numbers; every check sees what it is there for."""
+
+import json
+import os
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from lir_element import LIRBearing
+from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.motions import mirrored, turned
+from validation.fuzzing.page import KINDS, write
+from validation.fuzzing.pool import in_children
+from validation.fuzzing.scenes import random_scene
+from validation.fuzzing.trial import change, compare_steps, run, sensitivity
+from validation.random_scenes import arguments, lost, main, tasks
+
+SEED, CALM = 1, 26  # a mass in vertical motion, Newmark, a given step
+"""A series and a scene of it that has nothing to find."""
+
+
+@pytest.fixture(scope="module")
+def result():
+    scene = next(
+        s
+        for s in (random_scene(SEED, n) for n in range(CALM, 400))
+        if s.model == "mass" and s.level == "pendulum" and s.is_newmark
+        and s.options["dt"] is not None and s.options["dt"] <= s.motion.dt
+        and s.motion.z is None and "x" in s.describe().split("motion ")[1][:3]
+    )  # fmt: skip
+    model, data, _ = run(scene, scene.motion)
+    assert data.attrs["halvings"] == 0
+    return scene, model, data
+
+
+def kinds(result, data: xr.Dataset) -> set[str]:
+    scene, model, _ = result
+    report = Report(0, "", scene.model, scene.level)
+    if data.attrs["status"] != "ok":
+        report.warnings = [data.attrs["message"]]
+    check_result(report, scene, model, data)
+    return {kind for kind, _, _ in report.findings}
+
+
+def test_a_sound_result_has_no_findings(result):
+    assert kinds(result, result[2]) == set()
+
+
+def spoil(name: str, place: int, factor: float):
+    def change_values(data: xr.Dataset) -> None:
+        data[name].to_numpy()[place] *= factor
+
+    return change_values
+
+
+def energy(term: str, share: float):
+    def change_values(data: xr.Dataset) -> None:
+        most = float(np.abs(data["energy"].sel(term="input")).max())
+        data["energy"].loc[{"term": term}] += share * most
+
+    return change_values
+
+
+def shifted(one: str, other: str, share: float):
+    def change_values(data: xr.Dataset) -> None:
+        energy(one, share)(data)
+        energy(other, -share)(data)
+
+    return change_values
+
+
+def attributes(**values):
+    return lambda data: data.attrs.update(values)
+
+
+def cut(data: xr.Dataset) -> xr.Dataset:
+    return data.isel(time=slice(0, -2))
+
+
+MESSAGE = "at t = 9 s, here: it failed. What to try: something."
+FAILED = {"status": "newton_failed", "message": MESSAGE, "failed_at": 9.0, "failed_where": "here"}
+EARLY = {**FAILED, "message": MESSAGE.replace("9 s", "0 s"), "failed_at": 0.0}
+SPOILT = [
+    ("end", cut),
+    ("end", attributes(status="odd")),
+    ("end", attributes(**{**FAILED, "message": "it failed"})),
+    ("end", attributes(**{**FAILED, "failed_where": ""})),
+    ("end", attributes(**EARLY)),
+    ("not finite", spoil("node_acceleration", 5, np.nan)),
+    ("limits", spoil("axial_force", 7, -1.0)),
+    ("limits", lambda data: data["rim_closure"].to_numpy().__setitem__(7, 10.0)),
+    ("ledger", energy("kinetic", 2e-3)),
+    ("numerical", shifted("numerical", "kinetic", 2e-3)),
+    ("given back", spoil("work_low_friction", -1, 0.5)),
+    ("store", lambda data: data["work_friction_elastic"].to_numpy().__setitem__(3, -1e9)),
+    ("balance", spoil("node_acceleration", -9, 1.5)),
+    ("works", shifted("contact", "kinetic", 5e-3)),
+]
+
+
+@pytest.mark.parametrize(("kind", "spoilt"), SPOILT)
+def test_each_check_sees_what_it_is_there_for(result, kind, spoilt):
+    data = result[2].copy(deep=True)
+    data.attrs = dict(data.attrs)
+    changed = spoilt(data)
+    assert kind in kinds(result, data if changed is None else changed)
+    assert kind in KINDS
+
+
+def test_a_run_that_calls_itself_inaccurate_may_have_an_open_ledger(result):
+    data = result[2].copy(deep=True)
+    shifted("numerical", "kinetic", 2e-3)(data)
+    data.attrs = {
+        **data.attrs, **FAILED, "status": "inaccurate", "failed_at": float(data["time"][-1]),
+    }  # fmt: skip
+    data.attrs["message"] = f"at t = {data.attrs['failed_at']:.6g} s: so. What to try: less."
+    assert "numerical" not in kinds(result, data)
+
+
+def test_a_bit_makes_a_difference(result):
+    data = result[2]
+    other = data.copy(deep=True)
+    other["bearing_force"].to_numpy()[4] = np.nextafter(other["bearing_force"].to_numpy()[4], 1e9)
+    assert same(data, data.copy(deep=True)) == ""
+    assert same(data, other) == "bearing_force"
+    assert same(data, data.assign_attrs(steps=1)) == "steps"
+    assert same(data, data.assign_attrs(seconds_loop=-1.0)) == ""
+
+
+def test_changes_are_measured_over_the_peak(result):
+    data = result[2]
+    other = data.copy(deep=True)
+    other["bearing_displacement"] *= 1.01
+    assert change(data, other) == pytest.approx(0.01)
+    report = Report(0, "", "mass", "pendulum")
+    compare_steps(report, other, data)
+    assert report.peak_error == pytest.approx(0.01)
+    compare_steps(report, other.assign_attrs(status="newton_failed"), data)
+    assert [kind for kind, _, _ in report.findings] == ["finer ends differently"]
+
+
+def test_a_calm_scene_is_not_sensitive(result):
+    scene, _, data = result
+    changed, ends = sensitivity(scene, data)
+    assert 0.0 < changed < 1e-6
+    assert ends == {"ok"}
+
+
+def test_a_scene_is_the_same_from_the_same_numbers():
+    for number in (0, 7, 13):
+        one, other = random_scene(SEED, number), random_scene(SEED, number)
+        assert one.describe() == other.describe()
+        assert one.options == other.options
+        assert np.array_equal(one.motion.components, other.motion.components)
+    assert random_scene(SEED, 0).describe() != random_scene(SEED + 1, 0).describe()
+
+
+def test_scenes_have_everything_in_them():
+    scenes = [random_scene(SEED, number) for number in range(300)]
+    bearings = [link.bearing for s in scenes for link in s.build(False).bearings.values()]
+    assert {s.model for s in scenes} == {
+        "mass", "tilting mass", "stick", "stick on a grid", "frame",
+    }  # fmt: skip
+    assert {s.level for s in scenes} == {"pendulum", "contact", "rigid_body", "auto", "mixed"}
+    assert {s.options["integrator"] for s in scenes} == {None, "newmark", "generalised-alpha"}
+    assert {s.options["dt"] is None for s in scenes} == {True, False}
+    assert any(s.options["dt"] and s.options["dt"] > 2.0 * s.motion.dt for s in scenes)
+    assert any(s.motion.z is not None and s.motion.peak["z"] > 9.80665 for s in scenes)
+    assert min(s.length for s in scenes) < 0.12
+    assert max(s.length for s in scenes) > 7.0
+    assert {b.friction_law for b in bearings} == {"elastic-plastic", "bouc-wen"}
+    assert {type(law).__name__ for b in bearings for law in b.frictions} == {
+        "CoulombFriction", "VelocityFriction",
+    }  # fmt: skip
+    assert any(b.is_dcfp for b in bearings)
+    assert any(np.isinf(b.lateral_capacity) for b in bearings)
+    assert any(not np.isclose(*np.divide(b.rim_displacement, b.radii)) for b in bearings)
+    assert all(isinstance(b, LIRBearing) for b in bearings)
+
+
+def test_turns_and_mirrors():
+    motion = random_scene(SEED, 0).motion
+    x, y, z = turned(motion, 0.5 * np.pi).components.T
+    assert np.array_equal(x, -motion.components[:, 1])
+    assert np.array_equal(y, motion.components[:, 0])
+    assert np.array_equal(z, motion.components[:, 2])
+    assert np.array_equal(mirrored(motion).components, motion.components * [1.0, -1.0, 1.0])
+
+
+def test_what_hangs_or_dies_does_not_take_the_rest_along():
+    slept = list(in_children(time.sleep, [0.0, 60.0, 0.01], workers=1, limit=1.0))
+    assert slept == [(0.0, None, ""), (60.0, None, "hang"), (0.01, None, "")]
+    died = list(in_children(os._exit, [3], workers=2, limit=5.0))
+    assert died == [(3, None, "crash")]
+
+
+def test_tasks_are_scenes_with_buildings_in_between():
+    given = list(tasks(25, 4, float("inf")))
+    assert [n for kind, n in given if kind == "scene"] == list(range(25))
+    assert [n for kind, n in given if kind == "building"] == list(range(4))
+    assert list(tasks(25, 4, -1.0)) == []
+
+
+def test_the_page_lists_what_was_found():
+    entries = [lost(("scene", n), how, SEED) for n, how in ((3, "hang"), (4, "crash"))]
+    building = lost(("building", 0), "crash", SEED)
+    page = write(entries, [building], "the command", "no time")
+    assert page.count("| hang | no report: hang |") == 1
+    assert page.count("| crash | no report: crash |") == 2
+    assert "| no end within the limit of time | 2 | **1** |" in page
+    assert "2 scenes and 1 buildings" in page
+    json.dumps(entries)
+
+
+def test_the_command(tmp_path, capsys):
+    kept, page = tmp_path / "kept.jsonl", tmp_path / "page.md"
+    call = ["--count", "1", "--buildings", "1", "--page", str(page), "--keep", str(kept)]
+    main(call)
+    assert len(kept.read_text(encoding="utf-8").splitlines()) == 2
+    assert page.read_text(encoding="utf-8").startswith("# Random scenes\n")
+    main(["--only", "26"])
+    assert "number: 26" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        arguments(["--count", "0"])

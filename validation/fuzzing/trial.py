@@ -1,0 +1,208 @@
+"""One random scene, run and run again: repeated, turned, mirrored, with a finer step."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames import GroundMotion, ModelError, time_history
+from lir_element import AnalysisError, AnalysisWarning
+from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.motions import mirrored, turned
+from validation.fuzzing.scenes import random_scene
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames import Frame
+    from frames._types import FloatArray
+    from validation.fuzzing.scenes import Scene
+
+TURN = 1e-3
+"""Largest change of the displacement under a turn or in a mirror, over its peak [-]."""
+NOISE = 1e-9
+"""Relative change of a motion that must not matter [-]."""
+MARGIN = 10.0
+"""How many times more than that noise a turn may change [-]."""
+SENSITIVE_ERROR = 1e-2
+"""Error of a chosen step from which the sensitivity of the scene is asked for, too [-]."""
+FINER = 25
+"""How many times finer the step of the reference is."""
+REFERENCE_LEVELS = ("pendulum", "contact")
+
+
+def run(
+    scene: Scene, motion: GroundMotion, *, in_mirror: bool = False, **changes: Any
+) -> tuple[Frame, xr.Dataset, list[warnings.WarningMessage]]:
+    """Return the model, the result and the warnings of a scene."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        model = scene.build(in_mirror)
+        data = time_history(model, motion, **{**scene.options, **changes})
+    return model, data, caught
+
+
+def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True) -> Report:
+    """Run a scene with all its checks.
+
+    Parameters
+    ----------
+    seed, number : int
+        Which scene.
+    again : bool
+        Whether it is run again, turned, mirrored.
+    finer : bool
+        Whether chosen steps are compared with finer ones.
+
+    Returns
+    -------
+    Report
+        What came out.
+    """
+    began = time.process_time()
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        scene = random_scene(seed, number)
+    report = Report(number, scene.describe(), scene.model, scene.level)
+    try:
+        model, data, caught = run(scene, scene.motion)
+    except (ModelError, ValueError) as refusal:
+        report.outcome, report.message = "refused", f"{type(refusal).__name__}: {refusal}"
+        report.found("refused", 1.0, report.message)
+    except AnalysisError as failure:
+        report.outcome, report.message = failure.status.name.lower(), str(failure)
+        report.found("gravity", 1.0, report.message)
+    else:
+        strange = [entry for entry in caught if not issubclass(entry.category, AnalysisWarning)]
+        report.doubts = [str(entry.message) for entry in (*doubts, *strange)]
+        report.warnings = [str(entry.message) for entry in caught if entry not in strange]
+        check_result(report, scene, model, data)
+        if again:
+            compare_runs(report, scene, data, finer=finer)
+    report.seconds = time.process_time() - began
+    return report
+
+
+def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool) -> None:
+    """Run the scene again in all ways and compare."""
+    rng = np.random.default_rng((scene.seed, scene.number, 9))
+    angle = rng.uniform(0.2, 6.0)
+    if differs := same(data, run(scene, scene.motion)[1]):
+        report.found("repeat", 1.0, f"{differs} differs in a second run")
+    turned_too = []
+    if scene.is_axisymmetric:
+        if scene.level != "pendulum":  # contact points look the same in quarter turns only
+            angle = 0.5 * math.pi * float(rng.integers(1, 4))
+        other = run(scene, turned(scene.motion, angle))[1]
+        report.turn = change(data, _turned_back(other, angle))
+        turned_too.append(("turn", report.turn, other))
+    other = run(scene, mirrored(scene.motion), in_mirror=True)[1]
+    report.mirror = change(data, _mirrored_back(scene, other))
+    turned_too.append(("mirror", report.mirror, other))
+    if finer and report.controlled and scene.level in REFERENCE_LEVELS:
+        step = data.attrs["dt"] / FINER
+        compare_steps(report, data, run(scene, scene.motion, dt=step, record_every=FINER)[1])
+    for kind, changed, other in turned_too:
+        ends = data.attrs["status"], other.attrs["status"]
+        if changed > TURN or ends[0] != ends[1]:
+            _judge(report, scene, data, kind, changed, other)
+    if (report.peak_error or 0.0) > SENSITIVE_ERROR and report.sensitivity is None:
+        report.sensitivity = sensitivity(scene, data)[0]
+
+
+def _judge(
+    report: Report, scene: Scene, data: xr.Dataset, kind: str, changed: float, other: xr.Dataset
+) -> None:
+    # A change is a finding where one of the motion's ninth digit does not do nearly as much.
+    report.sensitivity, ends = sensitivity(scene, data)
+    status, theirs = data.attrs["status"], other.attrs["status"]
+    if changed > max(TURN, MARGIN * report.sensitivity):
+        words = f"the displacement changes by {100.0 * changed:.3g} % of its peak"
+        report.found(kind, changed, words)
+    if theirs != status and ends == {status} and report.sensitivity < TURN:
+        words = f"{data.attrs['message']} -- other: {other.attrs['message']}"
+        report.found(f"{kind} ends differently", 1.0, words)
+
+
+def sensitivity(scene: Scene, data: xr.Dataset) -> tuple[float, set[str]]:
+    """Return how much the result changes with the motion's last digits, and how it then ends.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    data : Dataset
+        Its result.
+
+    Returns
+    -------
+    tuple
+        Largest change of the displacement over its peak [-], and the statuses.
+    """
+    rng = np.random.default_rng((scene.seed, scene.number, 10))
+    changed, ends = [], set()
+    for _ in range(2):
+        noise = 1.0 + NOISE * rng.uniform(-1.0, 1.0, scene.motion.components.shape)
+        x, y, z = (scene.motion.components * noise).T
+        other = run(scene, GroundMotion(x=x, y=y, z=z, dt=scene.motion.dt, name="random"))[1]
+        changed.append(change(data, other))
+        ends.add(str(other.attrs["status"]))
+    return max(changed), ends
+
+
+def compare_steps(report: Report, data: xr.Dataset, reference: xr.Dataset) -> None:
+    """Put the errors of the chosen step into the report; both ends must be the same."""
+    if data.attrs["status"] != reference.attrs["status"]:
+        report.found(
+            "finer ends differently", 1.0,
+            f"{data.attrs['message']} -- finer: {reference.attrs['message']}",
+        )  # fmt: skip
+    ours, theirs = places(data), places(reference)
+    count = min(len(ours), len(theirs))
+    peaks = [float(np.linalg.norm(u[:count], axis=-1).max()) for u in (ours, theirs)]
+    scale = max(peaks[1], _least(data))
+    report.peak_error = abs(peaks[0] - peaks[1]) / scale
+    report.path_error = float(np.linalg.norm(ours[:count] - theirs[:count], axis=-1).max()) / scale
+
+
+def places(data: xr.Dataset) -> FloatArray:
+    """Return the horizontal displacements of the bearings (time, bearing, 2)."""
+    values = data["bearing_displacement"].sel(axis=["x", "y"])
+    return np.asarray(values.transpose("time", "bearing", "axis").to_numpy(), dtype=np.float64)
+
+
+def _least(data: xr.Dataset) -> float:
+    # A displacement that counts as none: a ten thousandth of the effective radius.
+    return 1e-4 * float(data["length"].min())
+
+
+def _turned_back(data: xr.Dataset, angle: float) -> xr.Dataset:
+    x, y = (data["bearing_displacement"].sel(axis=a) for a in "xy")
+    c, s = math.cos(angle), math.sin(angle)
+    moved = data["bearing_displacement"].copy(deep=True)
+    moved.loc[{"axis": "x"}] = c * x + s * y
+    moved.loc[{"axis": "y"}] = c * y - s * x
+    return data.assign(bearing_displacement=moved)
+
+
+def _mirrored_back(scene: Scene, data: xr.Dataset) -> xr.Dataset:
+    moved = data["bearing_displacement"].copy(deep=True)
+    moved.loc[{"axis": "y"}] *= -1.0
+    names = list(scene.build(False).bearings)
+    if len(names) > 1:
+        rows = max(int(name.split("-")[2]) for name in names)
+        image = [f"bearing-{name.split('-')[1]}-{rows - int(name.split('-')[2])}" for name in names]
+        moved = moved.sel(bearing=image).assign_coords(bearing=names)
+    return data.assign(bearing_displacement=moved)
+
+
+def change(data: xr.Dataset, other: xr.Dataset) -> float:
+    """Return the largest difference of the displacements of two results, over the peak [-]."""
+    one, two = places(data), places(other)
+    count = min(len(one), len(two))
+    scale = max(float(np.linalg.norm(one, axis=-1).max()), _least(data))
+    return float(np.linalg.norm(one[:count] - two[:count], axis=-1).max()) / scale

@@ -1,0 +1,130 @@
+"""Random scenes by the thousand: writes docs/validation/random_scenes.md.
+
+    python -m validation.random_scenes --seed 1 --count 5000 --workers 2
+    python -m validation.random_scenes --seed 1 --only 1234
+
+Scene `number` of the series `seed` is always the same one, whatever the count. Scenes are run in
+child processes: one that hangs or dies (of any exception that is not the project's own; its
+traceback goes to the terminal) is a finding, and the rest goes on. With `--minutes` no
+scene is begun after that time; with `--only` one scene is run here, and nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from validation.fuzzing.buildings import random_building, try_building
+from validation.fuzzing.checks import Report
+from validation.fuzzing.page import write
+from validation.fuzzing.pool import in_children
+from validation.fuzzing.scenes import random_scene
+from validation.fuzzing.trial import try_scene
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+Task = tuple[str, int]
+"""Scene or building, and its number."""
+
+TARGET = Path(__file__).parents[1] / "docs" / "validation" / "random_scenes.md"
+LIMIT = 300.0
+"""Longest time for a scene with all its runs [s]."""
+
+
+def perform(task: Task, *, seed: int) -> dict[str, Any]:
+    """Run a scene or a building with all its checks and return its report."""
+    kind, number = task
+    return (try_building if kind == "building" else try_scene)(seed, number).as_dict()
+
+
+def lost(task: Task, how: str, seed: int) -> dict[str, Any]:
+    """Return the report of a scene whose process hung or died."""
+    kind, number = task
+    if kind == "building":
+        report = Report(number, random_building(seed, number)[1], "building", "?")
+    else:
+        scene = random_scene(seed, number)
+        report = Report(number, scene.describe(), scene.model, scene.level)
+    report.outcome, report.seconds = how, LIMIT
+    report.found(how, 1.0, f"no report: {how}")
+    return report.as_dict()
+
+
+def tasks(count: int, buildings: int, minutes: float) -> Iterator[Task]:
+    """Yield scenes with buildings in between, until the time is over."""
+    end = time.monotonic() + 60.0 * minutes
+    given = 0
+    for number in range(count):
+        if time.monotonic() > end:
+            return
+        yield "scene", number
+        if given < round((number + 1) * buildings / count):
+            yield "building", given
+            given += 1
+
+
+def only(seed: int, number: int, *, building: bool) -> None:
+    """Run one scene here and print all that is known of it."""
+    report = (try_building if building else try_scene)(seed, number)
+    for name, value in report.as_dict().items():
+        if name != "findings":
+            print(f"{name:>12}: {value}")
+    for kind, size, words in report.findings:
+        print(f"  ! {kind} ({size:.3g}): {words}")
+
+
+def arguments(given: Sequence[str] | None) -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(prog="python -m validation.random_scenes")
+    parser.add_argument("--seed", type=int, default=1, help="of the series")
+    parser.add_argument("--count", type=int, default=5000, help="number of scenes")
+    parser.add_argument("--buildings", type=int, help="under their weight (0.16 a scene)")
+    parser.add_argument("--workers", type=int, default=1, help="child processes")
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="begin none after")
+    parser.add_argument("--only", type=int, metavar="NUMBER", help="run this scene alone")
+    parser.add_argument("--building", action="store_true", help="NUMBER is that of a building")
+    parser.add_argument("--page", type=Path, default=TARGET, help="where the page is written")
+    parser.add_argument("--keep", type=Path, help="a file for the reports, JSON by line")
+    found = parser.parse_args(given)
+    for name in ("count", "workers"):
+        if getattr(found, name) < 1:
+            parser.error(f"--{name} must be at least 1")
+    if found.buildings is None:
+        found.buildings = round(0.16 * found.count)
+    return found
+
+
+def main(given: Sequence[str] | None = None) -> int:
+    """Run the scenes, write the page; return how many have a finding."""
+    chosen = arguments(given)
+    if chosen.only is not None:
+        only(chosen.seed, chosen.only, building=chosen.building)
+        return 0
+    began = time.monotonic()
+    found: dict[str, list[dict[str, Any]]] = {"scene": [], "building": []}
+    todo = tasks(chosen.count, chosen.buildings, chosen.minutes)
+    run = partial(perform, seed=chosen.seed)
+    for task, result, how in in_children(run, todo, chosen.workers, LIMIT):
+        entry = lost(task, how, chosen.seed) if how else result
+        found[task[0]].append(entry)
+        if chosen.keep:
+            with chosen.keep.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(entry) + "\n")
+        for kind, _, words in entry["findings"]:
+            print(f"{task[0]} {task[1]}: {kind}: {words[:120]}", flush=True)
+    for entries in found.values():
+        entries.sort(key=lambda entry: int(entry["number"]))
+    spent = f"{(time.monotonic() - began) / 60.0:.0f} minutes with {chosen.workers} process(es)"
+    count = len(found["scene"])
+    call = f"python -m validation.random_scenes --seed {chosen.seed} --count {count}"
+    chosen.page.write_text(write(found["scene"], found["building"], call, spent), encoding="utf-8")
+    return sum(bool(entry["findings"]) for entries in found.values() for entry in entries)
+
+
+if __name__ == "__main__":
+    raise SystemExit(min(main(), 1))
