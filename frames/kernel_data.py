@@ -44,7 +44,7 @@ ENERGY_TERMS = (
 CLOCK_FIELDS = (
     Field("time", "s", "t", "time of the committed state"),
     Field("dt", "s", "dt", "step that is being tried, zero for a static solution"),
-    Field("base", "-", "", "base steps completed", (), "i8"),
+    Field("done", "-", "", "base steps completed", (), "i8"),
     Field("ticks", "-", "", "smallest parts of the present base step that are done", (), "i8"),
     Field("halvings", "-", "", "how often the step is halved at present", (), "i8"),
     Field("good", "-", "", "good steps since that changed", (), "i8"),

@@ -202,7 +202,7 @@ def _run(
     code, seconds = _march(state, settings, ground, out, options)
     status, detail = _outcome(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
-    count = int(clock["base"]) // options.record_every + 1
+    count = int(clock["done"]) // options.record_every + 1
     peak = peak_velocity(motion, float(out.time[count - 1]))
     data = build_dataset(model, state, ground, peak, out, states, bodies, count)
     data.attrs |= {
@@ -337,7 +337,7 @@ def _march(
         return advance(model, run, contacts, settings, ground, out, last, trials)
 
     record(run, contacts, out, 0)
-    status = in_pieces(go, lambda: int(run.clock["base"][0]), options.steps, options.progress)
+    status = in_pieces(go, lambda: int(run.clock["done"][0]), options.steps, options.progress)
     return status, perf_counter() - began
 
 

@@ -323,7 +323,7 @@ def attempt(
     clock = run.clock[0]
     ticks = 1 << (_MOST_HALVINGS - clock.halvings)
     clock.dt = settings.dt / (1 << clock.halvings)
-    clock.time = settings.dt * (clock.base + clock.ticks / _TICKS)
+    clock.time = settings.dt * (clock.done + clock.ticks / _TICKS)
     code = try_step(model, run, contacts, settings, ground)
     rough = code == _OK and clock.halvings < _MOST_HALVINGS // 2
     clock.share = 0.0
@@ -364,14 +364,14 @@ def advance(
     """
     clock, counts = run.clock[0], run.counts[0]
     most = counts.trials + trials
-    while clock.base < last and counts.trials < most:
+    while clock.done < last and counts.trials < most:
         code = attempt(model, run, contacts, settings, ground)
         if code != _OK:
             return code
         if clock.ticks == _TICKS:
-            clock.base += 1
+            clock.done += 1
             clock.ticks = 0
-            clock.time = settings.dt * clock.base
-            if clock.base % settings.every == 0:
-                record(run, contacts, out, clock.base // settings.every)
+            clock.time = settings.dt * clock.done
+            if clock.done % settings.every == 0:
+                record(run, contacts, out, clock.done // settings.every)
     return _OK
