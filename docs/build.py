@@ -217,7 +217,7 @@ def statuses() -> list[str]:
 
 
 def _failed(status: RunStatus) -> str:
-    if status is RunStatus.OK:
+    if status in {RunStatus.OK, RunStatus.INTERRUPTED}:
         return "-"
     return "the bearing" if status.is_bearing_failure else "the computation or the model"
 

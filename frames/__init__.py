@@ -22,3 +22,4 @@ from frames.results.measures import storey_drift as storey_drift
 from frames.results.storage import load as load
 from frames.results.storage import save as save
 from lir_element.device.features import Features as Features
+from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted

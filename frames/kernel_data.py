@@ -10,7 +10,7 @@ from frames.assembly.basis import bearing_rows
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.features import apply
 from lir_element.element import initial_state
-from lir_element.layout import BODIES, STATE, WORK
+from lir_element.layout import BODIES, STATE, WORK, Field, dtype_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
-MAX_LEVEL = 14
+MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
 
 ENERGY_TERMS = (
@@ -40,6 +40,33 @@ ENERGY_TERMS = (
     "sliders",
     "numerical",
 )
+
+CLOCK_FIELDS = (
+    Field("time", "s", "t", "time of the committed state"),
+    Field("dt", "s", "dt", "step that is being tried, zero for a static solution"),
+    Field("done", "-", "", "base steps completed", (), "i8"),
+    Field("ticks", "-", "", "smallest parts of the present base step that are done", (), "i8"),
+    Field("halvings", "-", "", "how often the step is halved at present", (), "i8"),
+    Field("good", "-", "", "good steps since that changed", (), "i8"),
+    Field("dt_before", "s", "", "last step that was accepted, zero at the start"),
+    Field("share", "-", "", "estimated error of the last step over what is allowed"),
+    Field("reach", "m", "", "largest horizontal displacement of a bearing so far"),
+    Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
+)
+
+COUNT_FIELDS = (
+    Field("steps", "-", "", "steps accepted", (), "i8"),
+    Field("iterations", "-", "", "iterations of Newton's method", (), "i8"),
+    Field("halvings", "-", "", "steps halved", (), "i8"),
+    Field("trials", "-", "", "state determinations of all bearings", (), "i8"),
+    Field("bearing", "-", "", "bearing whose limit or state was the last to fail", (), "i8"),
+    Field("code", "-", "", "status code of the last trial", (), "i8"),
+    Field("cause", "-", "", "status code of the step that could not be halved", (), "i8"),
+)
+
+CLOCK = dtype_of(CLOCK_FIELDS)
+COUNTS = dtype_of(COUNT_FIELDS)
+LEDGER = dtype_of(tuple(Field(term, "J", "", "term of the energy") for term in ENERGY_TERMS))
 
 
 class Model(NamedTuple):
@@ -81,13 +108,16 @@ class Run(NamedTuple):
     old_words: Array
     new_words: Array
     work: Array
+    push: Array  # (n_bearings, 3) force on node j before the committed state
+    rise: Array  # (n_bearings, 2) mean vertical velocity of node j to i, and its rate, last step
+    carried: Array  # (n_bearings,) mass that the permanent axial force holds [kg]
     force_old: Array  # (n_b,) bearing forces, committed
     force: Array
     tangent: Array  # (n_b, n_b)
-    reduced: Array  # (MAX_LEVEL + 1, n_b, n_b) linear effective stiffness of each step size
+    reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
-    inverse_e: Array  # (MAX_LEVEL + 1, n_e, n_e) with full damping: effective flexibility of modes
-    follow_e: Array  # (MAX_LEVEL + 1, n_e, n_b) and how they follow b
+    inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
+    follow_e: Array  # (halvings, n_e, n_b) and how they follow b
     b_new: Array
     v_b_new: Array
     a_b_new: Array
@@ -108,9 +138,17 @@ class Run(NamedTuple):
     v: Array
     zero: Array
     axes: Array
-    energy: Array  # (n_terms,)
-    clock: Array  # time, level, good steps at it, strain energy under gravity
-    counters: Array  # steps, iterations, halvings, bearing, code, cause, base steps done
+    energy: Array  # (1,) LEDGER
+    energy_row: Array  # (n_terms,) the same as numbers
+    clock: Array  # (1,) CLOCK
+    counts: Array  # (1,) COUNTS
+
+
+class Ground(NamedTuple):
+    """The ground motion that a run integrates."""
+
+    acceleration: Array  # (n, 3) [m/s2]
+    dt: float  # between samples [s]; linear between, zero after the last
 
 
 class Setup(NamedTuple):
@@ -125,7 +163,12 @@ class Setup(NamedTuple):
     max_iterations: int
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
-    error_tolerance: float  # m, estimated error of a step in displacement; infinite: fixed step
+    error_tolerance: float  # of a step over the displacement reached; infinite: fixed step
+    smallest_reach: float  # m, displacement that counts as reached from the start
+    error_time: float  # s, time over which an error in velocity counts
+    error_vertical: float  # share of the vertical error that counts while a bearing is pressed
+    error_open: float  # the same while it is lifted off, or lands
+    every: int  # base steps between two records
 
 
 def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> Model:
@@ -180,22 +223,25 @@ def run_arrays(model: Model) -> Run:
     def e() -> Array:
         return np.zeros(n_e)
 
+    energy = np.zeros(1, dtype=LEDGER)
+    sizes = MOST_HALVINGS + 1
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
     return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK),
+        push=np.zeros((count, 3)), rise=np.zeros((count, 2)), carried=np.ones(count),
         force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
-        reduced=np.zeros((MAX_LEVEL + 1, n_b, n_b)), has_reduced=np.zeros(MAX_LEVEL + 1, np.int64),
-        inverse_e=np.zeros((MAX_LEVEL + 1, n_full, n_full)),
-        follow_e=np.zeros((MAX_LEVEL + 1, n_full, n_b)),
+        reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),
+        inverse_e=np.zeros((sizes, n_full, n_full)),
+        follow_e=np.zeros((sizes, n_full, n_b)),
         b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
         rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),
         element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12), zero=np.zeros(3),
-        axes=np.eye(3), energy=np.zeros(len(ENERGY_TERMS)), clock=np.zeros(4),
-        counters=np.zeros(7, np.int64),
+        axes=np.eye(3), energy=energy, energy_row=energy.view(np.float64),
+        clock=np.zeros(1, dtype=CLOCK), counts=np.zeros(1, dtype=COUNTS),
     )  # fmt: skip
 
 

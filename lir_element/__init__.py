@@ -7,6 +7,7 @@ from lir_element.device.friction import CoulombFriction as CoulombFriction
 from lir_element.device.friction import VelocityFriction as VelocityFriction
 from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError
+from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 from lir_element.errors import AnalysisWarning as AnalysisWarning
 from lir_element.errors import RunStatus as RunStatus
 from lir_element.rig.cyclic_test import cyclic_test as cyclic_test

@@ -20,6 +20,9 @@ class RunStatus(IntEnum):
     SINGULAR = 8
     UPLIFTED = 9
     SLIP_UNSTABLE = 10
+    INTERRUPTED = 11
+    INACCURATE = 12
+    NO_REST = 13
 
     @property
     def meaning(self) -> str:
@@ -87,6 +90,16 @@ _TEXT = {
         "a bearing carries no compression under the permanent loads",
         "add weight over the bearing, or leave the bearing out",
     ),
+    RunStatus.NO_REST: (
+        "no equilibrium was found under the permanent loads, nor a way to it with softer friction",
+        "check the units of masses and loads, and axial_stiffness against the load of the bearing; "
+        "use a larger yield_displacement, stiffer members, or supports against a mechanism",
+    ),
+    RunStatus.INTERRUPTED: ("interrupted by Ctrl-C", "run it again, or use what was computed"),
+    RunStatus.INACCURATE: (
+        "completed, but the ledger of energy does not close: the results are doubtful",
+        "use dt=None or a smaller dt; check the step with half of it",
+    ),
 }
 
 
@@ -115,6 +128,30 @@ class AnalysisError(RuntimeError):
         super().__init__(failure_message(status, time, where, detail))
 
 
+class AnalysisInterrupted(KeyboardInterrupt):
+    """Ctrl-C in an analysis: stops loops and scripts as ever, and keeps what was computed.
+
+    Attributes
+    ----------
+    time : float
+        Time that the analysis had reached [s].
+    data : xarray.Dataset
+        What was computed until then; its attribute `status` is "interrupted".
+    """
+
+    def __init__(self, time: float, data: Any) -> None:
+        self.time = time
+        self.data = data
+        super().__init__(time, data)
+
+    def __str__(self) -> str:
+        """Say when it stopped, and where the results are."""
+        return (
+            f"interrupted at t = {self.time:.6g} s of the analysis: what was computed is in the "
+            "attribute `data` of this AnalysisInterrupted"
+        )
+
+
 def failure_message(status: RunStatus, time: float, where: str, detail: str = "") -> str:
     """Return the sentence that reports a failure: what, when, where, and what to try."""
     extra = f" ({detail})" if detail else ""
@@ -122,4 +159,4 @@ def failure_message(status: RunStatus, time: float, where: str, detail: str = ""
 
 
 class AnalysisWarning(UserWarning):
-    """An analysis that stopped early and handed back what it had computed."""
+    """An analysis that stopped early and handed back what it had computed, or is doubtful."""

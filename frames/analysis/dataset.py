@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.analysis.static import GravityState
     from frames.assembly.assemble import System
-    from frames.kernel_data import Output
+    from frames.kernel_data import Ground, Output
     from frames.model.frame import Frame
     from frames.motion.ground_motion import GroundMotion
     from lir_element.layout import Records
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 def build_dataset(
     frame: Frame,
     state: GravityState,
-    motion: GroundMotion,
+    shaking: Ground,
     peak: FloatArray,
     out: Output,
     states: Records,
@@ -49,8 +49,8 @@ def build_dataset(
         The model.
     state : GravityState
         The state the run started from, and the run.
-    motion : GroundMotion
-        As it was applied.
+    shaking : Ground
+        The ground motion as the loop integrated it.
     peak : ndarray, (3,)
         Peak velocities of the motion as it was given [m/s].
     out, states : Output, records
@@ -70,7 +70,7 @@ def build_dataset(
     shape = (count, len(system.node_names), 6)
     displacement = np.asarray(system.transform @ q.T).T.reshape(shape)
     acceleration = np.asarray(system.transform @ a.T).T.reshape(shape).copy()
-    ground = ground_at(motion, out.time[:count])
+    ground = ground_at(shaking, out.time[:count])
     acceleration[..., :3] += ground[:, None, :]
     velocity = _bearing_velocity(state, out.v_b[:count])
     variables = bearing_variables("time", states[:count], velocity)
@@ -134,14 +134,14 @@ def build_dataset(
     return xr.Dataset(variables, coordinates)
 
 
-def ground_at(motion: GroundMotion, time: FloatArray) -> FloatArray:
+def ground_at(ground: Ground, time: FloatArray) -> FloatArray:
     """Return the ground acceleration (n, 3) at `time`, linear between samples, zero after."""
-    samples = np.arange(len(motion.components))
-    place = time / motion.dt
-    columns = [np.interp(place, samples, motion.components[:, axis]) for axis in range(3)]
+    samples = np.arange(len(ground.acceleration))
+    place = time / ground.dt
+    columns = [np.interp(place, samples, ground.acceleration[:, axis]) for axis in range(3)]
     shaking = place < samples[-1] + 1e-9  # the time loop's own bound
-    ground: FloatArray = np.column_stack(columns) * shaking[:, None]
-    return ground
+    found: FloatArray = np.column_stack(columns) * shaking[:, None]
+    return found
 
 
 def peak_velocity(motion: GroundMotion, end: float) -> FloatArray:

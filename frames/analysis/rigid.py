@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-import math
 from time import perf_counter
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from frames._validate import ModelError
 from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.outcome import Outcome, judged
+from frames.analysis.size import number_of_steps, require_memory
 from frames.analysis.static import gravity
 from frames.assembly.basis import bearing_rows
-from frames.kernel_data import ENERGY_TERMS, Output, output_arrays
+from frames.kernel_data import ENERGY_TERMS, Ground, Output, output_arrays
 from frames.results.auditing import audit_report
-from lir_element.bundles.contact_data import as_rows
 from lir_element.bundles.rigid_data import (
     DEFAULT_TOLERANCE,
     FIRST_STEP,
-    RigidInput,
+    rigid_input,
     rigid_run,
     rigid_setup,
     stable_step,
-    state_words,
 )
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.kernels.rigid_body.march import march, start
-from lir_element.layout import BODIES
+from lir_element.pieces import in_pieces, ready
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,17 +37,12 @@ if TYPE_CHECKING:
     from frames.analysis.static import GravityState
     from frames.model.frame import Frame
     from frames.motion.ground_motion import GroundMotion
-    from lir_element.bundles.rigid_data import RigidRun, RigidSetup
-    from lir_element.layout import Records
+    from lir_element.bundles.rigid_data import RigidInput, RigidOutput, RigidRun, RigidSetup
 
 LARGEST_STEP = 0.005
 """Largest time between outputs that the program chooses [s]."""
 
-Outcome: TypeAlias = tuple[RunStatus, float, str, str]
-"""Status, time [s], place and detail."""
-
-_CHUNKS = 50
-_TERMS = {"input": 0, "gravity": 1, "kinetic": 2, "numerical": 3}
+_TERMS = ("input", "gravity", "kinetic", "numerical")
 _WORKS = {
     "high_friction": "work_interface",
     "friction_elastic": "work_elastic",
@@ -105,23 +99,25 @@ def rigid_time_history(
         raise ValueError(msg)
     own_step = min(motion.dt, LARGEST_STEP)
     interval = record_every * (own_step if dt is None or integrator == "explicit" else dt)
-    steps = max(1, math.ceil(length / interval - 1e-9))
-    began = perf_counter()
+    steps = number_of_steps(length, None if integrator == "explicit" else dt, interval)
     state = gravity(model, level="contact")
+    require_memory(state, steps + 1)
     run = _prepare(state)
     explicit = _explicit_step(state, run, dt) if integrator == "explicit" else 0.0
-    given, states, bodies = _input(state, motion, interval, steps + 1)
+    given, recorded = _input(state, motion, interval, steps + 1)
     chosen = DEFAULT_TOLERANCE if tolerance is None else tolerance
     length_scale = state.system.bearings[0][3].effective_radius
-    setup = rigid_setup(length_scale, interval / record_every, tolerance=chosen, explicit=explicit)
-    run.clock[1] = min(FIRST_STEP, interval)
-    prepared = perf_counter()
-    code = _march(run, given, setup, progress)
-    finished = perf_counter()
-    count = int(run.counters[3])
-    out = _output(state, given, states, bodies)
+    largest = min(interval / record_every, motion.dt)
+    setup = rigid_setup(length_scale, largest, tolerance=chosen, explicit=explicit)
+    run.clock["step"] = min(FIRST_STEP, interval)
+    status, seconds = _march(run, given, setup, progress)
+    clock, counts = run.clock[0], run.counts[0]
+    count = int(counts["outputs"])
+    out = _output(state, given, recorded)
     peak = peak_velocity(motion, float(out.time[count - 1]))
-    data = build_dataset(model, state, motion, peak, out, states[:, None], bodies[:, None], count)
+    states, bodies = recorded.states[:, None], recorded.bodies[:, None]
+    ground = Ground(given.motion, given.motion_dt)
+    data = build_dataset(model, state, ground, peak, out, states, bodies, count)
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -131,35 +127,36 @@ def rigid_time_history(
         "dt": float(explicit or interval / record_every),
         "step_control": "fixed" if explicit else "error",
         "tolerance": float(chosen),
-        "steps": int(run.counters[0]),
-        "refused_steps": int(run.counters[1]),
+        "steps": int(counts["steps"]),
+        "refused_steps": int(counts["refused"]),
         "degrees_of_freedom": 12 + int(run.free[12:].sum()),
-        "seconds_gravity": prepared - began,
-        "seconds_loop": finished - prepared,
+        "seconds_gravity": state.seconds,
+        "seconds_loop": seconds,
         "features_left_out": "none",
         "plane_coupling": 0.0,
     }
     data.attrs["audit"] = audit_report(data)
     where = f'bearing "{state.system.bearings[0][0]}"'
     detail = limit_detail(run.props, run.states[2:], 0)
-    return data, (RunStatus(code), float(run.clock[0]), where, detail)
+    if status is RunStatus.OK:
+        status, detail = judged(data)
+    return data, Outcome(status, float(clock["time"]), where, detail)
 
 
 def _march(
     run: RigidRun, given: RigidInput, setup: RigidSetup, progress: Callable[[float], None] | None
-) -> int:
-    # The compiled loop in chunks; returns the status code.
+) -> tuple[RunStatus, float]:
+    # The compiled loop in pieces, and its seconds.
+    ready(start, run, given)
+    ready(march, run, given, setup, 0, 0)
+    began = perf_counter()
     start(run, given)
-    count = len(given.times)
-    chunk = count if progress is None else max(1, -(-count // _CHUNKS))
-    for first in range(1, count, chunk):
-        last = min(first + chunk, count)
-        code = march(run, given, setup, first, last)
-        if code != int(RunStatus.OK):
-            return code
-        if progress is not None:
-            progress((last - 1) / (count - 1))
-    return int(RunStatus.OK)
+
+    def go(last: int, tries: int) -> int:
+        return march(run, given, setup, last, tries)
+
+    status = in_pieces(go, lambda: int(run.counts["outputs"][0]), len(given.times), progress)
+    return status, perf_counter() - began
 
 
 def _prepare(state: GravityState) -> RigidRun:
@@ -174,18 +171,12 @@ def _prepare(state: GravityState) -> RigidRun:
 
 def _input(
     state: GravityState, motion: GroundMotion, interval: float, count: int
-) -> tuple[RigidInput, Records, Records]:
-    # What the run is given, and where it writes: states and bodies (count,).
-    states, words = state_words(count)
-    bodies = np.zeros(count, dtype=BODIES)
+) -> tuple[RigidInput, RigidOutput]:
+    # What the run is given, and where it writes.
     node = state.system.bearings[0][2]
     load = np.tile(state.system.node_load[6 * node : 6 * node + 6], (count, 1))
-    given = RigidInput(
-        motion=np.ascontiguousarray(motion.components), motion_dt=float(motion.dt),
-        times=np.arange(count, dtype=np.float64) * interval, drive=np.zeros((count, 2)),
-        load=load, words=words, bodies=as_rows(bodies), energy=np.zeros((count, 6)),
-    )  # fmt: skip
-    return given, states, bodies
+    times = np.arange(count, dtype=np.float64) * interval
+    return rigid_input((motion.components, motion.dt), times, np.zeros((count, 2)), load)
 
 
 def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
@@ -236,7 +227,8 @@ def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -
     return float(explicit)
 
 
-def _output(state: GravityState, given: RigidInput, states: Records, bodies: Records) -> Output:
+def _output(state: GravityState, given: RigidInput, recorded: RigidOutput) -> Output:
+    states, bodies, energy = recorded
     count = len(given.times)
     out, _, _ = output_arrays(state.model, None, count)
     rows = bearing_rows(state.system).toarray()[6:]
@@ -248,7 +240,7 @@ def _output(state: GravityState, given: RigidInput, states: Records, bodies: Rec
     out.v_b[:], out.a_b[:] = plate[:, dofs], rates[:, dofs]
     for k, term in enumerate(ENERGY_TERMS):
         if term in _TERMS:
-            out.energy[:, k] = given.energy[:, _TERMS[term]]
+            out.energy[:, k] = energy[term]
         elif term in _WORKS:
             out.energy[:, k] = states[_WORKS[term]]
     places = {term: k for k, term in enumerate(ENERGY_TERMS)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -11,26 +12,22 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames._validate import ModelError
+from frames.analysis.equilibrium import find_equilibrium
 from frames.assembly.assemble import assemble, geometric_stiffness, member_axial_forces
 from frames.assembly.basis import Basis, bearing_rows, build_basis
 from frames.assembly.natural_modes import UnstableError, natural_modes
-from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
-from frames.kernels.stepping import solve_gravity
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
-from lir_element.element import ALL_LEVELS, LEVELS, limit_detail
-from lir_element.errors import AnalysisError, RunStatus
+from lir_element.element import ALL_LEVELS, LEVELS
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
+    from frames.kernel_data import Model, Run
     from frames.model.frame import Frame
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
-
-_FORCE_TOLERANCE = 1e-9  # of the total weight
-_MAX_ITERATIONS = 100
 
 
 @dataclass(frozen=True)
@@ -55,6 +52,8 @@ class GravityState:
         Displacements q under gravity.
     axial_forces : ndarray, (n_bearings,)
         Axial forces of the bearings, compression positive [N].
+    seconds : float
+        Time of computation, compilation aside [s].
     """
 
     system: System
@@ -66,6 +65,7 @@ class GravityState:
     contacts: Contacts | None
     displacement: FloatArray
     axial_forces: FloatArray
+    seconds: float
 
 
 def gravity(
@@ -102,6 +102,7 @@ def gravity(
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     """
+    began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
     points = [name for name, own in levels.items() if own == "contact"]
     system = assemble(frame, features, points)
@@ -113,21 +114,23 @@ def gravity(
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)
-    model, run, contacts = _equilibrium(system, basis, linear, levels, None)
-    axial_forces = np.array(run.old["axial_force"])
+    found = find_equilibrium(system, basis, linear, levels, None)
+    compiling = found.compiling
+    axial_forces = np.array(found.run.old["axial_force"])
     if not system.features.vertical_coupling:
-        load = -run.old["force"][:, 8]
-        model, run, contacts = _equilibrium(system, basis, linear, levels, load)
+        load = -found.run.old["force"][:, 8]
+        found = find_equilibrium(system, basis, linear, levels, load)
     return GravityState(
         system=system,
         geometric=geometric,
         member_forces=member_forces,
         basis=basis,
-        model=model,
-        run=run,
-        contacts=contacts,
-        displacement=expand(basis, run.b, run.e),
+        model=found.model,
+        run=found.run,
+        contacts=found.contacts,
+        displacement=expand(basis, found.run.b, found.run.e),
         axial_forces=axial_forces,
+        seconds=perf_counter() - began - compiling,
     )
 
 
@@ -169,47 +172,6 @@ def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
             msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
             raise ValueError(msg)
     return {name: given.get(name, "pendulum") for name in names}
-
-
-def _equilibrium(
-    system: System, basis: Basis, linear: FloatArray, levels: Mapping[str, str],
-    static_load: FloatArray | None,
-) -> tuple[Model, Run, Contacts | None]:  # fmt: skip
-    model = model_arrays(system, basis, static_load)
-    run = run_arrays(model)
-    contacts = contacts_of(system, [levels[name] for name, _, _, _ in system.bearings])
-    run.b[:] = linear[basis.bearing_dofs]
-    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
-    status = RunStatus(solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS))
-    _raise_gravity_failure(system, run, status, linear)
-    return model, run, contacts
-
-
-def _raise_gravity_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
-    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits.
-    lifted = np.flatnonzero(run.new["axial_force"] <= 0.0)
-    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
-    props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
-    place = int(run.counters[3])
-    detail = ""
-    if len(lifted):
-        # Newton's last trial may lift others: the linear solution tells which one is pulled
-        moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
-        pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
-        status, place = RunStatus.UPLIFTED, int(np.argmax(pull))
-    elif len(beyond):
-        place = int(beyond[0])
-        status = RunStatus(int(run.new["status"][place]))
-        detail = limit_detail(props, run.new, place)
-    if status is not RunStatus.OK:
-        name = system.bearings[place][0]
-        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"', detail)
-
-
-def force_tolerance(system: System, relative: float) -> float:
-    """Return a tolerance in N (and N m at 1 m) relative to the weight of the structure."""
-    weight = float(np.abs(system.load).sum())
-    return relative * max(weight, 1e-3 * system.gravity * float(system.node_mass[:, :3].sum()))
 
 
 def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -> FloatArray:

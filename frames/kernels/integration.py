@@ -5,27 +5,30 @@ Newmark's method is the member alpha_m = alpha_f = 0; Chung and Hulbert (1993) g
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.kernel_data import MAX_LEVEL
+from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes, times
 from frames.kernels.ledger import add_bearing_energy, add_energy
-from frames.kernels.stepping import commit_bearings, gather, newton
+from frames.kernels.stepping import commit_bearings, newton
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Model, Output, Run, Setup
+    from frames.kernel_data import Ground, Model, Output, Run, Setup
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
-_MAX_LEVEL = MAX_LEVEL
-_LIMIT_LEVEL = 4  # halvings of a step before a limit of the bearing counts as exceeded
+_MOST_HALVINGS = MOST_HALVINGS
+_TICKS = 1 << MOST_HALVINGS  # parts of a base step
+_CALM = 0.25  # share of the allowed error below which twice the step is tried: it grows by dt^2
+_LIMIT_HALVINGS = 4  # of a step before a limit of the bearing counts as exceeded
 
 
 @inlined
@@ -37,10 +40,11 @@ def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
 
 
 @kernel
-def set_reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, dt: float) -> None:
-    """Set the effective stiffness of b with the modes eliminated, for this step size."""
-    out = run.reduced[level]
-    c_m, c_c, c_k = effective(settings, dt)
+def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
+    """Set the effective stiffness of b with the modes eliminated, for the present step size."""
+    at = run.clock[0].halvings
+    out = run.reduced[at]
+    c_m, c_c, c_k = effective(settings, run.clock[0].dt)
     n_b, n_e = model.mass_be.shape
     for a in range(n_b):
         for c in range(n_b):
@@ -52,7 +56,7 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, d
     if model.damping_ee.shape[0] > 0:
         eliminate_modes(
             model.mass_e, model.mass_eb, model.omega2, model.damping_e, model.damping_eb,
-            model.damping_ee, c_m, c_c, c_k, run.inverse_e[level], run.follow_e[level], out,
+            model.damping_ee, c_m, c_c, c_k, run.inverse_e[at], run.follow_e[at], out,
         )  # fmt: skip
     else:
         for k in range(n_e):
@@ -61,21 +65,13 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup, level: int, d
                 value = inv * model.mass_eb[k, a]
                 for c in range(n_b):
                     out[a, c] -= value * model.mass_eb[k, c]
-    run.has_reduced[level] = 1
+    run.has_reduced[at] = 1
 
 
 @inlined
-def set_load(
-    model: Model,
-    run: Run,
-    settings: Setup,
-    motion: Floats,
-    motion_dt: float,
-    time: float,
-    dt: float,
-    level: int,
-) -> None:
+def set_load(model: Model, run: Run, settings: Setup, ground: Ground) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
+    time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
     known_v = (1.0 - am) / (beta * dt)
     known_a = (1.0 - am) * (0.5 / beta - 1.0) - am
@@ -94,13 +90,13 @@ def set_load(
             - model.omega2[k] * run.e[k]
         )
     for axis in range(3):
-        ground = (1.0 - af) * ground_acceleration(motion, motion_dt, time + dt, axis) + (
-            af * ground_acceleration(motion, motion_dt, time, axis)
-        )
+        pull = (1.0 - af) * ground_acceleration(
+            ground.acceleration, ground.dt, time + dt, axis
+        ) + af * ground_acceleration(ground.acceleration, ground.dt, time, axis)
         for a in range(run.b.shape[0]):
-            run.rhs_b[a] -= model.inertia_b[a, axis] * ground
+            run.rhs_b[a] -= model.inertia_b[a, axis] * pull
         for k in range(run.e.shape[0]):
-            run.rhs_e[k] -= model.inertia_e[k, axis] * ground
+            run.rhs_e[k] -= model.inertia_e[k, axis] * pull
     times(model.mass_b, run.h_b, 1.0, run.rhs_b)
     times(model.mass_be, run.h_e, 1.0, run.rhs_b)
     times(model.mass_eb, run.h_b, 1.0, run.rhs_e)
@@ -111,8 +107,8 @@ def set_load(
         for k in range(run.e.shape[0]):
             run.g_e[k] = damp_v * run.v_e[k] + damp_a * run.a_e[k]
         coupled_load(
-            model.damping_be, model.damping_eb, model.damping_ee, run.inverse_e[level],
-            run.follow_e[level], run.g_b, run.g_e, run.rhs_b, run.rhs_e, run.h_e,
+            model.damping_be, model.damping_eb, model.damping_ee, run.inverse_e[at],
+            run.follow_e[at], run.g_b, run.g_e, run.rhs_b, run.rhs_e, run.h_e,
         )  # fmt: skip
         return
     c_m, c_c, c_k = effective(settings, dt)
@@ -122,13 +118,14 @@ def set_load(
 
 
 @inlined
-def finish_step(model: Model, run: Run, settings: Setup, dt: float, level: int) -> None:
+def finish_step(model: Model, run: Run, settings: Setup) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
+    dt, at = run.clock[0].dt, run.clock[0].halvings
     beta, gamma = settings.beta, settings.gamma
     if model.damping_ee.shape[0] > 0:
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.h_e[k]
-        times(run.follow_e[level], run.step, -1.0, run.g_e)
+        times(run.follow_e[at], run.step, -1.0, run.g_e)
     else:
         c_m, c_c, c_k = effective(settings, dt)
         for k in range(run.e.shape[0]):
@@ -152,47 +149,83 @@ def finish_step(model: Model, run: Run, settings: Setup, dt: float, level: int) 
 
 @inlined
 def try_step(
-    model: Model,
-    run: Run,
-    contacts: Contacts | None,
-    settings: Setup,
-    motion: Floats,
-    motion_dt: float,
-    time: float,
-    dt: float,
-    level: int,
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
 ) -> int:
-    """Attempt one step; leaves it in the trial arrays. Returns a status code."""
-    if run.has_reduced[level] == 0:
-        set_reduced_stiffness(model, run, settings, level, dt)
-    linear = run.reduced[level]
-    set_load(model, run, settings, motion, motion_dt, time, dt, level)
+    """Attempt a step of ``clock.dt``; leaves it in the trial arrays. Returns a status code."""
+    clock = run.clock[0]
+    if run.has_reduced[clock.halvings] == 0:
+        set_reduced_stiffness(model, run, settings)
+    set_load(model, run, settings, ground)
     for a in range(run.b.shape[0]):
-        run.step[a] = dt * run.mean_v_b[a]
+        run.step[a] = clock.dt * run.mean_v_b[a]
     code = newton(
-        model, run, contacts, linear, time + dt, 1.0 - settings.alpha_f, settings.force_tolerance,
-        settings.max_iterations,
+        model, run, contacts, run.reduced[clock.halvings], 1.0 - settings.alpha_f,
+        settings.force_tolerance, settings.max_iterations,
     )  # fmt: skip
-    if code != _OK:
-        return code
-    finish_step(model, run, settings, dt, level)
-    return _OK
+    if code == _OK:
+        finish_step(model, run, settings)
+    return code
 
 
 @inlined
-def estimated_error(model: Model, run: Run, dt: float) -> float:
-    """Return the estimated error of the step in the bearings' horizontal displacement."""
-    for a in range(run.b.shape[0]):
-        run.h_b[a] = run.a_b_new[a] - run.a_b[a]
-    largest = 0.0
-    for k in range(model.props.shape[0]):
-        gather(model, k, run.h_b, run.u)
-        largest = max(largest, abs(run.u[6] - run.u[0]), abs(run.u[7] - run.u[1]))
-    return dt * dt / 12.0 * largest
+def opening(model: Model, k: int, b: Floats) -> float:
+    """Return how far `b` takes node j of bearing `k` up from node i."""
+    total = 0.0
+    for entry in range(model.start[k, 8], model.start[k, 9]):
+        total += model.values[entry] * b[model.columns[entry]]
+    for entry in range(model.start[k, 2], model.start[k, 3]):
+        total -= model.values[entry] * b[model.columns[entry]]
+    return total
 
 
 @inlined
-def is_rough(model: Model, run: Run, contacts: Contacts | None, settings: Setup, dt: float) -> bool:
+def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
+    """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
+
+    From displacements, which are free of what rings from step to step; total, where node i is
+    fixed, so that it is smooth in free flight.
+    """
+    clock = run.clock[0]
+    rate = opening(model, k, run.step) / clock.dt - run.rise[k, 0]
+    rate /= 0.5 * (clock.dt + clock.dt_before)
+    if model.start[k, 2] == model.start[k, 3]:
+        rate += ground_acceleration(ground.acceleration, ground.dt, clock.time, 2)
+    return rate
+
+
+@inlined
+def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
+    """Return the estimated error of the step in the bearings' displacement over what is allowed.
+
+    The trapezoidal rule integrates each bearing's force F to the velocity of the mass it carries
+    with an error of ``dt / 12`` times the second difference of F / m, which counts over
+    ``error_time`` (docs/theory.md, 5). Forces that are linear in the step, as the ground's, have
+    none, and what rings in the structure beside the bearings has none either. Off the ground a
+    bearing has no force, and the change of its vertical acceleration says how it will land.
+    """
+    clock = run.clock[0]
+    ratio = clock.dt / clock.dt_before if clock.dt_before > 0.0 else 0.0
+    wrong, mass = 0.0, 0.0
+    for k in range(run.old.shape[0]):
+        is_open = run.old[k].axial_force <= 0.0 or run.new[k].axial_force <= 0.0
+        for axis in range(3):
+            old, new = run.old[k].force[6 + axis], run.new[k].force[6 + axis]
+            bend = new - old - ratio * (old - run.push[k, axis])
+            if axis == 2 and is_open:
+                bend = run.carried[k] * (lifting(model, run, ground, k) - run.rise[k, 1])
+                bend *= settings.error_open
+            elif axis == 2:
+                bend *= settings.error_vertical
+            wrong += bend * bend
+        mass += run.carried[k] * run.carried[k]
+    error = clock.dt / 12.0 * math.sqrt(wrong / mass) * settings.error_time
+    return error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
+
+
+@inlined
+def is_rough(
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
+) -> bool:
     """Return whether the step deserves to be halved, though it converged.
 
     Either its estimated error is too large, or contacts that open or close in it make or lose
@@ -201,10 +234,12 @@ def is_rough(model: Model, run: Run, contacts: Contacts | None, settings: Setup,
     defect = 0.0
     for k in range(run.old.shape[0]):
         defect += bearing_defect(model.props, run.old, run.new, contacts, k)
-    scale = max(run.energy[2], abs(run.energy[0]), settings.energy_floor)
+    scale = max(run.energy[0].kinetic, abs(run.energy[0].input), settings.energy_floor)
     if defect > settings.energy_tolerance * scale:
         return True
-    return estimated_error(model, run, dt) > settings.error_tolerance
+    if settings.error_tolerance < math.inf:
+        run.clock[0].share = estimated_error(model, run, settings, ground)
+    return run.clock[0].share > 1.0
 
 
 @inlined
@@ -212,33 +247,49 @@ def limits(run: Run) -> int:
     """Return the status of the bearings' limits in the trial state."""
     for k in range(run.new.shape[0]):
         if run.new[k].status != _OK:
-            run.counters[3] = k
+            run.counts[0].bearing = k
             return run.new[k].status
     return _OK
 
 
 @inlined
+def keep_motion(model: Model, run: Run, ground: Ground) -> None:
+    """Keep how the bearings were forced and moved, for the next estimate of the error."""
+    clock = run.clock[0]
+    for k in range(run.old.shape[0]):
+        run.rise[k, 1] = lifting(model, run, ground, k)
+        run.rise[k, 0] = opening(model, k, run.step) / clock.dt
+        for axis in range(3):
+            run.push[k, axis] = run.old[k].force[6 + axis]
+        u = run.new[k].displacement
+        clock.reach = max(clock.reach, math.sqrt((u[6] - u[0]) ** 2 + (u[7] - u[1]) ** 2))
+
+
+@inlined
 def accept_step(
-    model: Model, run: Run, contacts: Contacts | None, motion: Floats, motion_dt: float,
-    time: float, dt: float,
-) -> None:  # fmt: skip
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
+) -> None:
     """Commit the step."""
-    add_energy(model, run, motion, motion_dt, time, dt)
+    clock = run.clock[0]
+    add_energy(model, run, ground)
+    if settings.error_tolerance < math.inf:
+        keep_motion(model, run, ground)
     commit_bearings(model, run, contacts)
     add_bearing_energy(run)
     for a in range(run.b.shape[0]):
-        run.mean_v_b[a] = run.step[a] / dt
+        run.mean_v_b[a] = run.step[a] / clock.dt
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
-    run.clock[0] = time + dt
-    run.counters[0] += 1
+    clock.time += clock.dt
+    clock.dt_before = clock.dt
+    run.counts[0].steps += 1
 
 
 @inlined
 def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None:
     """Copy the committed state into the output arrays."""
-    out.time[place] = run.clock[0]
+    out.time[place] = run.clock[0].time
     for a in range(run.b.shape[0]):
         out.b[place, a], out.v_b[place, a], out.a_b[place, a] = run.b[a], run.v_b[a], run.a_b[a]
     for k in range(run.e.shape[0]):
@@ -248,69 +299,79 @@ def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None
     if contacts is not None:
         for k in range(contacts.bodies_old_words.shape[0]):
             copy_words(contacts.bodies_old_words[k], out.bodies[place, k])
-    for term in range(run.energy.shape[0]):
-        out.energy[place, term] = run.energy[term]
+    for term in range(run.energy_row.shape[0]):
+        out.energy[place, term] = run.energy_row[term]
+
+
+@inlined
+def halve(run: Run) -> None:
+    """Halve the step that is being tried."""
+    run.clock[0].halvings += 1
+    run.clock[0].good = 0
+    run.counts[0].halvings += 1
+
+
+@inlined
+def attempt(
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
+) -> int:
+    """Try one step: commit it, or halve it for the next attempt. Returns a status code.
+
+    A step that fails, or whose estimated error is too large, is halved; after two good steps the
+    step is doubled again where it fits.
+    """
+    clock = run.clock[0]
+    ticks = 1 << (_MOST_HALVINGS - clock.halvings)
+    clock.dt = settings.dt / (1 << clock.halvings)
+    clock.time = settings.dt * (clock.done + clock.ticks / _TICKS)
+    code = try_step(model, run, contacts, settings, ground)
+    rough = code == _OK and clock.halvings < _MOST_HALVINGS // 2
+    clock.share = 0.0
+    if rough:
+        rough = is_rough(model, run, contacts, settings, ground)
+    if code != _OK or rough:
+        if clock.halvings == _MOST_HALVINGS:
+            run.counts[0].cause = code
+            return _STEP_TOO_SMALL
+        halve(run)
+        return _OK
+    code = limits(run)
+    if code != _OK:  # not committed; a coarse step is refined before it counts
+        if clock.halvings >= _LIMIT_HALVINGS:
+            clock.time += clock.dt
+            return code
+        halve(run)
+        return _OK
+    accept_step(model, run, contacts, settings, ground)
+    clock.ticks += ticks
+    clock.good += 1
+    calm = clock.good >= 2 and clock.share < _CALM
+    if clock.halvings > 0 and calm and clock.ticks % (2 * ticks) == 0:
+        clock.halvings -= 1
+        clock.good = 0
+    return _OK
 
 
 @kernel
 def advance(
-    model: Model,
-    run: Run,
-    contacts: Contacts | None,
-    settings: Setup,
-    motion: Floats,
-    motion_dt: float,
-    out: Output,
-    first: int,
-    last: int,
-    every: int,
-) -> int:
-    """Integrate the base steps `first` to `last` (exclusive), recording each `every`-th.
+    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground,
+    out: Output, last: int, trials: int,
+) -> int:  # fmt: skip
+    """Go on until `last` base steps are done, or `trials` state determinations are spent.
 
-    A step that fails, or whose estimated error is too large, is halved; after two good steps the
-    step is doubled again where it fits. Returns a status code; ``run.clock[0]`` is the time
-    reached; ``run.counters`` holds steps, iterations, halvings, the failed bearing, causes and
-    the base steps completed.
+    Records each ``settings.every``-th base step. Returns a status code; ``run.clock`` and
+    ``run.counts`` tell where it stands, and the next call goes on from there.
     """
-    level = int(run.clock[1])
-    good = int(run.clock[2])
-    ticks_a_step = 1 << _MAX_LEVEL
-    for base in range(first, last):
-        ticks = 0
-        while ticks < ticks_a_step:
-            parts = 1 << (_MAX_LEVEL - level)
-            dt = settings.dt / (1 << level)
-            time = settings.dt * (base + ticks / ticks_a_step)
-            run.clock[0] = time
-            code = try_step(model, run, contacts, settings, motion, motion_dt, time, dt, level)
-            rough = code == _OK and level < _MAX_LEVEL // 2
-            if rough:
-                rough = is_rough(model, run, contacts, settings, dt)
-            if code != _OK or rough:
-                if level == _MAX_LEVEL:
-                    run.counters[5] = code
-                    return _STEP_TOO_SMALL
-                level += 1
-                good = 0
-                run.counters[2] += 1
-                continue
-            code = limits(run)
-            if code != _OK:  # not committed; a coarse step is refined before it counts
-                if level >= _LIMIT_LEVEL:
-                    run.clock[0] = time + dt
-                    return code
-                level += 1
-                good = 0
-                continue
-            accept_step(model, run, contacts, motion, motion_dt, time, dt)
-            ticks += parts
-            good += 1
-            if level > 0 and good >= 2 and ticks % (2 * parts) == 0:
-                level -= 1
-                good = 0
-        run.clock[0] = settings.dt * (base + 1)
-        run.counters[6] = base + 1
-        if (base + 1) % every == 0:
-            record(run, contacts, out, (base + 1) // every)
-        run.clock[1], run.clock[2] = level, good
+    clock, counts = run.clock[0], run.counts[0]
+    most = counts.trials + trials
+    while clock.done < last and counts.trials < most:
+        code = attempt(model, run, contacts, settings, ground)
+        if code != _OK:
+            return code
+        if clock.ticks == _TICKS:
+            clock.done += 1
+            clock.ticks = 0
+            clock.time = settings.dt * clock.done
+            if clock.done % settings.every == 0:
+                record(run, contacts, out, clock.done // settings.every)
     return _OK

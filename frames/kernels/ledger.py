@@ -13,7 +13,7 @@ from frames.kernels.coupling import coupled_work
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Model, Run
+    from frames.kernel_data import Ground, Model, Run
     from lir_element.layout import Floats
 
 
@@ -48,26 +48,23 @@ def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
 
 
 @inlined
-def add_energy(
-    model: Model, run: Run, motion: Floats, motion_dt: float, time: float, dt: float
-) -> None:
+def add_energy(model: Model, run: Run, ground: Ground) -> None:
     """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
 
     Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
     unbalanced at the ends of the step: nothing for Newmark's method but Newton's tolerance.
-    Order of terms: frames.kernel_data.ENERGY_TERMS.
     """
-    energy = run.energy
+    energy, clock = run.energy[0], run.clock[0]
     supplied, lifted, damped, bearings = 0.0, 0.0, 0.0, 0.0
     for axis in range(3):
-        ground = 0.5 * (
-            ground_acceleration(motion, motion_dt, time + dt, axis)
-            + ground_acceleration(motion, motion_dt, time, axis)
+        mean = 0.5 * (
+            ground_acceleration(ground.acceleration, ground.dt, clock.time + clock.dt, axis)
+            + ground_acceleration(ground.acceleration, ground.dt, clock.time, axis)
         )
         for a in range(run.b.shape[0]):
-            supplied -= ground * model.inertia_b[a, axis] * run.step[a]
+            supplied -= mean * model.inertia_b[a, axis] * run.step[a]
         for k in range(run.e.shape[0]):
-            supplied -= ground * model.inertia_e[k, axis] * run.g_e[k]
+            supplied -= mean * model.inertia_e[k, axis] * run.g_e[k]
     for a in range(run.b.shape[0]):
         lifted -= model.load_b[a] * run.step[a]
         bearings += 0.5 * (run.force_old[a] + run.force[a]) * run.step[a]
@@ -82,27 +79,28 @@ def add_energy(
             run.v_e_new,
         )  # fmt: skip
     kinetic = quadratic(model.mass_b, model.mass_be, model.mass_e, run.v_b_new, run.v_e_new)
-    elastic = elastic_energy(model, run.b_new, run.e_new) - run.clock[3]
-    energy[0] += supplied
-    energy[1] += lifted
-    energy[12] += (
-        supplied - lifted - damped - bearings - (kinetic - energy[2]) - (elastic - energy[3])
-    )
-    energy[2], energy[3] = kinetic, elastic
-    energy[4] += damped
+    elastic = elastic_energy(model, run.b_new, run.e_new) - clock.elastic_start
+    energy.input += supplied
+    energy.gravity += lifted
+    energy.damping += damped
+    stored = kinetic - energy.kinetic + elastic - energy.elastic
+    energy.numerical += supplied - lifted - damped - bearings - stored
+    energy.kinetic, energy.elastic = kinetic, elastic
 
 
 @inlined
 def add_bearing_energy(run: Run) -> None:
     """Set the bearings' terms of the energy from their accumulated works."""
-    for term in range(5, 12):
-        run.energy[term] = 0.0
+    energy = run.energy[0]
+    energy.low_friction_bottom, energy.low_friction_top, energy.high_friction = 0.0, 0.0, 0.0
+    energy.friction_elastic, energy.rims, energy.contact, energy.sliders = 0.0, 0.0, 0.0, 0.0
     for k in range(run.old.shape[0]):
-        run.energy[5] += run.old[k].work_friction[0]
-        run.energy[6] += run.old[k].work_friction[1]
-        run.energy[7] += run.old[k].work_interface
-        run.energy[8] += run.old[k].work_elastic
-        run.energy[12] += run.old[k].work_step
-        run.energy[9] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
-        run.energy[10] += run.old[k].work_contact
-        run.energy[11] += run.old[k].work_sliders
+        old = run.old[k]
+        energy.low_friction_bottom += old.work_friction[0]
+        energy.low_friction_top += old.work_friction[1]
+        energy.high_friction += old.work_interface
+        energy.friction_elastic += old.work_elastic
+        energy.rims += old.work_rim[0] + old.work_rim[1]
+        energy.contact += old.work_contact
+        energy.sliders += old.work_sliders
+        energy.numerical += old.work_step

@@ -38,10 +38,12 @@ def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
 
 @inlined
 def bearing_forces(
-    model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats, time: float
+    model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats
 ) -> int:
     """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
     n_b = b.shape[0]
+    time = run.clock[0].time + run.clock[0].dt
+    run.counts[0].trials += 1
     for a in range(n_b):
         run.force[a] = 0.0
     worst = _OK
@@ -53,7 +55,7 @@ def bearing_forces(
         )
         if code != _OK:
             worst = code
-            run.counters[3] = k
+            run.counts[0].bearing = k
             if has_no_state(code):
                 return code
         force = run.new[k].force
@@ -90,20 +92,19 @@ def norm(x: Floats) -> float:
 
 @inlined
 def set_residual(
-    model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, time: float,
-    share: float,
-) -> float:  # fmt: skip
+    model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, share: float
+) -> float:
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
     residual = rhs - linear step - share force; infinite where the bearings have no state.
     """
     n_b = step.shape[0]
-    dt = time - run.clock[0]
+    dt = run.clock[0].dt
     for a in range(n_b):
         run.trial_b[a] = run.b[a] + step[a]
         run.v_b_new[a] = step[a] / dt if dt > 0.0 else 0.0
-    code = bearing_forces(model, run, contacts, run.trial_b, run.v_b_new, time)
-    run.counters[4] = code
+    code = bearing_forces(model, run, contacts, run.trial_b, run.v_b_new)
+    run.counts[0].code = code
     if has_no_state(code):
         return math.inf
     for a in range(n_b):
@@ -120,7 +121,6 @@ def newton(
     run: Run,
     contacts: Contacts | None,
     linear: Floats,
-    time: float,
     share: float,
     tolerance: float,
     max_iterations: int,
@@ -130,17 +130,17 @@ def newton(
     `run.step` holds the first guess. A step that does not reduce the residual is shortened.
     """
     n_b = run.step.shape[0]
-    size = set_residual(model, run, contacts, linear, run.step, time, share)
+    size = set_residual(model, run, contacts, linear, run.step, share)
     if size == math.inf:  # start from rest instead
         for a in range(n_b):
             run.step[a] = 0.0
-        size = set_residual(model, run, contacts, linear, run.step, time, share)
+        size = set_residual(model, run, contacts, linear, run.step, share)
         if size == math.inf:
-            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+            return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
     for _ in range(max_iterations):
         if size <= tolerance:
             return _OK
-        run.counters[1] += 1
+        run.counts[0].iterations += 1
         for a in range(n_b):
             run.h_b[a] = run.residual[a]
             for c in range(n_b):
@@ -152,12 +152,12 @@ def newton(
         for attempt in range(6):
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
-            new = set_residual(model, run, contacts, linear, run.g_b, time, share)
+            new = set_residual(model, run, contacts, linear, run.g_b, share)
             if new < size or (attempt >= 3 and new < 2.0 * size):
                 break
             factor *= 0.4
         if new == math.inf:
-            return run.counters[4] if has_no_state(run.counters[4]) else _NEWTON_FAILED
+            return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
         for a in range(n_b):
             run.step[a] = run.g_b[a]
         size = new
@@ -177,7 +177,7 @@ def solve_gravity(
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
-    code = newton(model, run, contacts, model.stiffness_b, 0.0, 1.0, tolerance, max_iterations)
+    code = newton(model, run, contacts, model.stiffness_b, 1.0, tolerance, max_iterations)
     if code != _OK:
         return code
     for a in range(n_b):

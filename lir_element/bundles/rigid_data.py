@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from lir_element.bundles.contact_data import as_rows
-from lir_element.layout import SCRATCH, STATE
+from lir_element.layout import BODIES, SCRATCH, STATE, Field, dtype_of
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
@@ -19,6 +19,30 @@ DEFAULT_TOLERANCE = 1e-8
 
 FIRST_STEP = 1e-4
 """Step that a run is started with [s]."""
+
+RIGID_CLOCK_FIELDS = (
+    Field("time", "s", "t", "time of the committed state"),
+    Field("step", "s", "dt", "step to try next"),
+    Field("part", "-", "", "explicit steps done towards the next output", (), "i8"),
+)
+
+RIGID_COUNT_FIELDS = (
+    Field("steps", "-", "", "steps accepted", (), "i8"),
+    Field("refused", "-", "", "steps refused", (), "i8"),
+    Field("tries", "-", "", "steps tried", (), "i8"),
+    Field("outputs", "-", "", "outputs written", (), "i8"),
+)
+
+RIGID_LEDGER_FIELDS = (
+    Field("input", "J", "", "work of the ground motion"),
+    Field("gravity", "J", "", "potential energy gained against the permanent loads"),
+    Field("kinetic", "J", "", "kinetic energy of the top plate"),
+    Field("numerical", "J", "", "what the scheme leaves unbalanced"),
+)
+
+RIGID_CLOCK = dtype_of(RIGID_CLOCK_FIELDS)
+RIGID_COUNTS = dtype_of(RIGID_COUNT_FIELDS)
+RIGID_LEDGER = dtype_of(RIGID_LEDGER_FIELDS)
 
 
 class RigidSetup(NamedTuple):
@@ -54,13 +78,14 @@ class RigidRun(NamedTuple):
     touches_words: Words
     states_words: Words
     scratch: Records  # (1,)
-    energy: Floats  # (3, 6): input, gravity, kinetic, numerical, 2 spare
+    energy: Records  # (3,) RIGID_LEDGER
+    energy_words: Words
     u: Floats  # (12,)
     ground: Floats  # (3,) at the end of a step
     ground_mean: Floats  # (3,) over the step
     drive: Floats  # (2,)
-    clock: Floats  # time, step
-    counters: Words  # steps, refused steps, status code, outputs written
+    clock: Records  # (1,) RIGID_CLOCK
+    counts: Records  # (1,) RIGID_COUNTS
 
 
 class RigidInput(NamedTuple):
@@ -73,7 +98,7 @@ class RigidInput(NamedTuple):
     load: Floats  # (n_out, 6) load on the top plate, linear between
     words: Words  # (n_out, words of STATE)
     bodies: Words  # (n_out, words of BODIES)
-    energy: Floats  # (n_out, 6)
+    energy: Words  # (n_out, words of RIGID_LEDGER)
 
 
 def bossak(spectral_radius: float) -> tuple[float, float, float]:
@@ -116,6 +141,7 @@ def rigid_run(
     bodies = np.repeat(contacts.bodies_old, 4)
     touches = np.repeat(contacts.touch_old, 4, axis=0)
     states = np.repeat(state, 3)
+    energy = np.zeros(3, dtype=RIGID_LEDGER)
     node = state["displacement"][0, 6:]
     bodies["place"][:, 2] = node[:3]
     half = 0.5 * node[3:]
@@ -128,16 +154,53 @@ def rigid_run(
         free=np.concatenate([np.ones(12, np.int64), np.asarray(free, np.int64)]), driven=driven,
         bodies=bodies, touches=touches, states=states,
         bodies_words=as_rows(bodies), touches_words=as_rows(touches), states_words=as_rows(states),
-        scratch=np.zeros(1, dtype=SCRATCH), energy=np.zeros((3, 6)), u=np.zeros(12),
-        ground=np.zeros(3), ground_mean=np.zeros(3), drive=np.zeros(2), clock=np.zeros(2),
-        counters=np.zeros(4, np.int64),
+        scratch=np.zeros(1, dtype=SCRATCH), energy=energy,
+        energy_words=as_rows(energy), u=np.zeros(12), ground=np.zeros(3),
+        ground_mean=np.zeros(3), drive=np.zeros(2),
+        clock=np.zeros(1, dtype=RIGID_CLOCK), counts=np.zeros(1, dtype=RIGID_COUNTS),
     )  # fmt: skip
 
 
-def state_words(count: int) -> tuple[Records, Words]:
-    """Return `count` state records, and the same as rows of words."""
-    states = np.zeros(count, dtype=STATE)
-    return states, as_rows(states)
+class RigidOutput(NamedTuple):
+    """What a run records, as records (n_out,)."""
+
+    states: Records
+    bodies: Records
+    energy: Records
+
+
+def rigid_input(
+    ground: tuple[Floats, float], times: Floats, drive: Floats, load: Floats
+) -> tuple[RigidInput, RigidOutput]:
+    """Return what a run is given, and the records that it will write.
+
+    Parameters
+    ----------
+    ground : ndarray (n, 3) and float
+        Ground acceleration [m/s2] and its step [s].
+    times : ndarray, (n_out,)
+        Output times [s], the first one that of the start.
+    drive : ndarray, (n_out, 2)
+        Imposed places of the top plate [m], linear between.
+    load : ndarray, (n_out, 6)
+        Load on the top plate [N, N m], linear between.
+
+    Returns
+    -------
+    RigidInput, RigidOutput
+        The same memory, for the kernels and for the results.
+    """
+    count = len(times)
+    out = RigidOutput(
+        states=np.zeros(count, dtype=STATE), bodies=np.zeros(count, dtype=BODIES),
+        energy=np.zeros(count, dtype=RIGID_LEDGER),
+    )  # fmt: skip
+    given = RigidInput(
+        motion=np.ascontiguousarray(ground[0]), motion_dt=float(ground[1]), times=times,
+        drive=drive, load=load, words=as_rows(out.states), bodies=as_rows(out.bodies),
+        energy=as_rows(out.energy),
+    )  # fmt: skip
+    return given, out
 
 
 def stable_step(sliders: Records, props: Records, load: float) -> float:

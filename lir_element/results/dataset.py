@@ -10,7 +10,13 @@ import numpy as np
 import xarray as xr
 from scipy.spatial.transform import Rotation
 
-from lir_element.errors import AnalysisError, AnalysisWarning, RunStatus, failure_message
+from lir_element.errors import (
+    AnalysisError,
+    AnalysisInterrupted,
+    AnalysisWarning,
+    RunStatus,
+    failure_message,
+)
 from lir_element.layout import PROPS_BY_NAME
 
 if TYPE_CHECKING:
@@ -229,8 +235,16 @@ def report(
     data.attrs["message"] = "completed"
     if status is RunStatus.OK:
         return data
+    if status is RunStatus.INTERRUPTED:  # whatever `on_failure`: loops and scripts must stop
+        stop = AnalysisInterrupted(time, data)
+        data.attrs["message"] = f"interrupted at t = {time:.6g} s"
+        raise stop
     message = failure_message(status, time, where, detail)
-    data.attrs |= {"message": message, "failed_at": time, "failed_where": where}
+    data.attrs["message"] = message
+    if status is RunStatus.INACCURATE:  # complete, and for the user to judge
+        warnings.warn(message, AnalysisWarning, stacklevel=3)
+        return data
+    data.attrs |= {"failed_at": time, "failed_where": where}
     if on_failure == "raise":
         raise AnalysisError(status, time, where, detail, data)
     warnings.warn(message, AnalysisWarning, stacklevel=3)

@@ -6,27 +6,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lir_element.bundles.contact_data import as_rows
-from lir_element.bundles.rigid_data import (
-    FIRST_STEP,
-    RigidInput,
-    rigid_run,
-    rigid_setup,
-    state_words,
-)
+from lir_element.bundles.rigid_data import FIRST_STEP, rigid_input, rigid_run, rigid_setup
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.kernels.rigid_body.march import march, start
-from lir_element.layout import BODIES
+from lir_element.pieces import in_pieces
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
+    from lir_element.errors import RunStatus
     from lir_element.layout import Floats, Records
 
 
 def drive_path(
     props: Records, contacts: Contacts, state: Records, path: Floats, loads: Floats,
     velocity: float,
-) -> tuple[Records, Records, int, int, float, Records]:  # fmt: skip
+) -> tuple[Records, Records, int, RunStatus, float, Records]:  # fmt: skip
     """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
 
     Parameters
@@ -43,7 +37,7 @@ def drive_path(
     Returns
     -------
     tuple
-        States (n,), bodies (n,), number of points reached, status code, time of the end, and the
+        States (n,), bodies (n,), number of points reached, status, time of the end, and the
         last state tried (1,).
 
     Notes
@@ -58,20 +52,20 @@ def drive_path(
     points = np.vstack([np.zeros((1, 2)), path])
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     count = len(points)
-    states, words = state_words(count)
-    bodies = np.zeros(count, dtype=BODIES)
     load = np.zeros((count, 6))
     load[:, 2] = -np.concatenate([loads[:1], loads])
-    given = RigidInput(
-        motion=np.zeros((2, 3)), motion_dt=1.0,
-        times=np.concatenate([[0.0], np.cumsum(lengths / velocity)]), drive=points, load=load,
-        words=words, bodies=as_rows(bodies), energy=np.zeros((count, 6)),
-    )  # fmt: skip
+    times = np.concatenate([[0.0], np.cumsum(lengths / velocity)])
+    given, out = rigid_input((np.zeros((2, 3)), 1.0), times, points, load)
     length = float(props["length"][0])
     largest = 0.2 * float(props["yield_displacement"].min()) / velocity
     setup = rigid_setup(length, largest)
-    run.clock[1] = min(FIRST_STEP, largest)
+    run.clock["step"] = min(FIRST_STEP, largest)
     start(run, given)
-    code = march(run, given, setup, 1, count)
-    reached = int(run.counters[3]) - 1
-    return states[1:], bodies[1:], reached, code, float(run.clock[0]), run.states[2:]
+
+    def go(last: int, tries: int) -> int:
+        return march(run, given, setup, last, tries)
+
+    status = in_pieces(go, lambda: int(run.counts["outputs"][0]), count)
+    reached = int(run.counts["outputs"][0]) - 1
+    time = float(run.clock["time"][0])
+    return out.states[1:], out.bodies[1:], reached, status, time, run.states[2:]

@@ -100,9 +100,10 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
             force = 0.5 * (b_old.parts[part, 18 + a] + b_new.parts[part, 18 + a])
             bearing -= force * move
     e_old, e_new = run.energy[s_old], run.energy[s_new]
-    e_new[2] = kinetic_energy(run, after)
-    e_new[0], e_new[1] = e_old[0] + supplied, e_old[1] + lifted
-    e_new[3] = e_old[3] + supplied - lifted - bearing - (e_new[2] - e_old[2]) + new.work_step
+    e_new.kinetic = kinetic_energy(run, after)
+    e_new.input, e_new.gravity = e_old.input + supplied, e_old.gravity + lifted
+    gained = e_new.kinetic - e_old.kinetic
+    e_new.numerical = e_old.numerical + supplied - lifted - bearing - gained + new.work_step
     new.status = bodies_status(run.props[0], w, new)
     return new.status
 
@@ -140,76 +141,73 @@ def commit(run: RigidRun, at: int, state: int) -> None:
     copy_words(run.bodies_words[at], run.bodies_words[0])
     copy_words(run.touches_words[at], run.touches_words[0])
     copy_words(run.states_words[state], run.states_words[0])
-    for term in range(6):
-        run.energy[0, term] = run.energy[state, term]
-    run.counters[0] += 1
+    copy_words(run.energy_words[state], run.energy_words[0])
 
 
 @kernel
-def adaptive_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
-    """Go on to the output `place` with steps of controlled error; return a status code."""
-    end = given.times[place]
-    while True:
-        time = run.clock[0]
-        left = end - time
-        if left <= 1e-12 * max(abs(end), 1.0):
-            return _OK
-        dt = min(run.clock[1], setup.largest)
-        if dt >= left:
-            dt = left
-        elif dt > 0.5 * left:
-            dt = 0.5 * left
-        half = 0.5 * dt
-        good = implicit(run, given, setup, 0, 1, time + dt, dt, place)
-        if good:
-            good = implicit(run, given, setup, 0, 2, time + half, half, place)
-        code = _OK
-        if good:
-            code = take_up(run, 0, 2, 0, 1)
-            good = implicit(run, given, setup, 2, 3, time + dt, half, place)
-        share = difference(run) / setup.error if good else 8.0
-        if not (good and share <= 1.0):
-            run.counters[1] += 1
-            if dt <= setup.smallest:
-                run.counters[2] = _STEP_TOO_SMALL
-                return _STEP_TOO_SMALL
-            run.clock[1] = dt * max(0.2, min(0.9, 0.9 * share ** (-1.0 / 3.0)))
-            continue
-        code = max(code, take_up(run, 2, 3, 1, 2))
-        if code != _OK:
-            run.clock[0] = time + dt
-            return code
-        commit(run, 3, 2)
-        run.states[0].time = time + dt
-        run.clock[0] = time + dt
-        growth = 2.0 if share < 0.06 else 0.9 * share ** (-1.0 / 3.0)
-        run.clock[1] = max(run.clock[1] if dt < run.clock[1] else 0.0, dt * min(growth, 2.0))
+def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
+    """Try a step of controlled error towards the output `place`; return a status code."""
+    clock, counts = run.clock[0], run.counts[0]
+    time, left = clock.time, given.times[place] - clock.time
+    dt = min(clock.step, setup.largest)
+    if dt >= left:
+        dt = left
+    elif dt > 0.5 * left:
+        dt = 0.5 * left
+    half = 0.5 * dt
+    counts.tries += 1
+    good = implicit(run, given, setup, 0, 1, time + dt, dt, place)
+    if good:
+        good = implicit(run, given, setup, 0, 2, time + half, half, place)
+    code = _OK
+    if good:
+        code = take_up(run, 0, 2, 0, 1)
+        good = implicit(run, given, setup, 2, 3, time + dt, half, place)
+    share = difference(run) / setup.error if good else 8.0
+    if not (good and share <= 1.0):
+        counts.refused += 1
+        if dt <= setup.smallest:
+            return _STEP_TOO_SMALL
+        clock.step = dt * max(0.2, min(0.9, 0.9 * share ** (-1.0 / 3.0)))
+        return _OK
+    code = max(code, take_up(run, 2, 3, 1, 2))
+    clock.time = time + dt
+    if code != _OK:
+        return code
+    commit(run, 3, 2)
+    counts.steps += 1
+    run.states[0].time = clock.time
+    growth = 2.0 if share < 0.06 else 0.9 * share ** (-1.0 / 3.0)
+    clock.step = max(clock.step if dt < clock.step else 0.0, dt * min(growth, 2.0))
+    return _OK
 
 
 @kernel
-def explicit_to(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
-    """Go on to the output `place` with equal explicit steps; return a status code."""
-    start, end = given.times[place - 1], given.times[place]
-    parts = max(1, math.ceil((end - start) / setup.explicit))
-    dt = (end - start) / parts
-    now, then = 0, 1
-    for part in range(1, parts + 1):
-        set_instant(run, given, start + part * dt, dt, place)
+def explicit_pair(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
+    """Take two of the equal explicit steps towards the output `place`; return a status code."""
+    clock, counts = run.clock[0], run.counts[0]
+    begin, end = given.times[place - 1], given.times[place]
+    parts = 2 * max(1, math.ceil(0.5 * (end - begin) / setup.explicit))
+    dt = (end - begin) / parts
+    for now in range(2):
+        clock.part += 1
+        time = end if clock.part == parts else begin + clock.part * dt
+        set_instant(run, given, time, dt, place)
         explicit_step(
             run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
-            run.bodies[now], run.bodies[then], run.touches[now], run.touches[then],
+            run.bodies[now], run.bodies[1 - now], run.touches[now], run.touches[1 - now],
             run.scratch[0], dt, run.ground, run.drive, run.driven,
         )  # fmt: skip
-        code = take_up(run, now, then, now, then)
+        code = take_up(run, now, 1 - now, now, 1 - now)
+        clock.time = time
+        counts.tries += 1
         if code != _OK:
-            run.clock[0] = start + part * dt
+            copy_words(run.states_words[1 - now], run.states_words[2])
             return code
-        now, then = then, now
-    if now != 0:
-        commit(run, 1, 1)
-    run.states[0].time = end
-    run.clock[0] = end
-    run.counters[0] += parts
+        counts.steps += 1
+    run.states[0].time = clock.time
+    if clock.part == parts:
+        clock.part = 0
     return _OK
 
 
@@ -234,19 +232,25 @@ def start(run: RigidRun, given: RigidInput) -> None:
 
 
 @kernel
-def march(run: RigidRun, given: RigidInput, setup: RigidSetup, first: int, last: int) -> int:
-    """Integrate to the outputs `first` to `last` (exclusive), recording; return a status code.
+def march(run: RigidRun, given: RigidInput, setup: RigidSetup, last: int, tries: int) -> int:
+    """Go on until `last` outputs are written, or `tries` steps were tried; return a status code.
 
-    ``run.clock[0]`` is the time reached, ``run.counters[3]`` the number of outputs written.
+    ``run.clock`` and ``run.counts`` tell where it stands, and the next call goes on from there.
     """
-    for place in range(first, last):
+    clock, counts = run.clock[0], run.counts[0]
+    most = counts.tries + tries
+    while counts.outputs < last and counts.tries < most:
+        place = counts.outputs
+        end = given.times[place]
+        if end - clock.time <= 1e-12 * max(abs(end), 1.0):
+            record(run, given, place)
+            continue
         if setup.explicit > 0.0:
-            code = explicit_to(run, given, setup, place)
+            code = explicit_pair(run, given, setup, place)
         else:
-            code = adaptive_to(run, given, setup, place)
+            code = adaptive(run, given, setup, place)
         if code != _OK:
             return code
-        record(run, given, place)
     return _OK
 
 
@@ -255,6 +259,5 @@ def record(run: RigidRun, given: RigidInput, place: int) -> None:
     """Write the committed state to the output."""
     copy_words(run.states_words[0], given.words[place])
     copy_words(run.bodies_words[0], given.bodies[place])
-    for term in range(6):
-        given.energy[place, term] = run.energy[0, term]
-    run.counters[3] = place + 1
+    copy_words(run.energy_words[0], given.energy[place])
+    run.counts[0].outputs = place + 1

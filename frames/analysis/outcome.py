@@ -1,0 +1,65 @@
+"""How an analysis ended, and whether what it computed can be relied on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames.results.measures import ABSORBED
+from lir_element.errors import RunStatus
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+PROMISE = 1e-3
+"""Largest share of the input by which the ledger of a completed run may be open [-]."""
+
+ASKED_FOR = 1e-2
+"""The same for what the generalised-alpha method takes out, which is what it is chosen for."""
+
+LEAST_INPUT = 1e-6
+"""Input over weight and effective radius below which the ledger is measured against that [-]."""
+
+
+class Outcome(NamedTuple):
+    """The end of a run."""
+
+    status: RunStatus
+    time: float  # s
+    where: str
+    detail: str
+
+
+def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
+    """Judge a completed run by its ledger of energy.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of the run, complete but for its status. Gets the attributes `energy_error` and
+        `numerical_share` [-], and a line in its audit where they are too large.
+
+    Returns
+    -------
+    RunStatus, str
+        OK, or INACCURATE with what is wrong.
+    """
+    energy = data["energy"]
+    given = energy.sel(term="input")
+    gap = float(np.abs(given - energy.sel(term=list(ABSORBED)).sum("term")).max())
+    numerical = float(np.abs(energy.sel(term="numerical")).max())
+    least = LEAST_INPUT * float(data["weight"]) * float(data["length"].min())
+    scale = max(float(np.abs(given).max()), abs(least))
+    gap, numerical = gap / scale, numerical / scale
+    data.attrs |= {"energy_error": gap, "numerical_share": numerical}
+    allowed = ASKED_FOR if data.attrs["integrator"] == "generalised-alpha" else PROMISE
+    if gap <= PROMISE and numerical <= allowed:
+        return RunStatus.OK, ""
+    detail = (
+        f"the terms of the energy differ from the input by {100.0 * gap:.3g} % of it (at most "
+        f"{100.0 * PROMISE:g} % is sound), and {100.0 * numerical:.3g} % are the time "
+        f"integration's own (at most {100.0 * allowed:g} %)"
+    )
+    data.attrs["audit"] += f"\n  inaccurate: {detail}"
+    return RunStatus.INACCURATE, detail

@@ -1,0 +1,88 @@
+"""Compiled loops as Python calls them: compiled first, then in pieces that Ctrl-C can part."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numba
+
+from lir_element.errors import RunStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+PIECE = 0.06
+"""Length of a piece that is aimed at [s]: calling costs some 0.1 ms of it."""
+
+FIRST_WORK = 50
+"""Work of the first piece; its unit is the loop's own, such as one trial step."""
+
+MARKS = 50
+"""How often progress is reported."""
+
+
+def in_pieces(
+    advance: Callable[[int, int], int],
+    done: Callable[[], int],
+    total: int,
+    progress: Callable[[float], None] | None = None,
+) -> RunStatus:
+    """Take a compiled loop to its end in pieces of about `PIECE` seconds.
+
+    Parameters
+    ----------
+    advance : callable
+        ``advance(last, work)`` goes on until `last` units are done or `work` is spent; returns a
+        status code.
+    done : callable
+        ``done()`` returns the units done so far.
+    total : int
+        Units of the whole run.
+    progress : callable, optional
+        Called with the share done some fifty times.
+
+    Returns
+    -------
+    RunStatus
+        How it ended; INTERRUPTED after Ctrl-C: what the loop has done until then is whole.
+    """
+    stride = total if progress is None else max(1, -(-total // MARKS))
+    work = FIRST_WORK
+    try:
+        while done() < total:
+            last = min(total, (done() // stride + 1) * stride)
+            began = perf_counter()
+            code = advance(last, work)
+            if code != int(RunStatus.OK):
+                return RunStatus(code)
+            if done() < last:  # the work was spent
+                share = PIECE / max(perf_counter() - began, 1e-6)
+                work = max(1, int(work * min(max(share, 0.1), 8.0)))
+            elif progress is not None:
+                progress(done() / total)
+    except KeyboardInterrupt:
+        return RunStatus.INTERRUPTED
+    return RunStatus.OK
+
+
+def ready(kernel: Callable[..., Any], *arguments: Any) -> float:
+    """Have a kernel compiled without calling it, so that what is timed is the computation alone.
+
+    Parameters
+    ----------
+    kernel : callable
+        The kernel.
+    *arguments : object
+        What it will be called with.
+
+    Returns
+    -------
+    float
+        Time it took [s].
+    """
+    began = perf_counter()
+    compile_for = getattr(kernel, "compile", None)  # a plain function where nothing is compiled
+    if compile_for is not None:
+        compile_for(tuple(numba.typeof(value) for value in arguments))
+    return perf_counter() - began

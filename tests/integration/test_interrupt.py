@@ -1,0 +1,85 @@
+"""Ctrl-C, sent for real: answered at once at every level, and what was computed is kept."""
+
+import signal
+import subprocess  # runs this interpreter on the lines below  # noqa: S404
+import sys
+import time
+
+import pytest
+
+from lir_element import AnalysisInterrupted
+
+SCRIPT = """
+import sys
+import numpy as np
+from frames import GroundMotion, lumped_mass, time_history
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
+bearing = LIRBearing(
+    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+    friction=CoulombFriction(0.05), interface_friction=0.1,
+)
+wave = 0.7 * np.sin(3.0 * np.arange(0.0, 40000.0, 0.02))
+motion = GroundMotion(x=wave, y=0.5 * wave, dt=0.02)
+options = dict({options})
+
+def analyse(duration):
+    if "{level}" == "cyclic_test":
+        path = 0.15 * np.sin(np.linspace(0.0, duration, max(2, int(duration))))
+        return cyclic_test(bearing, path, 1e5, level="rigid_body")
+    return time_history(lumped_mass(bearing, 1e4), motion, duration, level="{level}", **options)
+
+analyse(0.1)
+print("begin", flush=True)
+try:
+    for turn in range(1000):
+        try:
+            analyse(40000.0)
+        except Exception:
+            print("swallowed", flush=True)
+except KeyboardInterrupt as stop:
+    data = stop.data
+    step = data["time"].to_numpy()
+    print(type(stop).__name__, data.attrs["status"], len(step), float(step[-1]), stop.time,
+          bool(np.isfinite(data["bearing_force"]).all()), turn, flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    ("level", "options"),
+    [
+        ("pendulum", "record_every=1000"),
+        ("pendulum", "record_every=1000, progress=lambda share: None"),
+        ("contact", "record_every=100"),
+        ("rigid_body", "record_every=10"),
+        ("rigid_body", "record_every=10, integrator='explicit'"),
+        ("auto", "record_every=1000"),
+        ("cyclic_test", ""),
+    ],
+)
+def test_answered_and_kept(level: str, options: str) -> None:
+    script = SCRIPT.replace("{level}", level).replace("{options}", options)
+    child = subprocess.Popen(  # noqa: S603
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert child.stdout is not None
+        assert child.stdout.readline() == "begin\n"
+        time.sleep(1.0)
+        child.send_signal(signal.SIGINT)
+        sent = time.perf_counter()
+        words = child.stdout.readline().split()
+        waited = time.perf_counter() - sent
+        assert child.wait(20.0) == 0
+    finally:
+        child.kill()
+    kind, status, count, end, stopped, finite, turn = words
+    assert (kind, status, finite, turn) == ("AnalysisInterrupted", "interrupted", "True", "0")
+    assert int(count) > 1
+    assert 0.0 < float(end) <= float(stopped)
+    assert waited < 1.0  # 0.1 s on a free machine: a piece of the loop, and the Dataset
+
+
+def test_stops_what_catches_exceptions() -> None:
+    """A loop over runs that goes on after any failure must stop all the same."""
+    assert issubclass(AnalysisInterrupted, KeyboardInterrupt)
+    assert not issubclass(AnalysisInterrupted, Exception)

@@ -1,0 +1,112 @@
+"""Steps that the program chooses: accurate, the same under any turn, blind to what rings beside."""
+
+import math
+
+import numpy as np
+import pytest
+
+from frames import Frame, GroundMotion, Section, lumped_mass, shear_building, time_history
+from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, VelocityFriction
+
+
+def bearing(**options) -> LIRBearing:
+    given = {
+        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
+        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.12,
+        "yield_displacement": 1e-4,
+    }  # fmt: skip
+    return LIRBearing(**(given | options))
+
+
+def motion(seed: int, strength: float, turn: float = 0.0, vertical: float = 1.0) -> GroundMotion:
+    """Pulses with noise; the horizontal ones turned by `turn` [degrees]."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(0.0, 5.0, 0.01)
+    window = np.minimum(t / 0.5, 1.0) * np.minimum((5.0 - t) / 1.5, 1.0)
+    x, y, z = (
+        window * (np.sin(2.0 * np.pi * t / p + f) + 0.3 * rng.normal(size=len(t)))
+        for p, f in zip(rng.uniform(0.6, 2.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)
+    )
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    y *= 0.3
+    return GroundMotion(
+        x=strength * (c * x - s * y), y=strength * (s * x + c * y), z=vertical * z, dt=0.01
+    )
+
+
+def peak(data) -> float:
+    moves = data["bearing_displacement"].sel(axis=["x", "y"])
+    return float(np.sqrt((moves**2).sum("axis")).max())
+
+
+SCENES = [
+    (bearing(), 1.8),
+    (bearing(interface_friction=math.inf), 1.8),
+    (bearing(yield_displacement=2e-5), 0.9),
+    (bearing(friction=CoulombFriction(0.1), interface_friction=0.2), 1.0),  # barely slides
+]
+
+
+@pytest.mark.parametrize("scene", range(len(SCENES)))
+@pytest.mark.parametrize("seed", [1, 2])
+def test_chosen_steps_are_accurate_and_turn(run, scene, seed):
+    device, strength = SCENES[scene]
+    model = lumped_mass(device, 1e5)
+    fine = run(model, motion(seed, strength), dt=2e-4, record_every=25)
+    chosen = run(model, motion(seed, strength))
+    turned = run(model, motion(seed, strength, 37.0))
+    assert chosen.attrs["steps"] < 0.25 * fine.attrs["steps"]
+    assert peak(chosen) == pytest.approx(peak(fine), rel=5e-3)
+    assert peak(turned) == pytest.approx(peak(chosen), rel=1e-3)
+
+
+def pier(stiffness: float) -> Frame:
+    """A deck on a bearing on a light head on a column, whose period is hundredths of a second."""
+    device = bearing()
+    side = (12.0 * stiffness / 2e11) ** 0.25
+    frame = Frame("pier")
+    frame.add_node("foot", 0.0, 0.0, -4.0)
+    frame.fix("foot", "all")
+    frame.add_node("head", 0.0, 0.0, 0.0)
+    frame.add_member("column", "foot", "head", Section.box(side, side, 0.49 * side))
+    frame.add_mass("head", 2e3)
+    frame.add_node("deck", 0.0, 0.0, device.height)
+    frame.fix("deck", "rx", "ry", "rz")
+    frame.add_mass("deck", 1e5)
+    frame.add_bearing("bearing", "head", "deck", device)
+    return frame
+
+
+def test_ringing_of_a_stiff_structure_costs_nothing(run):
+    """The head of the column rings wherever friction turns round: the bearing hardly moves."""
+    model, shaking = pier(3e9), motion(3, 1.4)
+    chosen, fixed = run(model, shaking), run(model, shaking, dt=0.005)
+    fine = run(model, shaking, dt=2e-4, record_every=25)
+    assert chosen.attrs["steps"] < 1.6 * fixed.attrs["steps"]
+    assert peak(chosen) == pytest.approx(peak(fine), rel=5e-3)
+
+
+def test_modes_of_the_structure_cost_nothing(run):
+    model = shear_building(bearing(), [4e4, 3e4], [9e8, 8e8], base_mass=3e4)
+    chosen, fixed = (run(model, motion(4, 1.4), dt=dt) for dt in (None, 0.005))
+    assert chosen.attrs["steps"] < 1.6 * fixed.attrs["steps"]
+
+
+def test_landing_on_a_ringing_structure(run):
+    """Thrown up, the structure rings: where it lands depends on that, though no force acts."""
+    t = np.arange(0.0, 2.0, 0.005)
+    up = GroundMotion(x=1.5 * np.sin(5.0 * t), z=14.0 * np.sin(20.0 * t) * (t < 0.5), dt=0.005)
+    model = shear_building(bearing(capacity=math.inf), [4e4, 3e4], [5e7, 4e7], base_mass=3e4)
+    fine, chosen = run(model, up, dt=1e-4, record_every=50), run(model, up)
+    assert float(fine["axial_force"].min()) == 0.0
+    assert peak(chosen) == pytest.approx(peak(fine), rel=0.03)
+
+
+def test_halvings_at_a_limit_count():
+    """A smooth push over the rim: halved for nothing but the limit."""
+    device = bearing(interface_friction=math.inf, rim_overrun=1e-3, capacity=0.1)
+    shove = GroundMotion(x=np.full(400, 1.5), dt=0.005)
+    with pytest.warns(AnalysisWarning, match="overran"):
+        data = time_history(lumped_mass(device, 1e5), shove, dt=0.005)
+    assert data.attrs["status"] == "rim_overrun"
+    assert data.attrs["halvings"] >= 4
