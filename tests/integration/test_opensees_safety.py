@@ -22,7 +22,6 @@ import psutil
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_response
 from lir_element.opensees.fast.selftest import why_not_fast
-from lir_element.opensees.plugin import _SESSION
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")

@@ -6,7 +6,7 @@ portable route calls, takes that of the block.
 
 from __future__ import annotations
 
-from math import isfinite
+import math
 
 from numba import carray
 
@@ -79,7 +79,7 @@ def revert_remote(element: int) -> int:
     """Do what there is to do in the model's process where another one determines the states."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     copy_vector(call_word(h.host_force, element), h.dofs, 0, h.force)
-    if isfinite(h.force[0]):  # no refusal of the bearing's
+    if math.isfinite(h.force[0]):  # no refusal of the bearing's
         give_hint(h)
     return 0
 

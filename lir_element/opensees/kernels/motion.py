@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan
+import math
 from typing import TYPE_CHECKING
 
 from numba import carray
@@ -94,7 +94,7 @@ def fail(h: Host) -> int:
     if h.failures < _PATIENCE:
         return -1
     for k in range(h.dofs):
-        h.force[k] = nan
+        h.force[k] = math.nan
     return 0
 
 

@@ -11,7 +11,7 @@ step. Both vanish with what is left over: solutions are the same, and so is the 
 
 from __future__ import annotations
 
-from math import hypot, sqrt
+import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
@@ -47,11 +47,11 @@ def follow_iteration(h: Host, force: Floats) -> None:
     if same:
         return
     turn = 0.0
-    before = hypot(h.last_move[0], h.last_move[1])
+    before = math.hypot(h.last_move[0], h.last_move[1])
     for a in range(2):
         h.move[a] = (h.u[6 + a] - h.u[a]) - (h.last_u[6 + a] - h.last_u[a])
         turn += h.move[a] * h.last_move[a]
-    size = hypot(h.move[0], h.move[1])
+    size = math.hypot(h.move[0], h.move[1])
     h.left_known = h.element_made
     if h.left_known == 0 or size == 0.0:
         h.swings = 0
@@ -93,7 +93,7 @@ def narrow(h: Host) -> float:
     It gives up (and returns 0) where that makes no sense.
     """
     if h.swings == _ENOUGH:  # the last two positions
-        size = hypot(h.move[0], h.move[1])
+        size = math.hypot(h.move[0], h.move[1])
         for a in range(2):
             h.way[a] = h.move[a] / size
         place = h.way[0] * (h.u[6] - h.u[0]) + h.way[1] * (h.u[7] - h.u[1])
@@ -126,7 +126,7 @@ def restrain(h: Host) -> float:
     for a in range(2):
         h.way[a] = (h.u[6 + a] - h.u[a]) - (h.start_u[6 + a] - h.start_u[a])
         size += h.way[a] * h.way[a]
-    size = sqrt(size)
+    size = math.sqrt(size)
     if h.left_known == 0 or size < _CLOSE:
         return 0.0
     own = 0.0
