@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,6 +19,10 @@ _TOLERANCE = 1e-3
 _NDF = {2: 3, 3: 6}
 
 
+class PlacementWarning(UserWarning):
+    """A bearing that may not stand as it was meant to."""
+
+
 class Placement(NamedTuple):
     """How the model's degrees of freedom lead to the bearing's own axes."""
 
@@ -28,6 +33,10 @@ class Placement(NamedTuple):
     """Displacements (12,) in bearing axes [m, rad] by those of the model, (12, dofs)."""
     force_factor: float
     """Forces of the model are ``force_factor * matrix.T @ force``."""
+    axes: Floats
+    """Unit vectors of the bearing's x, y and z in the model's axes, as rows (3, 3)."""
+    force_unit: float
+    """The model's unit of force [N]."""
 
 
 def place(
@@ -63,12 +72,24 @@ def place(
     ------
     ValueError
         If a node does not exist, has other degrees of freedom, or is not where it must be.
+
+    Warns
+    -----
+    PlacementWarning
+        If the model seems to stand on its y axis, and no `orient` is given.
     """
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
     points = [_coordinates(ops, tag) for tag in _two_tags(i, j)]
     ndm = len(points[0])
     axes = bearing_axes(orient, ndm)
+    if orient is None and ndm == 3 and _stands_on_y(ops, int(i)):
+        msg = (
+            f"the bearing between nodes {i} and {j} points along z, but the supports lie in one "
+            "plane y = const. with the model above it: where y is the vertical, give "
+            "orient=(0, 1, 0); where z is, orient=(0, 0, 1)"
+        )
+        warnings.warn(msg, PlacementWarning, stacklevel=3)
     rise = metre * (points[1] - points[0])
     _check_rise(i, j, rise, axes, bearing.height)
     matrix = np.zeros((12, 12))
@@ -77,7 +98,21 @@ def place(
         matrix[rows, rows] = axes * (metre if block % 2 == 0 else 1.0)
     if ndm == 2:  # ux, uy, rz of the plane
         matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
-    return Placement((i, j), matrix.shape[1], matrix, 1.0 / (newton * metre))
+    factor = 1.0 / (newton * metre)
+    return Placement((i, j), matrix.shape[1], matrix, factor, axes, newton)
+
+
+def _stands_on_y(ops: Any, node: int) -> bool:
+    # Whether the supports, this node among them, share the model's lowest y, but not one z.
+    places = {tag: ops.nodeCoord(tag) for tag in ops.getNodeTags()}
+    points = np.array([place for place in places.values() if len(place) == 3])
+    ground = np.array([places[tag] for tag in {node, *ops.getFixedNodes()}])
+    if ground.shape[1:] != (3,):
+        return False
+    spread = np.ptp(ground, axis=0)
+    near = 1e-6 * max(float(np.ptp(points)), 1e-9)
+    above = points[:, 1] - ground[0, 1]
+    return bool(spread[1] <= near < spread[2] and above.min() >= -near and above.max() > near)
 
 
 def bearing_axes(orient: Sequence[float] | None, ndm: int) -> Floats:
@@ -155,7 +190,8 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
     if max(abs(x), abs(y)) > _TOLERANCE:
         msg = (
             f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "
-            f"most {_TOLERANCE:g} m is allowed: move it, or give the axis by orient=(x, y, z)"
+            f"most {_TOLERANCE:g} m is allowed: move it, or give the axis by orient=(x, y, z), "
+            "(0, 1, 0) where y points upwards"
         )
         raise ValueError(msg)
     if min(abs(z), abs(z - height)) > _TOLERANCE:

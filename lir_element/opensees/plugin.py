@@ -12,6 +12,7 @@ from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.block.hosted import Hosted
 from lir_element.opensees.fast.grafted import Grafted
+from lir_element.opensees.fast.manners import Manners
 from lir_element.opensees.fast.selftest import why_not_fast
 from lir_element.opensees.fast.symbols import NotPossibleError
 from lir_element.opensees.library import opensees
@@ -21,6 +22,8 @@ from lir_element.opensees.portable.remote import Orphans, Remote, Server, Server
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")
+Tangent = Literal["consistent", "symmetric"]
+TANGENTS = ("consistent", "symmetric")
 _LARGEST_TAG = 2**31 - 1
 
 
@@ -114,6 +117,7 @@ def bearing_element(
     *,
     length_unit: float = 1.0,
     force_unit: float = 1.0,
+    tangent: Tangent = "consistent",
 ) -> str:
     """Add a bearing to the current OpenSeesPy model.
 
@@ -136,6 +140,9 @@ def bearing_element(
         "auto" is "fast" where this build of OpenSees allows it.
     length_unit, force_unit : float
         The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
+    tangent : {"consistent", "symmetric"}
+        "symmetric" for symmetric systems of equations (ProfileSPD, BandSPD, SparseSYM); see the
+        notes.
 
     Returns
     -------
@@ -151,10 +158,14 @@ def bearing_element(
 
     Notes
     -----
-    The tangent is unsymmetric: choose a system of equations that takes that (UmfPack, BandGeneral,
-    FullGeneral). Without velocities a trial is static, as for OpenSees' own bearings: friction
-    then is that at low speed. A step that leads beyond a limit of the bearing is committed, and
-    the next one fails; why, is written to standard error.
+    The tangent is unsymmetric, as friction follows the axial force: choose a system of equations
+    that takes that (UmfPack, BandGeneral, FullGeneral). A symmetric one takes half of the tangent
+    and finds no equilibrium; for it there is ``tangent="symmetric"``, which leaves out that axial
+    forces act on friction. Answers are the same, with more iterations.
+
+    Without velocities a trial is static, as for OpenSees' own bearings: friction then is that at
+    low speed. A step that leads beyond a limit of the bearing is committed, and the next one fails;
+    why, is written to standard error.
 
     Examples
     --------
@@ -173,6 +184,9 @@ def bearing_element(
     >>> ops.wipe()
     """
     _check(tag, bearing, level, route)
+    if tangent not in TANGENTS:
+        msg = f"tangent = {tangent!r}: choose one of {TANGENTS}"
+        raise ValueError(msg)
     ops = opensees()
     if tag in element_tags():
         msg = f"element {tag} is in the model already: choose another tag"
@@ -181,7 +195,7 @@ def bearing_element(
     placement = place(ops, i, j, bearing, orient, length_unit, force_unit)
     chosen = _choose(route)
     add = _add_fast if chosen == "fast" else _add_portable
-    _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement)
+    _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement, tangent == "symmetric")
     return chosen
 
 
@@ -193,9 +207,11 @@ def bearing_response(tag: int, name: str) -> Any:
     tag : int
         Of the bearing's element.
     name : str
-        One of `Element.responses()`, in bearing axes and SI units; or "deformation", the
-        displacement of node j relative to node i in the model's degrees of freedom and units; or
-        "route".
+        One of `Element.responses()`, in bearing axes and SI units; or a name of OpenSees' own
+        bearings, in the model's units, as `eleResponse` and recorders hand it over: "globalForce"
+        in the model's axes, "localForce", "basicForce", "localDisplacement", "deformation" in
+        local axes (x along the bearing's axis, y its x axis, z its y axis); "basicForce" is that on
+        node j, "deformation" its motion relative to node i; or "route".
 
     Returns
     -------
@@ -278,8 +294,10 @@ def _choose(route: str) -> str:
     return "portable"
 
 
-def _add_fast(ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> Grafted:
-    hosted = Hosted(tag, bearing, level, placement)
+def _add_fast(
+    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement, symmetric: bool
+) -> Grafted:
+    hosted = Hosted(tag, bearing, level, placement, symmetric)
     connection = add_host_element(ops, tag, placement)
     try:
         return Grafted(hosted, connection)
@@ -290,14 +308,16 @@ def _add_fast(ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Pl
 
 
 def _add_portable(
-    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement
+    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement, symmetric: bool
 ) -> Remote:
     server = _SESSION.running_server()
-    remote = Remote(server, tag, bearing, level, placement)
+    remote = Remote(server, tag, bearing, level, placement, symmetric)
     connection = add_host_element(ops, tag, placement)
     try:
         remote.connect(connection)
-    except (ServerError, ValueError):
+        if not why_not_fast():
+            remote.teach(Manners(tag, bearing, level, placement))
+    except (ServerError, ValueError, NotPossibleError):
         ops.remove("element", tag)
         remote.release()
         connection.close()

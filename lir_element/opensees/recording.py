@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 import xarray as xr
@@ -38,6 +38,14 @@ class BearingRecording:
         for bearing in self._bearings:
             bearing.start_recording(every)
 
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be copied or pickled: the states are with this process's model."""
+        msg = (
+            "a BearingRecording belongs to the OpenSees model of this process: copy or save its "
+            "dataset()"
+        )
+        raise TypeError(msg)
+
     def dataset(self) -> xr.Dataset:
         """Return what was recorded so far.
 
@@ -48,7 +56,9 @@ class BearingRecording:
             there are sliders with contact points; the variables of the bearings as
             `frames.time_history` names them (docs/results.md), in each bearing's own axes and SI
             units. `base_shear` is there if the axes of all bearings agree. The attributes hold
-            status, message, versions and options.
+            status, message, versions and options. The status is "ok" up to the last step that
+            ended: where `analyze` gave one up, it is "newton_failed" or why a bearing had no
+            state, until another one ends.
 
         Raises
         ------
@@ -96,7 +106,6 @@ class BearingRecording:
         return xr.Dataset(variables, coordinates, self._attributes(states, props, times))
 
     def _attributes(self, states: Records, props: Records, times: Any) -> dict[str, Any]:
-        status, message = RunStatus.OK, "completed"
         last = states[-1]
         beyond = np.flatnonzero(last["status"])
         if len(beyond):
@@ -105,6 +114,8 @@ class BearingRecording:
             where = f"bearing element {self.tags[place]}"
             detail = limit_detail(props, last, place)
             message = failure_message(status, float(times[-1]), where, detail)
+        else:
+            status, message = self._end()
         return {
             "status": status.name.lower(),
             "message": message,
@@ -115,6 +126,21 @@ class BearingRecording:
             "record_every": self._every,
             "seconds": time.perf_counter() - self._started,
         }
+
+    def _end(self) -> tuple[RunStatus, str]:
+        # How the analysis stands: whether a step was begun that never ended.
+        outcomes = [bearing.outcome() for bearing in self._bearings]
+        for tag, (code, _, time_) in zip(self.tags, outcomes, strict=True):
+            if code:
+                status = RunStatus(code)
+                detail = "trial of the step that follows"
+                return status, failure_message(status, time_, f"bearing element {tag}", detail)
+        unfinished = [time_ for _, begun, time_ in outcomes if begun]
+        if unfinished:
+            status = RunStatus.NEWTON_FAILED
+            detail = "analyze gave up the step that follows; the bearings had states"
+            return status, failure_message(status, unfinished[0], "the model in OpenSees", detail)
+        return RunStatus.OK, "completed"
 
 
 def record_bearings(*tags: int, every: int = 1) -> BearingRecording:

@@ -11,6 +11,7 @@ from frames import Frame, GroundMotion, energy_error, time_history
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.opensees import bearing_element, bearing_tags, opensees
 from lir_element.opensees.fast.selftest import why_not_fast
+from lir_element.opensees.plugin import _SESSION
 
 LEDGER = 1e-3  # of the input
 
@@ -80,6 +81,13 @@ class Stand:
         """Begin a new model."""
         self.ops.wipe()
         self.ops.model("basic", "-ndm", ndm, "-ndf", 6 if ndm == 3 else 3)
+
+    @staticmethod
+    def fresh_server() -> None:
+        """End the server of this process: a new one writes to where standard error is captured."""
+        if _SESSION.server is not None:
+            _SESSION.server.close()
+            _SESSION.server = None
 
     def put(
         self, tag: int, i: int, j: int, bearing: LIRBearing | None = None, **options: Any

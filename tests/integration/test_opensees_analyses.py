@@ -109,6 +109,75 @@ def test_static_integrators_find_the_same_path(stand: Any) -> None:
     assert by_arc[-1, 0] == pytest.approx(expected, rel=1e-3)
 
 
+def push_through(
+    stand: Any, step: float, reach: float, stiffness: float, system: str = "UmfPack", **options: Any
+) -> np.ndarray:
+    """Push a mass on a soft storey on a bearing; displacement of the bearing and force."""
+    ops = stand.ops
+    stand.build(fixed=(0, 1, 0, 1, 1, 1), **options)
+    ops.node(3, 0.0, 0.0, 0.0)
+    ops.fix(3, 0, 1, 0, 1, 1, 1)
+    ops.uniaxialMaterial("Elastic", 1, stiffness)
+    ops.uniaxialMaterial("Elastic", 2, 1e10)
+    ops.element("zeroLength", 9, 2, 3, "-mat", 1, 2, "-dir", 1, 3)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(3, 0.0, 0.0, -stand.LOAD, 0.0, 0.0, 0.0)
+    stand.solver()
+    ops.integrator("LoadControl", 0.1)
+    ops.analysis("Static")
+    assert ops.analyze(10) == 0
+    ops.loadConst("-time", 0.0)
+    ops.timeSeries("Linear", 3)
+    ops.pattern("Plain", 3, 3)
+    ops.load(3, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stand.solver(test="NormUnbalance", tolerance=1.0, iterations=50)
+    ops.system(system)
+    ops.integrator("DisplacementControl", 3, 1, step)
+    ops.analysis("Static")
+    track = []
+    for k in range(round(reach / step)):
+        assert ops.analyze(1) == 0, (k, ops.nodeDisp(2, 1))
+        track.append((ops.nodeDisp(2, 1), ops.getTime()))
+    return np.array(track)
+
+
+@pytest.mark.parametrize("stiffness", [1e6, 5e6, 5e7])
+def test_newton_pushes_into_the_rim_and_on(stand: Any, stiffness: float) -> None:
+    """The rim's steep part is 0.4 mm wide, and flat parts are before and behind it."""
+    if stand.route == "portable" and stiffness != 5e6:
+        pytest.skip("the iteration is the same")
+    reach = 0.2 + 2.5e5 / stiffness
+    fine = push_through(stand, 1e-3, reach, stiffness)
+    assert np.hypot(*bearing_response(1, "slip")) > 0.015
+    # before the rim, on it, and held by the interface's friction
+    assert fine[-1, 1] == pytest.approx(stand.LOAD * np.tan(np.arctan(0.126) + 0.124), rel=0.02)
+    for step in (2e-3, 5e-3, 10e-3):
+        coarse = push_through(stand, step, reach, stiffness)
+        nearest = np.abs(fine[:, 0] - coarse[-1, 0]).argmin()
+        assert coarse[-1, 1] == pytest.approx(fine[nearest, 1], rel=1e-4), step
+
+
+def test_a_symmetric_tangent_finds_the_same_path(stand: Any) -> None:
+    path = push_through(stand, 2e-3, 0.25, 5e6)
+    for system in ("UmfPack", "ProfileSPD"):
+        other = push_through(stand, 2e-3, 0.25, 5e6, system, tangent="symmetric")
+        assert other == pytest.approx(path, rel=1e-4)
+    plain = stand.DEVICE.as_dcfp()
+    path = push_through(stand, 5e-3, 0.25, 5e6, bearing=plain)
+    for system in ("ProfileSPD", "BandSPD"):
+        other = push_through(stand, 5e-3, 0.25, 5e6, system, bearing=plain, tangent="symmetric")
+        assert other == pytest.approx(path, rel=1e-4)
+
+
+def test_a_symmetric_tangent_in_a_time_history(stand: Any, reference: np.ndarray) -> None:
+    stand.build(tangent="symmetric")
+    stand.gravity()
+    stand.shaking(2.8)
+    stand.ops.system("ProfileSPD")
+    assert off(stand.run(), reference) < 1e-6
+
+
 def test_eigen_has_the_sticking_stiffness(stand: Any) -> None:
     stand.build(fixed=(0, 1, 0, 1, 1, 1))
     options = stand.DEVICE.resolved()

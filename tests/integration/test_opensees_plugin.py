@@ -259,3 +259,39 @@ def test_friction_follows_the_speed(stand: Any) -> None:
     assert max(speeds) > 0.05
     expected = [stand.DEVICE.frictions[0].at_speed(v) for v in speeds]
     assert bearing_response(1, "friction_coefficient") == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("load", "word"), [(1e4, "less than an eighth"), (2e7, "more than eight times"), (1e6, None)]
+)
+def test_a_load_far_from_the_design_load_is_told(
+    stand: Any, capfd: Any, load: float, word: str | None
+) -> None:
+    stand.fresh_server()
+    stand.build()
+    stand.gravity(load)
+    stand.shaking(0.1)
+    stand.run(5)
+    text = capfd.readouterr().err
+    assert text.count("bearing element 1 carries") == (word is not None)
+    if word is not None:
+        assert word in text
+        assert "its design load, 1e+06 N (1e+06 of the model's units)" in text
+        assert "length_unit, force_unit" in text
+
+
+def test_a_model_whose_vertical_is_another_is_told(stand: Any, capfd: Any) -> None:
+    stand.fresh_server()
+    stand.build(fixed=(0, 0, 0, 1, 1, 1))
+    ops = stand.ops
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(2, 0.0, -stand.LOAD, 0.0, 0.0, 0.0, 0.0)
+    stand.solver()
+    ops.integrator("LoadControl", 0.2)
+    ops.analysis("Static")
+    assert ops.analyze(5) != 0
+    text = capfd.readouterr().err
+    assert "was never compressed along its axis, (0, 0, 1) in the model" in text
+    assert "orient=(x, y, z), (0, 1, 0) where y points upwards" in text
+    assert "72 degrees" not in text

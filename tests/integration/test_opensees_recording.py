@@ -27,8 +27,8 @@ def test_all_names_of_responses(stand: Any) -> None:
         assert np.isfinite(value).all(), name
     assert bearing_response(1, "route") == stand.route
     u = bearing_response(1, "displacement")
-    assert bearing_response(1, "deformation") == pytest.approx(u[6:] - u[:6], abs=1e-15)
-    assert bearing_response(1, "deformation")[:3] == pytest.approx(stand.ops.nodeDisp(2)[:3])
+    moved = (u[6:] - u[:6])[[2, 0, 1, 5, 3, 4]]  # local x, y, z: the bearing's z, x, y
+    assert bearing_response(1, "deformation") == pytest.approx(moved, abs=1e-15)
     with pytest.raises(KeyError, match=r"'colour' is not known: choose one of .*axial_force.*slip"):
         bearing_response(1, "colour")
     with pytest.raises(ValueError, match=r"element 9 is no bearing of the current model.*\(1,\)"):
@@ -78,7 +78,7 @@ def test_recorders_write_files(stand: Any, tmp_path: Path) -> None:
     if stand.route == "portable":
         return
     moved = data["bearing_displacement"].isel(bearing=0).to_numpy()
-    assert tables["deformation"][:, 1:4] == pytest.approx(moved, rel=1e-9, abs=1e-13)
+    assert tables["deformation"][:, [2, 3, 1]] == pytest.approx(moved, rel=1e-9, abs=1e-13)
     slip = data["interface_slip_size"].isel(bearing=0).to_numpy()
     assert np.hypot(*tables["slip"][:, 1:].T) == pytest.approx(slip, rel=1e-6, abs=1e-12)
     assert tables["axial_force"][:, 1] == pytest.approx(data["axial_force"][:, 0].to_numpy())
@@ -190,6 +190,38 @@ def test_a_failed_bearing_is_told_in_the_attributes(stand: Any) -> None:
     assert data.attrs["status"] in {"slip_exceeded", "rim_overrun"}
     assert "bearing element 1" in data.attrs["message"]
     assert "What to try" in data.attrs["message"]
+
+
+def test_a_step_that_was_given_up_is_told_in_the_attributes(stand: Any) -> None:
+    begin(stand)
+    recording = record_bearings()
+    stand.run(10)
+    assert recording.dataset().attrs["status"] == "ok"
+    stand.ops.test("NormDispIncr", 1e-16, 1)
+    assert stand.ops.analyze(1, 0.05) == -3
+    attributes = recording.dataset().attrs
+    assert attributes["status"] == "newton_failed"
+    assert "at t = 0.1 s, the model in OpenSees" in attributes["message"]
+    assert "analyze gave up the step that follows" in attributes["message"]
+    stand.ops.test("NormDispIncr", 1e-9, 100)
+    stand.run(1)
+    assert recording.dataset().attrs["status"] == "ok"
+    assert recording.dataset().attrs["message"] == "completed"
+
+
+def test_a_trial_without_a_state_is_told_in_the_attributes(stand: Any) -> None:
+    begin(stand)
+    recording = record_bearings()
+    stand.run(10)
+    stand.ops.timeSeries("Constant", 5)
+    stand.ops.pattern("Plain", 5, 5)
+    stand.ops.load(2, 1e13, 0.0, 0.0, 0.0, 0.0, 0.0)
+    assert stand.ops.analyze(1, 0.05) != 0
+    attributes = recording.dataset().attrs
+    stand.ops.wipe()
+    assert attributes["status"] in {"not_finite", "sphere_exceeded", "no_equilibrium"}
+    assert "bearing element 1" in attributes["message"]
+    assert recording.dataset().attrs["status"] == attributes["status"]
 
 
 def test_refusals_of_recordings(stand: Any) -> None:

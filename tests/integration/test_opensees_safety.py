@@ -22,7 +22,6 @@ import psutil
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_response
 from lir_element.opensees.fast.selftest import why_not_fast
-from lir_element.opensees.plugin import _SESSION
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
@@ -290,13 +289,6 @@ def test_exit_of_a_forked_process_leaves_the_parent_alone(route: str) -> None:
     assert time.monotonic() - began < LIMIT
 
 
-def fresh_server() -> None:
-    """End the server of this process: a new one writes to where standard error is captured."""
-    if _SESSION.server is not None:
-        _SESSION.server.close()
-        _SESSION.server = None
-
-
 FAILING = [
     ({"slip_capacity": 0.01}, 2.8, "the interface slipped further", 3),
     (
@@ -316,7 +308,7 @@ def test_beyond_a_limit_the_next_step_fails(
         "radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08, "capacity": 0.175,
         "friction": CoulombFriction(0.05), "interface_friction": 0.126,
     }  # fmt: skip
-    fresh_server()
+    stand.fresh_server()
     stand.build(LIRBearing(**{**options, **changes}))
     stand.gravity()
     stand.shaking(peak)
@@ -339,7 +331,7 @@ def test_beyond_a_limit_the_next_step_fails(
 
 def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None:
     """An algorithm without a test goes on with any answer; the bearing does not."""
-    fresh_server()
+    stand.fresh_server()
     stand.build()
     stand.gravity()
     ops = stand.ops
@@ -355,3 +347,80 @@ def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None
         assert np.isfinite(bearing_response(1, name)).all()
     assert bearing_response(1, "axial_force") == pytest.approx(stand.LOAD, rel=1e-9)
     assert "What to try" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("route", ROUTES)
+@pytest.mark.parametrize(
+    "limit", ["slip_capacity=0.01", "interface_friction=float('inf'), rim_overrun=1e-4"]
+)
+def test_variable_steps_end_where_the_bearing_does(limit: str, route: str) -> None:
+    errors = run(
+        f"""
+        from lir_element import CoulombFriction, LIRBearing
+        options = {{**dict(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+                    friction=CoulombFriction(0.05), interface_friction=0.126), **dict({limit})}}
+        stand.build(LIRBearing(**options))
+        stand.gravity()
+        stand.shaking(2.8)
+        ops.analysis("VariableTransient")
+        assert ops.analyze(400, 0.005, 1e-5, 0.01, 10) == -3
+        assert 0.3 < ops.getTime() < 1.0 and bearing_response(1, "status") != 0
+        ops.analysis("Transient")
+        assert ops.analyze(1, 0.005) < 0
+        """,
+        route,
+    )
+    assert errors.count("bearing element 1") == 1
+    assert len(errors.splitlines()) < 200  # of OpenSees itself, for each trial
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_database_is_refused(route: str, tmp_path: Path) -> None:
+    errors = run(
+        f"""
+        def refused(command, tag):
+            try:
+                code = command(tag)
+            except Exception as error:
+                return True
+            return code != 0
+
+        begin()
+        ops.database("File", {str(tmp_path / "base")!r})
+        assert refused(ops.save, 1)
+        assert not any(advance())
+        assert refused(ops.restore, 1)
+        assert not any(advance()) and bearing_tags() == (1,)
+        ops.wipe()
+        begin(2)
+        assert not any(advance()) and bearing_tags() == (1, 2)
+        """,
+        route,
+    )
+    assert errors.count("neither saved to a database nor restored from one") == 2
+    assert "What to try: run the analysis again" in errors
+
+
+@pytest.mark.parametrize("route", ROUTES)
+def test_a_symmetric_system_is_hinted_at_once(route: str) -> None:
+    errors = run(
+        """
+        from lir_element import LIRBearing
+        for tangent in ("consistent", "consistent", "symmetric"):
+            stand.build(fixed=(0, 1, 0, 1, 1, 1), tangent=tangent)
+            stand.gravity()
+            ops.timeSeries("Linear", 3)
+            ops.pattern("Plain", 3, 3)
+            ops.load(2, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+            stand.solver()
+            ops.system("ProfileSPD")
+            ops.test("NormUnbalance", 1e-3, 30)
+            ops.integrator("DisplacementControl", 2, 1, 1e-3)
+            ops.analysis("Static")
+            codes = [ops.analyze(1) for _ in range(60)]
+            assert any(codes) is (tangent == "consistent"), (tangent, codes)
+        """,
+        route,
+    )
+    assert errors.count("whose tangent is unsymmetric") == 1
+    assert 'tangent="symmetric" in bearing_element' in errors

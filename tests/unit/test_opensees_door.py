@@ -1,6 +1,8 @@
 """What a bearing in OpenSees is checked for: messages name value, bound and remedy."""
 
+import warnings
 from collections.abc import Iterator
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,8 @@ from validation.cases import static_bearing
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
-from lir_element.opensees import bearing_element, bearing_tags, opensees
+import lir_element.opensees as package
+from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, opensees
 from lir_element.opensees.placement import bearing_axes, place
 
 DEVICE = static_bearing()
@@ -48,6 +51,7 @@ CALLS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"j": 6}, ValueError, r"node 6 is -0\.085 m above node 1"),
     ({"j": 5}, ValueError, r"node 5 lies 0\.01 m beside the bearing's axis.*0\.001 m.*orient="),
     ({"level": "rigid_body"}, ValueError, r"level = 'rigid_body': choose one of \('pendulum'"),
+    ({"tangent": "secant"}, ValueError, r"tangent = 'secant': choose one of \('consistent'"),
     ({"route": "quick"}, ValueError, r"route = 'quick': choose one of \('auto'"),
     ({"bearing": "LIR"}, TypeError, "bearing = 'LIR' is no LIRBearing"),
     ({"orient": (0.0, 0.0)}, ValueError, r"orient = \(0\.0, 0\.0\): give the bearing's axis"),
@@ -125,3 +129,37 @@ def test_the_map_conserves_work(ops: Any) -> None:
     inside = placement.matrix @ moved
     outside = placement.force_factor * placement.matrix.T @ force
     assert outside @ moved * 0.001 * 1000.0 == pytest.approx(force @ inside)
+
+
+def four_supports(ops: Any, vertical: int) -> None:
+    """Four supports and a storey above them; bearings 1 to 4 stand between nodes k and 10 + k."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for k, (a, b) in enumerate([(0.0, 0.0), (5.0, 0.0), (0.0, 4.0), (5.0, 4.0)], 1):
+        for level, number in ((0.0, k), (0.0, 10 + k), (3.0, 20 + k)):
+            place = [a, b]
+            place.insert(vertical, level)
+            ops.node(number, *place)
+        ops.fix(k, *[1] * 6)
+
+
+def test_a_model_that_stands_on_y_is_asked_for_its_axis(ops: Any) -> None:
+    four_supports(ops, vertical=1)
+    with pytest.warns(PlacementWarning, match=r"points along z, but .* give orient=\(0, 1, 0\)"):
+        bearing_element(1, 1, 11, DEVICE, route="portable")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", PlacementWarning)
+        bearing_element(2, 2, 12, DEVICE, orient=(0, 1, 0), route="portable")
+        bearing_element(3, 3, 13, DEVICE, orient=(0, 0, 1), route="portable")
+        four_supports(ops, vertical=2)
+        for k in range(1, 5):
+            bearing_element(k, k, 10 + k, DEVICE, route="portable")
+
+
+def test_what_the_package_offers_is_listed() -> None:
+    offered = {name for name, each in vars(package).items() if not isinstance(each, ModuleType)}
+    assert {name for name in offered if not name.startswith("_")} == set(package.__all__)
+    scope: dict[str, Any] = {}
+    exec("from lir_element.opensees import *", scope)  # noqa: S102
+    assert {"bearing_element", "record_bearings", "PlacementWarning"} <= scope.keys()
+    assert "plugin" not in scope

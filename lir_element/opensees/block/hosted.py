@@ -15,9 +15,17 @@ from lir_element.bundles.contact_data import contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.sliders import initial_bodies, initial_touches, point_records
 from lir_element.element import initial_state
-from lir_element.errors import RunStatus, failure_message
+from lir_element.errors import RunStatus
 from lir_element.layout import BODIES, STATE, STATE_BY_NAME, WORK
-from lir_element.opensees.block.layout import HOST, RECORD_WORDS, STATE_WORDS
+from lir_element.opensees.block.layout import (
+    CONSTANT,
+    FROM_FORCE,
+    HOST,
+    RECORD_WORDS,
+    STATE_WORDS,
+)
+from lir_element.opensees.block.messages import bearing_messages
+from lir_element.opensees.block.responses import host_responses
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,6 +53,8 @@ class Hosted:
         Level of fidelity.
     placement : Placement
         How the model's degrees of freedom lead to its axes.
+    symmetric : bool
+        Whether its tangent is made symmetric.
 
     Attributes
     ----------
@@ -52,12 +62,23 @@ class Hosted:
         What compiled code reads and writes (`layout.HOST`).
     """
 
-    def __init__(self, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> None:
+    def __init__(
+        self,
+        tag: int,
+        bearing: LIRBearing,
+        level: str,
+        placement: Placement,
+        symmetric: bool = False,
+    ) -> None:
         self.tag = tag
         self.bearing = bearing
         self.level = level
         self.placement = placement
         self.block = np.zeros(1, dtype=HOST)
+        self.block["symmetric"] = symmetric
+        self.block["design_load"] = load = bearing.resolved()["design_load"]
+        self.messages = bearing_messages(tag, load, placement)
+        self._responses = host_responses(placement)
         self._props = bearing.to_record()
         self._old = initial_state(self._props)
         self._kept: list[Any] = []
@@ -69,6 +90,7 @@ class Hosted:
         self._columns: Floats = self.block["tangent"][0, : count * count]
         self._initial: Floats = self.block["initial"][0, : count * count]
         self._clock = self.block["committed_time"]
+        self._telling = self.block["telling"]
         self._trial, self._tangent, self._commit = _functions(level)
         weakref.finalize(self, _free_records, self.block)
         self._set_map()
@@ -130,25 +152,40 @@ class Hosted:
 
     def response(self, name: str) -> Any:
         """Return a response of the committed state by its name, as `bearing_response` does."""
-        if name == "deformation":
-            return self.deformation()
+        if name in self._responses:
+            return self._host_response(*self._responses[name])
         if name not in STATE_BY_NAME:
-            known = ", ".join(sorted({*STATE_BY_NAME, "deformation", "route"}))
+            known = ", ".join(sorted({*STATE_BY_NAME, *self._responses, "route"}))
             msg = f"response {name!r} is not known: choose one of {known}"
             raise KeyError(msg)
         value = np.array(self._old[name][0])
         return value if value.ndim else value[()]
 
-    def deformation(self) -> Floats:
-        """Return the displacement of node j relative to node i in the model's DOFs and units."""
-        half = self.placement.dofs // 2
-        u = self.block["host_u"][0]
-        return np.array(u[half : 2 * half] - u[:half])
+    def _host_response(self, source: int, matrix: Floats) -> Floats:
+        if source == CONSTANT:
+            return matrix.copy()
+        given = self._force if source == FROM_FORCE else self._u
+        return np.asarray(matrix @ given)
 
-    def message(self, status: RunStatus) -> str:
-        """Return what to tell the user of a trial without a state."""
-        time = float(self.block["time"][0])
-        return failure_message(status, time, f"bearing element {self.tag}")
+    def told(self) -> str:
+        """Return what the last trial has to tell; empty if nothing."""
+        return self.messages[int(self._telling[0])] if self._telling[0] else ""
+
+    def outcome(self) -> tuple[int, bool, float]:
+        """Return how the analysis stands.
+
+        Returns
+        -------
+        int
+            RunStatus code of the first trial without a state since the last commit, or OK.
+        bool
+            Whether there was a trial after the last commit: its step was not finished.
+        float
+            The model's time at the last commit [s].
+        """
+        block = self.block
+        refused, unfinished = int(block["refused"][0]), bool(block["unfinished"][0])
+        return refused, unfinished, self.committed_time
 
     def start_recording(self, every: int) -> None:
         """Record every so many commits from now on, forgetting what was recorded; 0: none."""
@@ -228,6 +265,7 @@ class Hosted:
         self.trial(host, np.zeros(count), 0.0)
         self._initial[:] = self.tangent_by_columns()
         self.trial(np.zeros(count), np.zeros(count), 0.0)
+        self.block["unfinished"] = 0
 
 
 def _free_records(block: Records) -> None:

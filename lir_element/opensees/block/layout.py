@@ -17,6 +17,15 @@ _ADDRESS = "i8"
 MOST_DOFS = 12
 """Degrees of freedom of two nodes in a three-dimensional model."""
 
+MESSAGES = 32
+"""Room for messages: those of RunStatus by its codes, then the following."""
+NEVER_LOADED = 24
+LOAD_LOW = 25
+LOAD_HIGH = 26
+TOLD_ENOUGH = 27
+NOT_SAVED = 28
+HINT = 29
+
 SHARED_FIELDS = (
     Field("dofs", "-", "", "degrees of freedom of both nodes in the model: 12 or 6", (), "i8"),
     Field("start", "-", "", "first entry of each row of the map to bearing axes", (13,), "i8"),
@@ -26,7 +35,13 @@ SHARED_FIELDS = (
     Field("time", "s", "t", "the model's time at the last trial"),
     Field("committed_time", "s", "t", "the model's time at the last commit"),
     Field("last_status", "-", "", "RunStatus code of the last trial", (), "i8"),
-    Field("refused", "-", "", "RunStatus code told to the user since the last commit", (), "i8"),
+    Field("refused", "-", "", "RunStatus code of the first refusal since the commit", (), "i8"),
+    Field("told", "-", "", "refusals told to the user", (), "i8"),
+    Field("telling", "-", "", "message to tell after this trial; 0: none", (), "i8"),
+    Field("unfinished", "-", "", "1 where a trial away from the commit was not accepted", (), "i8"),
+    Field("design_load", "N", "W", "axial force that its stiffnesses belong to"),
+    Field("load_seen", "-", "", "1 once the axial force was compared with that", (), "i8"),
+    Field("symmetric", "-", "", "1 to hand over a symmetric tangent", (), "i8"),
     Field("has_tangent", "-", "", "0 to make from the trial, 1 made, 2 from the commit", (), "i8"),
     Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
     Field("commits", "-", "", "commits since the start", (), "i8"),
@@ -35,6 +50,18 @@ SHARED_FIELDS = (
     Field("u", "m, rad", "", "displacements in bearing axes", (12,)),
     Field("v", "m/s, rad/s", "", "velocities in bearing axes", (12,)),
     Field("element", "N/m", "", "tangent in bearing axes", (12, 12)),
+    Field("element_made", "-", "", "1 where `element` is that of the last trial", (), "i8"),
+    Field("left_known", "-", "", "1 where `left_over` is that of the last trial", (), "i8"),
+    Field("start_u", "m, rad", "", "displacements at the step's start", (12,)),
+    Field("last_u", "m, rad", "", "displacements of the trial before", (12,)),
+    Field("last_force", "N, N m", "", "its forces", (12,)),
+    Field("last_move", "m", "", "horizontal step that led to the trial before", (2,)),
+    Field("move", "m", "", "horizontal step that led to the last trial", (2,)),
+    Field("axial_row", "N/m", "", "row of the axial force in `element`", (12,)),
+    Field("swings", "-", "", "turns in a row without getting closer", (), "i8"),
+    Field("way", "-", "", "unit vector along which the iteration swings", (2,)),
+    Field("between", "m", "", "positions along it with the solution between", (2,)),
+    Field("left_over", "N", "", "force on node j that the last correction left over", (3,)),
     Field("host_u", "", "", "displacements in the model's DOFs and units", (MOST_DOFS,)),
     Field("host_v", "", "", "velocities", (MOST_DOFS,)),
     Field("force", "", "", "resisting forces in the model's DOFs and units", (MOST_DOFS,)),
@@ -78,6 +105,13 @@ FAST_FIELDS = (
     Field("initial_matrix", "", "", "Matrix over `initial`", (), _ADDRESS),
     Field("zero_matrix", "", "", "Matrix of zeros", (), _ADDRESS),
     Field("alive", "-", "", "1 until OpenSees deletes the element", (), "i8"),
+    Field("remote", "-", "", "1 where another process determines the states", (), "i8"),
+    Field("failures", "-", "", "steps refused in a row", (), "i8"),
+    Field("hinted", "", "", "address of a word: 1 once the hint was told", (), _ADDRESS),
+    Field("host_force", "", "", "GenericClient::getResistingForce", (), _ADDRESS),
+    Field("host_print", "", "", "GenericClient::Print", (), _ADDRESS),
+    Field("stream_slot", "-", "", "place of `<<` for text in a stream's virtual table", (), "i8"),
+    Field("json", "", "", "address of the element's line in a printed model", (), _ADDRESS),
     Field("host_table", "", "", "the host element's own virtual table", (), _ADDRESS),
     Field("destroy", "", "", "the host element's destructor", (), _ADDRESS),
     Field("destroy_free", "", "", "the destructor that also frees its memory", (), _ADDRESS),
@@ -89,16 +123,22 @@ FAST_FIELDS = (
     Field("response_count", "-", "", "responses beside those of the host element", (), "i8"),
     Field("responses", "", "", "address of the table of responses", (), _ADDRESS),
     Field("write", "", "", "address of the function that writes to a file", (), _ADDRESS),
-    Field("messages", "", "", "addresses of the messages for each status", (16,), _ADDRESS),
-    Field("message_sizes", "", "", "their lengths", (16,), "i8"),
+    Field("messages", "", "", "addresses of the messages by number", (MESSAGES,), _ADDRESS),
+    Field("message_sizes", "", "", "their lengths", (MESSAGES,), "i8"),
 )
 """What the callbacks of the fast route use besides."""
 
+FROM_DISPLACEMENT = -1
+FROM_FORCE = -2
+CONSTANT = -3
+"""Sources of responses that are no words of the state."""
+
 RESPONSE_FIELDS = (
     Field("name", "-", "", "hash of its name", (), "i8"),
-    Field("source", "-", "", "first word in the committed state; -1: the deformation", (), "i8"),
+    Field("source", "-", "", "first word in the committed state; or one of FROM_...", (), "i8"),
     Field("size", "-", "", "number of words", (), "i8"),
     Field("integer", "-", "", "1 where they are integers", (), "i8"),
+    Field("map", "", "", "address of a matrix (size, dofs) for what `source` names", (), _ADDRESS),
     Field("vector", "", "", "address of the Vector over `values`", (), _ADDRESS),
     Field("values", "", "", "what is handed over", (12,)),
 )

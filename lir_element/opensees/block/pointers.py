@@ -152,3 +152,10 @@ def call_transfer(
     """Call ``int64 f(int32, int64, int64, int32)``."""
     words, number = (types.int64, _WORD), (types.int32, _INT)
     return _caller(types.int64, _WORD, (number, words, words, number))
+
+
+@intrinsic
+def call_print(_context: Any, _function: Any, _a: Any, _b: Any, _c: Any) -> Any:
+    """Call ``void f(int64, int64, int32)``."""
+    words = (types.int64, _WORD)
+    return _caller(types.void, ir.VoidType(), (words, words, (types.int32, _INT)))

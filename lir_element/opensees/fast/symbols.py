@@ -22,10 +22,19 @@ REPLACED = {
     "revert_to_start": "_ZN13GenericClient13revertToStartEv",
     "set_response": "_ZN13GenericClient11setResponseEPPKciR10OPS_Stream",
     "get_response": "_ZN13GenericClient11getResponseEiR11Information",
+    "print_element": "_ZN13GenericClient5PrintER10OPS_Streami",
+    "send_self": "_ZN13GenericClient8sendSelfEiR7Channel",
+    "receive_self": "_ZN13GenericClient8recvSelfEiR7ChannelR16FEM_ObjectBroker",
     "destroy": "_ZN13GenericClientD1Ev",
     "destroy_free": "_ZN13GenericClientD0Ev",
 }
 """Virtual functions of the host element."""
+
+REPLACED_AGAIN = {
+    "send_self": "_ZThn16_N13GenericClient8sendSelfEiR7Channel",
+    "receive_self": "_ZThn16_N13GenericClient8recvSelfEiR7ChannelR16FEM_ObjectBroker",
+}
+"""Those that are also called through the element's second base class, in its table."""
 
 CALLED = {
     "get_domain": "_Z14ops_getdomain_v",
@@ -41,6 +50,8 @@ CALLED = {
     "set_vector": "_ZN11Information9setVectorERK6Vector",
     "allocate": "_Znwm",
     "table": "_ZTV13GenericClient",
+    "stream_table": "_ZTV10FileStream",
+    "write_text": "_ZN10FileStreamlsEPKc",
 }
 """What is called or read."""
 
@@ -89,7 +100,7 @@ def library_path() -> Path:
 
 @functools.cache
 def addresses() -> dict[str, int]:
-    """Return the addresses of all that `REPLACED` and `CALLED` name.
+    """Return the addresses of all that is named above; of `REPLACED_AGAIN` as "again_...".
 
     Returns
     -------
@@ -102,7 +113,8 @@ def addresses() -> dict[str, int]:
         If the library lacks one of them.
     """
     found = {}
-    for name, symbol in {**REPLACED, **CALLED}.items():
+    again = {f"again_{name}": symbol for name, symbol in REPLACED_AGAIN.items()}
+    for name, symbol in {**REPLACED, **again, **CALLED}.items():
         try:
             function = getattr(library(), symbol)
         except AttributeError as cause:

@@ -6,27 +6,42 @@ portable route calls, takes that of the block.
 
 from __future__ import annotations
 
+import math
+
 from numba import carray
 
 from lir_element._jit import entry_point
-from lir_element.opensees.block.layout import HOST, RESPONSE
+from lir_element.opensees.block.layout import HOST, NOT_SAVED, RESPONSE
 from lir_element.opensees.block.pointers import (
+    call_2,
     call_constructor,
     call_int,
+    call_print,
     call_response,
     call_void,
     call_with_int,
     call_word,
+    call_write,
     pointer,
     set_word,
     word_at,
 )
 from lir_element.opensees.kernels.hosted import host_restart, host_revert
-from lir_element.opensees.kernels.motion import block_of, fill_response, find_response
+from lir_element.opensees.kernels.motion import (
+    block_of,
+    copy_vector,
+    fill_response,
+    find_response,
+    give_hint,
+    read_displacements,
+)
 
 FIRST_RESPONSE = 1000
 """Number of the first of our responses, above those of the host element."""
 _RESPONSE_BYTES = 1024
+_STDERR = 2
+_JSON = 25000
+"""How OpenSees asks for a model's JSON (`OPS_PRINT_PRINTMODEL_JSON`)."""
 
 
 @entry_point("int64(int64)")
@@ -49,8 +64,23 @@ def zero_matrix(element: int) -> int:
 
 @entry_point("int32(int64)")
 def revert_to_last_commit(element: int) -> int:
-    """Forget the trial."""
-    host_revert(carray(pointer(block_of(element)), 1, HOST)[0])
+    """Forget the trial of a step that failed."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    if h.refused != 0:
+        h.failures += 1
+    elif h.unfinished == 1:
+        give_hint(h)
+    host_revert(h)
+    return 0
+
+
+@entry_point("int32(int64)")
+def revert_remote(element: int) -> int:
+    """Do what there is to do in the model's process where another one determines the states."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    copy_vector(call_word(h.host_force, element), h.dofs, 0, h.force)
+    if math.isfinite(h.force[0]):  # no refusal of the bearing's
+        give_hint(h)
     return 0
 
 
@@ -106,5 +136,34 @@ def get_response(element: int, number: int, information: int) -> int:
         return call_with_int(h.host_get_response, element, number, information)
     table = carray(pointer(h.responses), h.response_count, RESPONSE)
     response = table[number - FIRST_RESPONSE]
+    if h.remote == 1:
+        copy_vector(call_word(h.host_force, element), h.dofs, 0, h.force)
+        read_displacements(h)
     fill_response(h, response)
     return call_int(h.set_vector, information, response.vector)
+
+
+@entry_point("int32(int64, int32, int64)")
+def send_self(element: int, _commit: int, _channel: int) -> int:
+    """Refuse to be saved: a database holds none of the bearing's state."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    call_write(h.write, _STDERR, h.messages[NOT_SAVED], h.message_sizes[NOT_SAVED])
+    return -1
+
+
+@entry_point("int32(int64, int32, int64, int64)")
+def receive_self(element: int, _commit: int, _channel: int, _broker: int) -> int:
+    """Refuse to be restored."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    call_write(h.write, _STDERR, h.messages[NOT_SAVED], h.message_sizes[NOT_SAVED])
+    return -1
+
+
+@entry_point("void(int64, int64, int32)")
+def print_element(element: int, stream: int, flag: int) -> None:
+    """Print the element: into a model's JSON a line of our own."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    if flag == _JSON:
+        call_2(word_at(word_at(stream) + 8 * h.stream_slot), stream, h.json)
+    else:
+        call_print(h.host_print, element, stream, flag)

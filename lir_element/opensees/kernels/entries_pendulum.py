@@ -12,7 +12,7 @@ from lir_element._jit import entry_point
 from lir_element.opensees.block.layout import HOST
 from lir_element.opensees.block.pointers import pointer
 from lir_element.opensees.kernels.hosted import host_commit, host_tangent, host_trial
-from lir_element.opensees.kernels.motion import block_of, read_motion, tell_refusal
+from lir_element.opensees.kernels.motion import block_of, fail, read_motion, tell
 
 
 @entry_point("int32(int64, float64)")
@@ -38,13 +38,12 @@ def commit(block: int) -> None:
 
 @entry_point("int32(int64)")
 def update(element: int) -> int:
-    """Determine the state at the nodes' trial motion; 0, or -1 where there is none."""
+    """Determine the state at the nodes' trial motion; 0, or what `fail` says."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     dt = read_motion(h)
-    if host_trial(h, None, dt) == 0:
-        return 0
-    tell_refusal(h)
-    return -1
+    code = host_trial(h, None, dt)
+    tell(h)
+    return 0 if code == 0 else fail(h)
 
 
 @entry_point("int32(int64)")

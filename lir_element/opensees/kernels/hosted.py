@@ -17,14 +17,33 @@ from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
 from lir_element.kernels.pendulum.trial import copy_words, has_no_state
 from lir_element.layout import BODIES, POINT, PROPS, SCRATCH, SLIDERS, STATE, TOUCH, WORK
-from lir_element.opensees.block.layout import BODY_WORDS, NUMBERS, RECORD_WORDS, STATE_WORDS, WORDS
+from lir_element.opensees.block.layout import (
+    BODY_WORDS,
+    LOAD_HIGH,
+    LOAD_LOW,
+    NEVER_LOADED,
+    NUMBERS,
+    RECORD_WORDS,
+    STATE_WORDS,
+    TOLD_ENOUGH,
+    WORDS,
+)
 from lir_element.opensees.block.pointers import call_2, pointer
+from lir_element.opensees.kernels.swings import (
+    begin_iteration,
+    follow_iteration,
+    make_symmetric,
+    stiffen,
+)
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
     from lir_element.opensees.block.layout import Host
 
 _OK = int(RunStatus.OK)
+_NOT_FINITE = int(RunStatus.NOT_FINITE)
+_TELLINGS = 10  # refusals that are told of a bearing
+_FAR = 8.0  # axial force over the design load, or the reverse: g, kN and kip are further
 _TOUCH_WORDS = TOUCH.itemsize // 8
 
 
@@ -97,41 +116,74 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     """
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
-    if old[0].status != _OK:
-        h.last_status = old[0].status
-        return h.last_status
+    to_bearing(h, h.host_u, h.u)
+    to_bearing(h, h.host_v, h.v)
     moves = False
     for k in range(h.dofs):
         moves = moves or h.host_v[k] != 0.0
-    to_bearing(h, h.host_u, h.u)
-    to_bearing(h, h.host_v, h.v)
-    stays = moves
+    away = False
     for k in range(12):
-        stays = stays and h.u[k] == old[0].displacement[k]
+        away = away or h.u[k] != old[0].displacement[k]
+    if away or h.time > h.committed_time:
+        h.unfinished = 1
+    h.telling = 0
+    h.has_tangent = 0
+    if old[0].status != _OK:
+        return refuse(h, old[0].status)
+    look_at_load(h, old[0].axial_force, moves)
     time = old[0].time + (max(dt, 0.0) if moves else 0.0)
     code = bearing_trial(
         carray(pointer(h.props), 1, PROPS), old, new, carray(pointer(h.work), 1, WORK), contacts,
         0, h.u, h.v, time, h.at,
     )  # fmt: skip
-    h.has_tangent = 0
-    h.last_status = _OK
     if has_no_state(code):
-        h.last_status = code
-        return code
-    set_force(h, old[0].force if stays else new[0].force)
+        return refuse(h, code)
+    h.last_status = _OK
+    follow_iteration(h, new[0].force)
+    h.element_made = 0
+    set_force(h, old[0].force if moves and not away else new[0].force)
     return _OK
+
+
+@kernel
+def refuse(h: Host, code: int) -> int:
+    """Keep why a trial has no state, and that the user is to be told: once a step."""
+    h.last_status = code
+    h.element_made = 0
+    if h.refused == _OK:
+        h.refused = code
+        h.told += 1
+        if h.told < _TELLINGS:
+            h.telling = NEVER_LOADED if h.loaded == 0 and code != _NOT_FINITE else code
+        elif h.told == _TELLINGS:
+            h.telling = TOLD_ENOUGH
+    return code
+
+
+@kernel
+def look_at_load(h: Host, axial_force: float, moves: bool) -> None:
+    """Compare the axial force at rest with the design load, once: units are easily mistaken."""
+    if h.load_seen == 1:
+        return
+    if axial_force > _FAR * h.design_load:
+        h.load_seen, h.telling = 1, LOAD_HIGH
+    elif moves and h.loaded == 1:
+        h.load_seen = 1
+        if axial_force * _FAR < h.design_load:
+            h.telling = LOAD_LOW
 
 
 @kernel
 def host_tangent(h: Host, contacts: Contacts | None) -> None:
     """Set the block's tangent to that of the last trial, or of the committed state after it.
 
-    A bearing that never carried load has the stiffness at rest, so that an analysis can begin.
+    A bearing that never carried load has the stiffness at rest, so that an analysis can begin; so
+    has a trial without a state.
     """
     if h.has_tangent == 1:
         return
     new = carray(pointer(h.new), 1, STATE)
-    if h.loaded == 0 and new[0].axial_force <= 0.0:
+    if h.last_status != _OK or (h.loaded == 0 and new[0].axial_force <= 0.0):
         for k in range(h.dofs * h.dofs):
             h.tangent[k] = h.initial[k]
         h.has_tangent = 1
@@ -141,7 +193,11 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
     if h.has_tangent == 2:
         bearing_look(props, carray(pointer(h.old), 1, STATE), work, contacts, 0)
     bearing_tangent(props, new, work, contacts, 0, h.element, h.at, h.axes)
+    stiffen(h)
+    if h.symmetric == 1:
+        make_symmetric(h)
     map_tangent(h)
+    h.element_made = 1
     h.has_tangent = 1
 
 
@@ -166,7 +222,8 @@ def host_commit(h: Host, contacts: Contacts | None) -> None:
         h.loaded = 1
     h.commits += 1
     h.committed_time = h.time
-    h.refused = _OK
+    h.refused, h.unfinished, h.failures = _OK, 0, 0
+    begin_iteration(h, old[0].displacement, old[0].force)
     if h.record_every > 0:
         h.record_left -= 1
         if h.record_left <= 0:
@@ -210,6 +267,7 @@ def host_revert(h: Host) -> None:
     old = carray(pointer(h.old), 1, STATE)
     set_force(h, old[0].force)
     h.last_status = old[0].status
+    begin_iteration(h, old[0].displacement, old[0].force)
     h.has_tangent = 0 if h.bodies_old == 0 else 2
 
 
@@ -231,4 +289,5 @@ def host_restart(h: Host) -> None:
         )
     h.time, h.committed_time, h.loaded = 0.0, 0.0, 0
     h.record_count, h.commits = 0, 0
+    h.refused, h.unfinished, h.failures, h.load_seen = _OK, 0, 0, 0
     host_revert(h)

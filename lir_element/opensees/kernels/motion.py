@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from numba import carray
 
 from lir_element._jit import kernel
-from lir_element.opensees.block.layout import NUMBERS, RESPONSE, STATE_WORDS, WORDS
+from lir_element.opensees.block.layout import (
+    CONSTANT,
+    FROM_FORCE,
+    HINT,
+    NUMBERS,
+    RESPONSE,
+    STATE_WORDS,
+    WORDS,
+)
 from lir_element.opensees.block.pointers import (
     byte_at,
     call_number,
@@ -23,6 +32,7 @@ if TYPE_CHECKING:
     from lir_element.opensees.block.layout import Host, Response
 
 _STDERR = 2
+_PATIENCE = 2  # refused steps in a row
 HASH_START = -3750763034362895579
 HASH_FACTOR = 1099511628211
 """Of the hash of a response's name: Fowler, Noll, Vo (1a), 64 bits."""
@@ -43,6 +53,14 @@ def copy_vector(vector: int, count: int, first: int, target: Floats) -> None:
 
 
 @kernel
+def read_displacements(h: Host) -> None:
+    """Set the block's displacements to the nodes' trial ones."""
+    half = h.dofs // 2
+    copy_vector(call_word(h.get_displacement, h.node_i), half, 0, h.host_u)
+    copy_vector(call_word(h.get_displacement, h.node_j), half, half, h.host_u)
+
+
+@kernel
 def read_motion(h: Host) -> float:
     """Set the block's motion to the nodes' trial motion; returns the step since the commit.
 
@@ -50,8 +68,7 @@ def read_motion(h: Host) -> float:
     last committed trial.
     """
     half = h.dofs // 2
-    copy_vector(call_word(h.get_displacement, h.node_i), half, 0, h.host_u)
-    copy_vector(call_word(h.get_displacement, h.node_j), half, half, h.host_u)
+    read_displacements(h)
     copy_vector(call_word(h.get_velocity, h.node_i), half, 0, h.host_v)
     copy_vector(call_word(h.get_velocity, h.node_j), half, half, h.host_v)
     h.time = call_number(h.get_time, h.domain)
@@ -60,11 +77,34 @@ def read_motion(h: Host) -> float:
 
 
 @kernel
-def tell_refusal(h: Host) -> None:
-    """Write to standard error why the last trial has no state, once until the next commit."""
-    if h.last_status != h.refused:
-        h.refused = h.last_status
-        call_write(h.write, _STDERR, h.messages[h.last_status], h.message_sizes[h.last_status])
+def tell(h: Host) -> None:
+    """Write what the last trial has to tell to standard error."""
+    if h.telling != 0:
+        call_write(h.write, _STDERR, h.messages[h.telling], h.message_sizes[h.telling])
+
+
+@kernel
+def fail(h: Host) -> int:
+    """Return what an update without a state returns: -1, and 0 where that did not end it.
+
+    `VariableTransient` shortens its steps by the number of iterations alone. A step that fails
+    before any is tried again with the same length for ever; so that after two of them the forces
+    are no numbers, and the test of convergence counts.
+    """
+    if h.failures < _PATIENCE:
+        return -1
+    for k in range(h.dofs):
+        h.force[k] = math.nan
+    return 0
+
+
+@kernel
+def give_hint(h: Host) -> None:
+    """Tell once in a process what a step that failed for no bearing's sake may suffer from."""
+    word = carray(pointer(h.hinted), 1, WORDS)
+    if word[0] == 0 and h.symmetric == 0:
+        word[0] = 1
+        call_write(h.write, _STDERR, h.messages[HINT], h.message_sizes[HINT])
 
 
 @kernel
@@ -85,10 +125,16 @@ def find_response(h: Host, name: int) -> int:
 
 @kernel
 def fill_response(h: Host, response: Response) -> None:
-    """Set the values of a response from the committed state, or the deformation."""
+    """Set the values of a response from the committed state, the motion or the force."""
+    if response.source == CONSTANT:
+        return
     if response.source < 0:
+        given = h.force if response.source == FROM_FORCE else h.host_u
+        rows = carray(pointer(response.map), (response.size, h.dofs), NUMBERS)
         for k in range(response.size):
-            response.values[k] = h.host_u[response.size + k] - h.host_u[k]
+            response.values[k] = 0.0
+            for m in range(h.dofs):
+                response.values[k] += rows[k, m] * given[m]
     elif response.integer == 1:
         words = carray(pointer(h.old), STATE_WORDS, WORDS)
         for k in range(response.size):

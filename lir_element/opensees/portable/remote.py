@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from lir_element.device.bearing import LIRBearing
+    from lir_element.opensees.fast.manners import Manners
     from lir_element.opensees.placement import Placement
 
 
@@ -42,12 +43,20 @@ class Remote:
         Level of fidelity.
     placement : Placement
         How the model's degrees of freedom lead to its axes.
+    symmetric : bool
+        Whether its tangent is made symmetric.
     """
 
     route = "portable"
 
     def __init__(
-        self, server: Server, tag: int, bearing: LIRBearing, level: str, placement: Placement
+        self,
+        server: Server,
+        tag: int,
+        bearing: LIRBearing,
+        level: str,
+        placement: Placement,
+        symmetric: bool = False,
     ) -> None:
         self._server = server
         self._key = server.new_key()
@@ -57,14 +66,20 @@ class Remote:
         self.level = level
         self.placement = placement
         self._records: tuple[Any, ...] | None = None
+        self._outcome = (0, False, 0.0)
         self._recording = False
-        server.ask("prepare", self._key, tag, bearing, level, placement)
+        self._manners: Manners | None = None
+        server.ask("prepare", self._key, tag, bearing, level, placement, symmetric)
 
     def connect(self, sock: socket.socket) -> None:
         """Hand the host element's connection over, and guard it."""
         self._server.guard.add(sock, self._words)
         self._sock = sock
         self._server.ask("connect", self._key, sock=sock)
+
+    def teach(self, manners: Manners) -> None:
+        """Keep what the element does otherwise than its host."""
+        self._manners = manners
 
     @property
     def alive(self) -> bool:
@@ -93,6 +108,12 @@ class Remote:
             return self._records
         return tuple(self._server.ask("recorded", self._key))
 
+    def outcome(self) -> tuple[int, bool, float]:
+        """Return what `Hosted.outcome` does."""
+        if self._records is None:
+            self._outcome = self._server.ask("outcome", self._key)
+        return self._outcome
+
     def release(self) -> None:
         """Give up the connection, once the element is gone."""
         if self._sock is not None:
@@ -101,6 +122,7 @@ class Remote:
             self._sock = None
         if self._server.alive:
             if self._recording:
+                self.outcome()
                 self._records = self.recorded()
             self._server.ask("forget", self._key)
 
@@ -109,6 +131,7 @@ class Remote:
 
         The element's destructor would write to a closed end for ever.
         """
+        self._undo()
         if self._sock is not None:
             self._server.guard.drop(self._sock)
             self._sock.detach()
@@ -129,6 +152,7 @@ class Remote:
         socket or None
             What the guard answers through, to be kept open.
         """
+        self._undo()
         if self._sock is None:
             return None
         place = own.get((self._sock.getpeername(), self._sock.getsockname()))
@@ -141,6 +165,10 @@ class Remote:
         near.close()
         guard.add(far, self._words)
         return far
+
+    def _undo(self) -> None:
+        if self._manners is not None:
+            self._manners.undo()
 
     def _is_connected(self) -> bool:
         # Without a server nobody else reads; the end of the stream is the element's end.

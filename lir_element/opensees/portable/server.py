@@ -55,7 +55,6 @@ class Channel:
         self._zeros = bytes(8 * size)
         self._out = np.zeros(size)
         self._status = RunStatus.OK
-        self._told = RunStatus.OK
         self.is_open = True
         if not self._read(protocol.HEADER_BYTES):
             return
@@ -97,9 +96,9 @@ class Channel:
             hosted.restart()  # `reset` has no message: no motion at all, at time 0
         # the model's clock may have been set back: then the step is not known, and counts as none
         self._status = hosted.trial(*self._motion, clock - hosted.committed_time, clock)
-        if self._status is not RunStatus.OK and self._status is not self._told:
-            print(f"WARNING {hosted.message(self._status)}", file=sys.stderr, flush=True)
-        self._told = self._status
+        text = hosted.told()
+        if text:
+            print(text, end="", file=sys.stderr, flush=True)
 
     def _send(self, values: np.ndarray) -> None:
         self._out[: len(values)] = values
@@ -208,6 +207,9 @@ class Service:
 
     def _do_recorded(self, key: int) -> Any:
         return self._hosted[key].recorded()
+
+    def _do_outcome(self, key: int) -> Any:
+        return self._hosted[key].outcome()
 
     def _do_forget(self, key: int) -> None:
         self._channels.pop(key, None)
