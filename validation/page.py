@@ -231,9 +231,11 @@ def index(folder: Path = FOLDER) -> str:
         "[hard_cases.md](hard_cases.md), "
         "what is hard to compute (`python -m validation.measurements.hard_cases`), "
         "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
-        "(`python -m validation.measurements.opensees_hard_cases`), and "
+        "(`python -m validation.measurements.opensees_hard_cases`), "
         "[opensees_cost.md](opensees_cost.md), "
-        "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`).",
+        "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
+        "and [opensees_public_models.md](opensees_public_models.md), public models on bearings in "
+        "both programs (`python -m validation.measurements.opensees_public_models`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "
