@@ -1,5 +1,7 @@
 """A public model of OpenSees on bearings in both programs; skipped where it is not installed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -10,7 +12,7 @@ pytestmark = pytest.mark.skipif(bool(public.missing()), reason=public.missing())
 
 
 def test_a_public_model_moves_alike_in_both_programs():
-    one = public.compare(public.MODELS[1], steps=(0.005,), duration=2.0)
+    one = public.compare(replace(public.MODELS[1], steps=(0.005,)), duration=2.0)
     assert_allclose(one.fixed, one.standing.periods, rtol=1e-9)
     assert_allclose(one.sticking[1], one.sticking[0], rtol=5e-3)  # "sticking" is a closed form
     there, here = one.there[0], one.here[0]
