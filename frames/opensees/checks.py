@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import linalg
 
 from frames._validate import ModelError
 from frames.assembly.basis import bearing_rows
-from frames.assembly.natural_modes import weakest
+from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
 from lir_element.opensees.leftovers import listed
 
@@ -220,12 +219,7 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
     if not len(rest):
         return
     stiffness = system.stiffness[rest][:, rest].toarray()
-    scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(stiffness)), np.finfo(float).tiny))
-    try:
-        linalg.cholesky(stiffness * np.outer(scale, scale))
-    except linalg.LinAlgError:
-        pass
-    else:
+    if is_stable(stiffness):
         return
     way = weakest(stiffness)
     moves = np.asarray(system.transform[:, rest] @ way)
