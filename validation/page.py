@@ -234,6 +234,8 @@ def index(folder: Path = FOLDER) -> str:
         "(`python -m validation.measurements.opensees_hard_cases`), "
         "[opensees_cost.md](opensees_cost.md), "
         "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
+        "[opensees_public_models.md](opensees_public_models.md), public models on bearings in "
+        "both programs (`python -m validation.measurements.opensees_public_models`), "
         "and [random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
         "(`python -m validation.random_scenes`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "

@@ -177,7 +177,7 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     Parameters
     ----------
     stiffness : csr_array, (n, n)
-        Symmetric positive semi-definite stiffness.
+        Symmetric stiffness.
 
     Returns
     -------
@@ -197,7 +197,8 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
         start = np.random.default_rng(0).standard_normal(size)
         _, vectors = sparse_linalg.eigsh(scaled, k=wanted, sigma=-1e-8, v0=start)
     energies = np.sum(vectors * np.asarray(scaled @ vectors), axis=0)
-    motions: FloatArray = scale[:, None] * vectors[:, energies < NO_STIFFNESS]
+    # less than none is no mechanism: loads push it over, which `build_basis` refuses
+    motions: FloatArray = scale[:, None] * vectors[:, np.abs(energies) < NO_STIFFNESS]
     return motions
 
 

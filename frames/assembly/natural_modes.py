@@ -72,8 +72,7 @@ def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> Nat
         If the stiffness is not positive definite.
     """
     size = len(k)
-    diagonal = np.diag(k)
-    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    scale = _scale(k)
     scaled = _symmetric(k * np.outer(scale, scale))
     inert = _symmetric(m * np.outer(scale, scale))
     few = count is not None and 2 * count < size
@@ -111,12 +110,27 @@ def _rest(
     return values[::-1], (rest @ turned)[:, ::-1]
 
 
+def is_stable(k: FloatArray) -> bool:
+    """Return whether a stiffness (n, n) is positive definite."""
+    scale = _scale(k)
+    try:
+        linalg.cholesky(_symmetric(k * np.outer(scale, scale)))
+    except linalg.LinAlgError:
+        return False
+    return True
+
+
 def weakest(k: FloatArray) -> FloatArray:
     """Return the displacements (n,) in which a stiffness is least, relative to its diagonal."""
-    diagonal = np.abs(np.diag(k))
-    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    scale = _scale(k)
     _, vectors = linalg.eigh(_symmetric(k * np.outer(scale, scale)), subset_by_index=(0, 0))
     return np.asarray(scale * vectors[:, 0])
+
+
+def _scale(k: FloatArray) -> FloatArray:
+    # What gives the diagonal the size of 1.
+    diagonal = np.abs(np.diag(k))
+    return 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
 
 
 def _symmetric(matrix: FloatArray) -> FloatArray:

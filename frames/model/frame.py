@@ -71,6 +71,7 @@ class Frame(FrameContents):
         levels: Mapping[str, Sequence[int]] | None = None,
         other_supports: Collection[int] = (),
         accept_nonlinear: bool = False,
+        vertical_mass: Literal["horizontal"] | Mapping[int, float] | None = None,
         length_unit: float = 1.0,
         force_unit: float = 1.0,
         name: str = "OpenSees model",
@@ -104,6 +105,9 @@ class Frame(FrameContents):
             Tags of supports that carry elements and shall stay as they are.
         accept_nonlinear : bool
             Whether to freeze the present stiffness of elements that have left their initial one.
+        vertical_mass : {None, "horizontal"} or mapping
+            Vertical mass besides that of the model: "horizontal" lets masses act along the
+            vertical as along x, a mapping gives kg by tag. It adds no weight to a loaded model.
         length_unit, force_unit : float
             Units of the OpenSees model [m], [N]: 1e-3 and 1e3 for mm and kN. Time is in seconds.
         name : str
@@ -148,6 +152,7 @@ class Frame(FrameContents):
             levels=levels,
             other_supports=tuple(other_supports),
             accept_nonlinear=accept_nonlinear,
+            vertical_mass=vertical_mass,
             length_unit=length_unit,
             force_unit=force_unit,
         )

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._validate import ModelError
+from frames.assembly.basis import bearing_rows
+from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from frames._types import FloatArray
+    from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.system import System
     from frames.opensees.model import ElementEntry, OpenSeesModel
 
 LINEAR = (
@@ -26,6 +29,7 @@ YIELDED = 0.2
 """Change of stiffness of an element, of its initial one, from which on it is refused [-]."""
 
 _SYMMETRY = 1e-6
+_LEANING = 0.01  # energy in elements over that of the loads, below which nothing holds a motion
 _RANK = 1e-4  # of the largest singular value of a block, below which it has no stiffness
 
 
@@ -192,4 +196,49 @@ def refuse_other_supports(
     else:
         remedy = "name them in base_nodes, or in other_supports if they shall stay"
     message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
+    raise ModelError(message)
+
+
+def refuse_leaning(system: System, initial: SparseMatrix) -> None:
+    """Refuse a structure that falls over under its loads while its bearings are held.
+
+    Parameters
+    ----------
+    system : System
+        The structure, its stiffness with the second-order effect of its loads.
+    initial : csr_array, (6 n, 6 n)
+        Stiffness of the elements before any load, over the first n nodes.
+
+    Raises
+    ------
+    ModelError
+        If it falls; the message tells a hinged column that leans from one that buckles.
+    """
+    touched = np.unique(bearing_rows(system).tocoo().coords[1])
+    rest = np.setdiff1d(np.arange(len(system.dof_labels)), touched)
+    if not len(rest):
+        return
+    stiffness = system.stiffness[rest][:, rest].toarray()
+    if is_stable(stiffness):
+        return
+    way = weakest(stiffness)
+    moves = np.asarray(system.transform[:, rest] @ way)
+    own = moves[: initial.shape[0]]  # the nodes below the bearings come last
+    elastic = float(own @ (initial @ own))
+    loads = elastic - float(way @ (stiffness @ way))
+    label = system.dof_labels[int(rest[int(np.argmax(np.abs(way)))])]
+    node, dof = label.rsplit(" ", 1)
+    if elastic < _LEANING * loads:
+        message = (
+            f"node {node} can move along {dof} (axes of the frame, z up) without deforming an "
+            "element, and the loads push it over: a hinged (leaning) column or a truss member "
+            "under compression that nothing braces in this direction; tie its top to the frame "
+            "(equalDOF, rigidDiaphragm, a beam) or brace it"
+        )
+        raise ModelError(message)
+    message = (
+        f'the structure buckles under its permanent loads with its bearings held, at "{label}" '
+        f"(axes of the frame, z up): the loads are at least {loads / elastic:.3g} times what its "
+        "elements can carry in this motion; reduce the loads or stiffen columns"
+    )
     raise ModelError(message)

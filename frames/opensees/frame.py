@@ -17,15 +17,18 @@ from frames.model.parts import DOFS, bearing_height
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
+    refuse_leaning,
     refuse_other_supports,
     refuse_unsymmetric,
 )
 from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
+from frames.opensees.vertical_mass import with_vertical_mass
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames.assembly.system import System
     from frames.model.frame import Frame
     from frames.opensees.model import OpenSeesModel
     from lir_element import LIRBearing
@@ -51,6 +54,7 @@ class Options:
     levels: Mapping[str, Sequence[int]] | None
     other_supports: Collection[int]
     accept_nonlinear: bool
+    vertical_mass: str | Mapping[int, float] | None
     length_unit: float
     force_unit: float
 
@@ -62,6 +66,7 @@ class Structure:
     tags: tuple[int, ...]
     coordinates: FloatArray
     matrices: dict[str, SparseMatrix]  # mass, damping, stiffness
+    initial: SparseMatrix  # stiffness of the elements before any load
     fixed: BoolArray  # (n, 6), true where held
     present: BoolArray  # (n, 6), false for displacements that the model does not have
     equations: SparseMatrix
@@ -100,12 +105,16 @@ def build(frame: Frame, options: Options) -> None:
     if not options.damping:
         empty = sparse.csr_array(structure.matrices["damping"].shape, dtype=np.float64)
         structure.matrices["damping"] = empty
+    structure.matrices["mass"], said = with_vertical_mass(structure, options.vertical_mass)
+    notes += said
     load, said = permanent_load(structure, options)
     notes += said + rigid_damping(structure, options) + light_base(structure, options)
     _add_structure(frame, structure, load, notes)
     _add_bearings(frame, structure, options)
     _add_levels(frame, structure, options)
-    _refuse_held_bases(frame, structure, options)
+    system = assemble(frame)
+    _refuse_held_bases(system, structure, options)
+    refuse_leaning(system, structure.initial)
     for note in notes:
         warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=3)
 
@@ -183,7 +192,7 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
     energy = options.force_unit * length
     matrices = {
         word: sparse.csr_array(energy * (put @ getattr(model, word) @ put.T))
-        for word in ("mass", "damping", "stiffness")
+        for word in ("mass", "damping", "stiffness", "initial")
     }
     points = np.zeros((count, 3))
     points[:, :ndm] = model.coordinates * length
@@ -191,6 +200,7 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
     return Structure(
         tags=model.tags,
         coordinates=points @ axes.T,
+        initial=matrices.pop("initial"),
         matrices=matrices,
         fixed=(model.fixed.reshape(count, -1) @ has.T.astype(float)) > 0.0,
         present=np.tile(has.any(axis=1), (count, 1)),
@@ -221,6 +231,7 @@ def _released(structure: Structure, options: Options) -> Structure:
         tags=tuple(structure.tags[place] for place in places),
         coordinates=structure.coordinates[places],
         matrices={word: m[dofs][:, dofs] for word, m in structure.matrices.items()},
+        initial=structure.initial[dofs][:, dofs],
         fixed=(fixed | ~structure.present)[places],
         present=structure.present[places],
         equations=structure.equations[:, dofs],
@@ -288,9 +299,8 @@ def _by_elevation(at: dict[str, float]) -> list[list[str]]:
     return groups
 
 
-def _refuse_held_bases(frame: Frame, structure: Structure, options: Options) -> None:
+def _refuse_held_bases(system: System, structure: Structure, options: Options) -> None:
     # A base node that constraints still hold would leave its bearing without work.
-    system = assemble(frame)
     moving = np.diff(system.transform.indptr) > 0
     for tag in options.base_nodes:
         node = system.node_names.index(str(tag))

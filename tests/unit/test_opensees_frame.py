@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from frames import Frame, ModelError, ModelWarning
+from frames import Frame, ModelError, ModelWarning, gravity
 from frames.opensees.checks import refuse_unsymmetric
 from frames.opensees.model import read_model
 from lir_element import CoulombFriction, LIRBearing
@@ -237,6 +237,87 @@ def test_unsymmetric_matrices_are_refused(ops):
     skew[6 * 2, 1] += 0.01 * model.stiffness.max()
     with pytest.raises(ModelError, match="stiffness of the OpenSees model is not symmetric near"):
         refuse_unsymmetric(replace(model, stiffness=sparse.csr_array(skew)))
+
+
+def leaning(ops, *, tied=False, load=2e5, hinge=1e-3):
+    """A portal in the plane, and beside it a column between hinges that carries a load."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    for tag, x in ((1, 0.0), (2, 6.0), (3, 12.0)):
+        ops.node(tag, x, 0.0)
+        ops.node(10 + tag, x, 4.0)
+        ops.fix(tag, 1, 1, 1)
+        ops.mass(tag, 5e3, 5e3, 0.0)
+        ops.mass(10 + tag, 1e4, 1e4, 0.0)
+    ops.geomTransf("PDelta", 1)
+    for tag in (1, 2):
+        ops.element("elasticBeamColumn", tag, tag, 10 + tag, 0.02, 2e11, 1e-4, 1)
+    ops.element("elasticBeamColumn", 5, 11, 12, 0.02, 2e11, 1e-4, 1)
+    ops.node(31, 12.0, 0.0)
+    ops.equalDOF(3, 31, 1, 2)
+    ops.uniaxialMaterial("Elastic", 1, hinge)
+    ops.element("zeroLength", 6, 3, 31, "-mat", 1, "-dir", 6)
+    ops.element("elasticBeamColumn", 7, 31, 13, 0.02, 2e11, 1e-4, 1)
+    if tied:
+        ops.equalDOF(12, 13, 1)
+    permanent_loads(ops)
+    ops.load(11, 0.0, -1e5, 0.0)
+    ops.load(13, 0.0, -load, 0.0)
+    gravity_analysis(ops)
+
+
+@pytest.mark.filterwarnings("ignore:.*may be nonlinear:frames.ModelWarning")
+def test_a_leaning_column_is_told_from_buckling(ops):
+    leaning(ops)
+    with pytest.raises(ModelError, match=r"node 13 can move along ux .*hinged \(leaning\) column"):
+        Frame.from_opensees([1, 2, 3], BEARING)
+    leaning(ops, tied=True)
+    assert gravity(Frame.from_opensees([1, 2, 3], BEARING)).axial_forces[2] > 1.9e5
+    stiff = 1e6
+    carried = stiff / 4.0  # N, by a hinge of this stiffness under a stiff column
+    leaning(ops, load=1.2 * carried, hinge=stiff)
+    with pytest.raises(ModelError, match=r'buckles .* at "13 ux" .* at least 1\.[2-4]\d* times'):
+        Frame.from_opensees([1, 2, 3], BEARING)
+
+
+def without_vertical_mass(ops, *, loaded):
+    """The portal, its masses horizontal; a master of the roof that cannot rise has some."""
+    portal(ops, loaded=False)
+    for tag in (1, 2, 11, 12):
+        ops.mass(tag, 5e3, 5e3, 0.0, 0.0, 0.0, 0.0)
+    ops.node(20, 3.0, 0.0, 4.0)
+    ops.fix(20, 0, 0, 1, 1, 1, 0)
+    ops.rigidDiaphragm(3, 20, 11, 12)
+    ops.mass(20, 1e4, 1e4, 0.0, 0.0, 0.0, 1e4)
+    if loaded:
+        gravity_analysis(ops)
+
+
+def test_vertical_mass_can_be_given(ops):
+    without_vertical_mass(ops, loaded=True)
+    with pytest.raises(
+        ModelError, match=r'3e\+04 kg along x, but no mass along the vertical .*"hor'
+    ):
+        Frame.from_opensees([1, 2], BEARING)
+    frame = Frame.from_opensees([1, 2], BEARING, vertical_mass="horizontal")
+    own = gravity(frame).system.node_mass[:, 2]
+    at = list(frame.nodes)
+    found = {name: own[at.index(name)] for name in ("1", "11", "12", "20")}
+    assert found == pytest.approx({"1": 5e3, "11": 1e4, "12": 1e4, "20": 0.0})
+    assert gravity(frame).axial_forces.sum() == pytest.approx(2e5)  # the loads alone
+    with pytest.warns(ModelWarning, match=r"along the vertical is 4000 kg, that along x 3e\+04 kg"):
+        few = Frame.from_opensees([1, 2], BEARING, vertical_mass={11: 3e3, 12: 1e3})
+    assert gravity(few).axial_forces.sum() == pytest.approx(2e5)
+    without_vertical_mass(ops, loaded=False)
+    heavy = Frame.from_opensees([1, 2], BEARING, vertical_mass="horizontal", gravity=9.81)
+    assert gravity(heavy).axial_forces.sum() == pytest.approx(9.81 * 3e4)
+    for given, message in (
+        ("all", "vertical_mass = 'all': give"),
+        ({20: 1.0}, "names node 20, which is not there or held vertically"),
+        ({11: -1.0}, "vertical_mass .kg. of node 11"),
+    ):
+        with pytest.raises(ModelError, match=message):
+            Frame.from_opensees([1, 2], BEARING, vertical_mass=given, gravity=9.81)
 
 
 def test_frames_alone_does_not_load_openseespy():

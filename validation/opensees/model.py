@@ -91,13 +91,13 @@ def lead(ops: Any, node: int, axis: int, path: FloatArray) -> None:
     ops.sp(node, axis, 1.0)
 
 
-def ground_motion(ops: Any, motion: GroundMotion) -> None:
-    """Add a ground motion, linear between its samples."""
+def ground_motion(ops: Any, motion: GroundMotion, length_unit: float = 1.0) -> None:
+    """Add a ground motion, linear between its samples, to a model whose unit of length is given."""
     for axis, values in zip(AXES, motion.components.T, strict=True):
         if not values.any():
             continue
         tag = _GROUND + axis
-        ops.timeSeries("Path", tag, "-dt", motion.dt, "-values", *values.tolist())
+        ops.timeSeries("Path", tag, "-dt", motion.dt, "-values", *(values / length_unit).tolist())
         ops.pattern("UniformExcitation", tag, axis, "-accel", tag)
 
 

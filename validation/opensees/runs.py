@@ -142,6 +142,7 @@ def respond(
     duration: float | None = None,
     tolerance: float = TOLERANCE,
     system: str = "UmfPack",
+    length_unit: float = 1.0,
 ) -> Track:
     """Run the model at hand under a ground motion, by Newmark's average acceleration.
 
@@ -161,13 +162,15 @@ def respond(
         Norm of the last correction [m, rad].
     system : str
         Storage of the equations.
+    length_unit : float
+        Of the model [m].
 
     Returns
     -------
     Track
         At each step.
     """
-    ground_motion(ops, motion)
+    ground_motion(ops, motion, length_unit)
     solver(ops, tolerance, system=system)
     transient_steps(ops)
     steps = round((motion.duration if duration is None else duration) / dt)
