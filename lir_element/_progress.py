@@ -111,5 +111,5 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
             say(f"compiling kernels for the first use, one to three minutes; {self._where()}")
             self._told = True
         if on_terminal():
-            line = f"  {self._done} kernels, {seconds:.0f} s: {self._open[-1]}"
+            line = f"  {self._done} compiled, {seconds:.0f} s: {self._open[-1]}"
             self._drawn = _write(f"\r{line[:_WIDTH]:{_WIDTH}}")

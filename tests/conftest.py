@@ -19,14 +19,14 @@ settings.load_profile("ci")
 
 PLAIN = {
     "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_features",
-    "test_library", "test_members", "test_model", "test_model_check", "test_plain",
+    "test_library", "test_members", "test_model", "test_model_check",
     "test_rotation", "test_shaking", "test_sliders", "test_slip", "test_superelement",
 }  # fmt: skip
 """Modules of tests that are soon done with the kernels as plain Python, too."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what `pytest -m plain` runs where NUMBA_DISABLE_JIT=1."""
+    """Mark what `pytest -m plain tests/unit` runs where NUMBA_DISABLE_JIT=1."""
     for item in items:
         if item.path.stem in PLAIN:
             item.add_marker("plain")

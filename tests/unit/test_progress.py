@@ -78,8 +78,8 @@ def test_progress_on_a_terminal(compiler: Compiler, written: Any) -> None:
     assert stream.getvalue().startswith(SAID)
     shown = [part.rstrip() for part in stream.getvalue()[len(SAID) :].split("\r")]
     assert shown == [
-        "", "  1 kernels, 1 s: trial", "  2 kernels, 4 s: run", "  2 kernels, 4 s: commit",
-        "  3 kernels, 6 s: run", "", "",
+        "", "  1 compiled, 1 s: trial", "  2 compiled, 4 s: run", "  2 compiled, 4 s: commit",
+        "  3 compiled, 6 s: run", "", "",
     ]  # fmt: skip
 
 
