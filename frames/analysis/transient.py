@@ -11,6 +11,7 @@ from scipy import linalg
 
 from frames.analysis.automatic import settle
 from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.plausible import check_analysis
 from frames.analysis.rigid import LARGEST_STEP, Outcome, rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
 from frames.analysis.static import force_tolerance, gravity
@@ -115,6 +116,7 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     """
+    check_analysis(model, motion, dt)
     _check_options(level, method, integrator, record_every, on_failure, features)
     if tolerance is not None:
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
