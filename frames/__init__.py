@@ -27,3 +27,33 @@ from frames.results.measures import storey_drift as storey_drift
 from frames.results.storage import load as load
 from frames.results.storage import save as save
 from lir_element.device.features import Features as Features
+
+__all__ = [
+    "Features",
+    "Finding",
+    "Frame",
+    "GravityState",
+    "GroundMotion",
+    "ModalDamping",
+    "ModelCheck",
+    "ModelError",
+    "ModelWarning",
+    "Modes",
+    "MotionError",
+    "MotionWarning",
+    "RayleighDamping",
+    "Section",
+    "audit",
+    "audit_report",
+    "energy_error",
+    "floor_acceleration",
+    "gravity",
+    "load",
+    "lumped_mass",
+    "modes",
+    "moment_frame",
+    "save",
+    "shear_building",
+    "storey_drift",
+    "time_history",
+]

@@ -18,3 +18,24 @@ from lir_element.opensees.plugin import bearing_tags as bearing_tags
 from lir_element.opensees.portable.remote import ServerError as ServerError
 from lir_element.opensees.recording import BearingRecording as BearingRecording
 from lir_element.opensees.recording import record_bearings as record_bearings
+
+__all__ = [
+    "BUILTIN_KINDS",
+    "BearingRecording",
+    "BuiltinValues",
+    "Isolation",
+    "IsolationWarning",
+    "MacroModel",
+    "RouteWarning",
+    "ServerError",
+    "bearing_element",
+    "bearing_response",
+    "bearing_tags",
+    "builtin_commands",
+    "builtin_element",
+    "builtin_values",
+    "isolate",
+    "macro_model",
+    "opensees",
+    "record_bearings",
+]
