@@ -8,8 +8,8 @@ from html import escape
 Rows = Sequence[Sequence[str]]
 
 
-def text_table(rows: Rows, head: Sequence[str] = ()) -> str:
-    """Return rows of cells as lines of text: the first column to the left, others to the right.
+def text_table(rows: Rows, head: Sequence[str] = (), left: int = 1) -> str:
+    """Return rows of cells as lines of text.
 
     Parameters
     ----------
@@ -17,6 +17,8 @@ def text_table(rows: Rows, head: Sequence[str] = ()) -> str:
         The cells; rows of one length.
     head : sequence of str
         Titles of the columns.
+    left : int
+        How many columns stand to the left, the others to the right.
 
     Returns
     -------
@@ -27,7 +29,7 @@ def text_table(rows: Rows, head: Sequence[str] = ()) -> str:
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     return "\n".join(
         "  ".join(
-            f"{cell:<{wide}}" if k == 0 else f"{cell:>{wide}}"
+            f"{cell:<{wide}}" if k < left else f"{cell:>{wide}}"
             for k, (cell, wide) in enumerate(zip(line, widths, strict=True))
         ).rstrip()
         for line in lines

@@ -16,7 +16,7 @@ from frames.analysis.plausible import (
     isolated_period,
     motion_doubts,
 )
-from frames.analysis.static import gravity
+from frames.analysis.static import gravity, modes
 from frames.assembly.assemble import assemble
 from frames.model import plausible
 from lir_element.device.plausible import doubts as device_doubts
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
+SHOWN_PERIODS = 3
 SHOWN = 12
 """How many bearings a printed table lists; the rest is in `ModelCheck.bearings`."""
 
@@ -50,7 +51,8 @@ class ModelCheck:
     supports : tuple of (str, float)
         Supports of the structure above the bearings, and what each takes past them [N].
     periods : tuple of float
-        With the bearings held, longest first [s].
+        The first three with the bearings held (nodes i and j move together), longest first [s];
+        none where nothing stands on the bearings that could move.
     isolated_period : float
         Of the mass on the bearings, as a pendulum [s].
     bearings : tuple of BearingLoad
@@ -82,7 +84,7 @@ class ModelCheck:
         return not (self.doubts or self.failure)
 
     def __str__(self) -> str:
-        parts = [self.name, text_table(self._totals())]
+        parts = [self.name, text_table(self._totals(), left=2)]
         if self.bearings:
             parts.append(text_table(self._rows(), _HEAD))
         parts += [f"look at: {note}" for note in self._notes()]
@@ -99,7 +101,7 @@ class ModelCheck:
         return [*([self.failure] if self.failure else []), *self.doubts]
 
     def _totals(self) -> list[tuple[str, str]]:
-        periods = ", ".join(f"{value:.3g}" for value in self.periods[:3]) or "none, rigid"
+        periods = ", ".join(f"{value:.3g}" for value in self.periods) or "none, rigid"
         rows = [
             ("mass", f"{1e-3 * self.mass:.5g} t"),
             ("permanent vertical load", f"{1e-3 * self.weight:.5g} kN"),
@@ -164,11 +166,14 @@ def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> Mod
         found += device_doubts(device)
     if motion is not None:
         found += motion_doubts(frame, motion)
-    failure, state = "", None
+    failure, state, periods = "", None, np.zeros(0)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ModelWarning)  # they are among the doubts
             state = gravity(frame)
+            if state.held_periods:
+                count = min(len(state.held_periods), SHOWN_PERIODS)
+                periods = modes(frame, count, bearings="fixed").periods
     except (AnalysisError, ModelError) as cause:
         failure = str(cause)
     return ModelCheck(
@@ -178,7 +183,7 @@ def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> Mod
         loads=(float(loads[0]), float(loads[1]), float(loads[2])),
         carried=state.load_path.bearings if state else math.nan,
         supports=state.load_path.supports if state else (),
-        periods=state.fixed_periods if state else (),
+        periods=tuple(periods.tolist()),
         isolated_period=isolated_period(system, state.axial_forces) if state else math.nan,
         bearings=bearing_loads(system, state.axial_forces) if state else (),
         motion=tuple(motion.facts().items()) if motion is not None else (),

@@ -91,8 +91,8 @@ def isolated_period(system: System, axial_forces: FloatArray) -> float:
     return 2.0 * math.pi * math.sqrt(axial_forces.sum() / system.gravity / stiffness)
 
 
-def fixed_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
-    """Return the periods of the structure with its bearings held, longest first [s].
+def held_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
+    """Return the periods of the structure with its bearings and plates held, longest first [s].
 
     Parameters
     ----------

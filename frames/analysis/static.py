@@ -12,7 +12,7 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames._validate import ModelError, ModelWarning
-from frames.analysis.plausible import doubts, fixed_periods
+from frames.analysis.plausible import doubts, held_periods
 from frames.assembly.assemble import (
     assemble,
     geometric_stiffness,
@@ -81,14 +81,14 @@ class GravityState:
     load_path: LoadPath
 
     @property
-    def fixed_periods(self) -> tuple[float, ...]:
-        """Periods of the structure with its bearings held, longest first [s]."""
-        return fixed_periods(self.basis.omega2, self.basis.mass_e)
+    def held_periods(self) -> tuple[float, ...]:
+        """Periods of the structure with its bearings and their plates held, longest first [s]."""
+        return held_periods(self.basis.omega2, self.basis.mass_e)
 
     @property
     def doubts(self) -> tuple[str, ...]:
         """What is strange about the model, a sentence each: lost loads, numbers in other units."""
-        found = doubts(self.system, self.axial_forces, self.fixed_periods)
+        found = doubts(self.system, self.axial_forces, self.held_periods)
         lost = self.load_path.sentence()
         return (lost, *found) if lost else found
 

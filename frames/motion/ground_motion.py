@@ -45,8 +45,8 @@ if TYPE_CHECKING:
 AXES = ("x", "y", "z")
 """Names of the components; z points up."""
 
-LEAST_RECORD = 200
-"""Samples from which a file is a record whose end is looked at."""
+LEAST_RECORD = 8.0
+"""Duration from which a file holds a record, not a pulse, and its end is looked at [s]."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -242,15 +242,18 @@ class GroundMotion:
             raise MotionError(msg)
         arrays = {axis: trace.acceleration for axis, trace in traces.items()}
         motion = cls(**arrays, dt=next(iter(steps.values()), 1.0), name=name)
-        for axis, left in motion.drift.items() if motion.n_steps >= LEAST_RECORD else ():
-            if left.share > LARGEST_DRIFT:
-                msg = (
-                    f"{name}: component {axis} is not at rest at its end: velocity "
-                    f"{left.velocity:.3g} m/s ({left.share:.0%} of its peak), displacement "
-                    f"{left.displacement:.3g} m; corrected() takes that out, unless the record "
-                    "was cut"
-                )
-                warnings.warn(msg, MotionWarning, stacklevel=3)
+        moving = [
+            f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), displacement "
+            f"{left.displacement:.3g} m"
+            for axis, left in motion.drift.items()
+            if left.share > LARGEST_DRIFT and motion.duration >= LEAST_RECORD
+        ]
+        if moving:
+            msg = (
+                f"{name}: the ground is not at rest at the end of the record, {'; '.join(moving)}. "
+                "corrected() takes that out, unless the record was cut"
+            )
+            warnings.warn(msg, MotionWarning, stacklevel=3)
         return motion
 
     @property
@@ -527,7 +530,8 @@ class GroundMotion:
             found[axis] = (
                 f"peak {peak:.3f} m/s2 ({peak / STANDARD_GRAVITY:.3f} g), "
                 f"{left.peak_velocity:.3f} m/s, {left.peak_displacement:.3f} m; at its end "
-                f"{left.velocity + 0.0:.3f} m/s, {left.displacement + 0.0:.3f} m"
+                f"{round(left.velocity, 3) + 0.0:.3f} m/s, "
+                f"{round(left.displacement, 3) + 0.0:.3f} m"
             )
         return found
 

@@ -162,7 +162,7 @@ class LIRBearing:
 
     def describe(self) -> str:
         """Return a table of what applies, defaults and derived values included, for people."""
-        return text_table(self._rows())
+        return text_table(self._rows(), left=3)
 
     def _repr_html_(self) -> str:
         kind = "plain DCFP" if self.is_dcfp else "LIR-DCFP"
