@@ -243,8 +243,8 @@ class GroundMotion:
         arrays = {axis: trace.acceleration for axis, trace in traces.items()}
         motion = cls(**arrays, dt=next(iter(steps.values()), 1.0), name=name)
         moving = [
-            f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), displacement "
-            f"{left.displacement:.3g} m"
+            f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), "
+            f"displacement {left.displacement:.3g} m"
             for axis, left in motion.drift.items()
             if left.share > LARGEST_DRIFT and motion.duration >= LEAST_RECORD
         ]
