@@ -140,7 +140,7 @@ def test_impossible_motions(wave: float, dt: float, words: str) -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"elastic_modulus": 200e3}, r"200000 MPa are 2e\+11 Pa"),
+        ({"elastic_modulus": 200e3}, r"2e\+05 MPa are 2e\+11 Pa"),
         ({"elastic_modulus": 30e3}, r"30000 MPa are 3e\+10 Pa"),
         ({"elastic_modulus": 200.0}, r"200 GPa are 2e\+11 Pa"),
         ({"width": 300.0, "depth": 300.0, "thickness": 10.0}, "width = 300 m.*300 mm are 0.3 m"),
