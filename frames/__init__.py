@@ -2,6 +2,9 @@
 
 from frames._validate import ModelError as ModelError
 from frames._validate import ModelWarning as ModelWarning
+from frames.analysis.model_check import ModelCheck as ModelCheck
+from frames.analysis.static import GravityState as GravityState
+from frames.analysis.static import Modes as Modes
 from frames.analysis.static import gravity as gravity
 from frames.analysis.static import modes as modes
 from frames.analysis.transient import time_history as time_history
@@ -12,6 +15,8 @@ from frames.model.library import lumped_mass as lumped_mass
 from frames.model.library import moment_frame as moment_frame
 from frames.model.library import shear_building as shear_building
 from frames.model.sections import Section as Section
+from frames.motion._motion_checks import MotionError as MotionError
+from frames.motion._motion_checks import MotionWarning as MotionWarning
 from frames.motion.ground_motion import GroundMotion as GroundMotion
 from frames.results.auditing import Finding as Finding
 from frames.results.auditing import audit as audit
@@ -23,3 +28,34 @@ from frames.results.storage import load as load
 from frames.results.storage import save as save
 from lir_element.device.features import Features as Features
 from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
+
+__all__ = [
+    "AnalysisInterrupted",
+    "Features",
+    "Finding",
+    "Frame",
+    "GravityState",
+    "GroundMotion",
+    "ModalDamping",
+    "ModelCheck",
+    "ModelError",
+    "ModelWarning",
+    "Modes",
+    "MotionError",
+    "MotionWarning",
+    "RayleighDamping",
+    "Section",
+    "audit",
+    "audit_report",
+    "energy_error",
+    "floor_acceleration",
+    "gravity",
+    "load",
+    "lumped_mass",
+    "modes",
+    "moment_frame",
+    "save",
+    "shear_building",
+    "storey_drift",
+    "time_history",
+]

@@ -11,3 +11,16 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 from lir_element.errors import AnalysisWarning as AnalysisWarning
 from lir_element.errors import RunStatus as RunStatus
 from lir_element.rig.cyclic_test import cyclic_test as cyclic_test
+
+__all__ = [
+    "AnalysisError",
+    "AnalysisWarning",
+    "CoulombFriction",
+    "DesignWarning",
+    "Element",
+    "Features",
+    "LIRBearing",
+    "RunStatus",
+    "VelocityFriction",
+    "cyclic_test",
+]

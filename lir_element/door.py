@@ -18,11 +18,14 @@ def as_number(name: str, value: object, unit: str) -> float:
     return float(value)
 
 
-def require_between(name: str, value: object, low: float, high: float, unit: str) -> float:
+def require_between(
+    name: str, value: object, low: float, high: float, unit: str, remedy: str = ""
+) -> float:
     """Return `value` if ``low <= value < high``, or raise."""
     number = as_number(name, value, unit)
     if isnan(number) or not low <= number < high:
-        msg = f"{name} = {number:g} [{unit}] must be at least {low:g} and below {high:g}"
+        end = f": {remedy}" if remedy else ""
+        msg = f"{name} = {number:g} [{unit}] must be at least {low:g} and below {high:g}{end}"
         raise ValueError(msg)
     return number
 

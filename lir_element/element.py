@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lir_element.bundles.contact_data import as_rows, contact_arrays, reset
+from lir_element.bundles.contact_data import as_rows, contact_arrays, detached, reset
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.features import Features, apply
 from lir_element.errors import AnalysisError, RunStatus
@@ -109,6 +109,28 @@ class Element:
         self._pending = False
         self._initial: Floats | None = None
         self.revert_to_last_commit()
+
+    def __getstate__(self) -> dict[str, Any]:
+        # copies of all arrays, so that a copy of an element is independent of it at once
+        state = {name: value for name, value in vars(self).items() if name != "_words"}
+        for name, value in state.items():
+            if isinstance(value, np.ndarray):
+                state[name] = value.copy()
+        if self._contacts is not None:
+            state["_contacts"] = detached(self._contacts)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # what shares memory with the records is made anew: pickles and copies part the two
+        vars(self).update(state)
+        self._words = as_rows(self._committed), as_rows(self._trial)
+        if self._contacts is not None:
+            self._contacts = detached(self._contacts)
+
+    def __repr__(self) -> str:
+        """Return level, axial force and the bearing on one line."""
+        force = 1e-3 * float(self._trial["axial_force"][0])
+        return f"Element(level {self.level!r}, axial force {force:.4g} kN, {self.bearing!r})"
 
     def set_trial(self, displacement: ArrayLike, velocity: ArrayLike, time: float) -> None:
         """Determine the trial state.

@@ -114,6 +114,8 @@ class AnalysisError(RuntimeError):
         Time of the failure [s].
     where : str
         The bearing or degree of freedom concerned.
+    detail : str
+        How far, or why; empty where there is nothing to add.
     data : xarray.Dataset or None
         What was computed up to the failure.
     """
@@ -124,8 +126,14 @@ class AnalysisError(RuntimeError):
         self.status = status
         self.time = time
         self.where = where
+        self.detail = detail
         self.data = data
         super().__init__(failure_message(status, time, where, detail))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # an exception is made again of its message alone, which would be the wrong argument
+        arguments = (self.status, self.time, self.where, self.detail, self.data)
+        return type(self), arguments, self.__dict__
 
 
 class AnalysisInterrupted(KeyboardInterrupt):

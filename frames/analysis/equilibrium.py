@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
+from frames.assembly.supports import load_path
 from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
 from frames.kernels.stepping import solve_gravity
 from lir_element.element import limit_detail
@@ -146,6 +148,8 @@ def _raise_failure(system: System, run: Run, status: RunStatus, linear: FloatArr
         moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
         pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
         status, place = RunStatus.UPLIFTED, int(np.argmax(pull))
+        none = node_geometric_stiffness(system, np.zeros(len(system.members.names)))
+        detail = load_path(system, none, linear, -pull).sentence()
     elif len(beyond):
         place = int(beyond[0])
         status = RunStatus(int(run.new["status"][place]))

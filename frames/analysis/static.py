@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from time import perf_counter
@@ -11,13 +12,22 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from frames._validate import ModelError
+from frames._validate import ModelError, ModelWarning
 from frames.analysis.equilibrium import find_equilibrium
-from frames.assembly.assemble import assemble, geometric_stiffness, member_axial_forces
+from frames.analysis.plausible import doubts, held_periods
+from frames.assembly.assemble import (
+    assemble,
+    geometric_stiffness,
+    member_axial_forces,
+    node_geometric_stiffness,
+)
 from frames.assembly.basis import Basis, bearing_rows, build_basis
 from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.assembly.supports import LoadPath, load_path
+from frames.model import plausible
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
 from lir_element.element import ALL_LEVELS, LEVELS
+from lir_element.tables import html_table
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -25,12 +35,12 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
     from frames.kernel_data import Model, Run
-    from frames.model.frame import Frame
+    from frames.model.contents import FrameContents
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GravityState:
     """A frame in equilibrium under its permanent loads.
 
@@ -54,6 +64,8 @@ class GravityState:
         Axial forces of the bearings, compression positive [N].
     seconds : float
         Time of computation, compilation aside [s].
+    load_path : LoadPath
+        What the bearings carry of the weight above them, and what supports take past them.
     """
 
     system: System
@@ -66,10 +78,39 @@ class GravityState:
     displacement: FloatArray
     axial_forces: FloatArray
     seconds: float
+    load_path: LoadPath
+
+    @property
+    def held_periods(self) -> tuple[float, ...]:
+        """Periods of the structure with its bearings and their plates held, longest first [s]."""
+        return held_periods(self.basis.omega2, self.basis.mass_e)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is strange about the model, a sentence each: lost loads, numbers in other units."""
+        found = doubts(self.system, self.axial_forces, self.held_periods)
+        lost = self.load_path.sentence()
+        return (lost, *found) if lost else found
+
+    def __repr__(self) -> str:
+        """Return sizes and axial forces on one line."""
+        low, high = 1e-3 * self.axial_forces.min(), 1e-3 * self.axial_forces.max()
+        return (
+            f"GravityState: {1e-3 * self.axial_forces.sum():.4g} kN on {len(self.axial_forces)} "
+            f"bearings, {low:.4g} to {high:.4g} kN each; {len(self.displacement)} degrees of "
+            f"freedom, {len(self.basis.omega2)} modes over held bearings"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (name, f"{1e-3 * force:.4g} kN")
+            for (name, _, _, _), force in zip(self.system.bearings, self.axial_forces, strict=True)
+        ]
+        return html_table(repr(self), rows, ("bearing", "axial force"))
 
 
 def gravity(
-    frame: Frame,
+    frame: FrameContents,
     features: Features | None = None,
     level: str | Mapping[str, str] = "pendulum",
 ) -> GravityState:
@@ -101,7 +142,16 @@ def gravity(
         If the model cannot work, or is unstable under its permanent loads.
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
+
+    Warns
+    -----
+    ModelWarning
+        If supports take weight past the bearings, or numbers look as if given in other units
+        (`Frame.check` lists the same).
     """
+    plausible.refuse_extent(frame)
+    for doubt in plausible.doubts(frame):
+        warnings.warn(doubt, ModelWarning, stacklevel=2)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
     points = [name for name, own in levels.items() if own == "contact"]
@@ -120,7 +170,8 @@ def gravity(
     if not system.features.vertical_coupling:
         load = -found.run.old["force"][:, 8]
         found = find_equilibrium(system, basis, linear, levels, load)
-    return GravityState(
+    displacement = expand(basis, found.run.b, found.run.e)
+    state = GravityState(
         system=system,
         geometric=geometric,
         member_forces=member_forces,
@@ -128,10 +179,16 @@ def gravity(
         model=found.model,
         run=found.run,
         contacts=found.contacts,
-        displacement=expand(basis, found.run.b, found.run.e),
+        displacement=displacement,
         axial_forces=axial_forces,
         seconds=perf_counter() - began - compiling,
+        load_path=load_path(
+            system, node_geometric_stiffness(system, member_forces), displacement, axial_forces
+        ),
     )
+    for doubt in state.doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=2)
+    return state
 
 
 def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
@@ -234,7 +291,7 @@ class Modes:
     mass_ratios: FloatArray
 
 
-def modes(frame: Frame, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
     """Return the first natural modes under gravity.
 
     Parameters

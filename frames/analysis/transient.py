@@ -13,6 +13,7 @@ from frames.analysis.automatic import settle
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.equilibrium import force_tolerance
 from frames.analysis.outcome import Outcome, judged
+from frames.analysis.plausible import check_analysis
 from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
 from frames.analysis.size import number_of_steps, require_memory
@@ -125,6 +126,7 @@ def time_history(
     lir_element.AnalysisInterrupted
         After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
     """
+    check_analysis(model, motion, dt)
     _check_options(level, method, integrator, record_every, on_failure, features)
     if tolerance is not None:
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from frames.model.damping import Damping
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Basis:
     """A frame in bearing coordinates b (n_b) and fixed-interface modes eta (n_e).
 
@@ -75,6 +75,10 @@ class Basis:
     load_e: FloatArray
     inertia_b: FloatArray
     inertia_e: FloatArray
+
+    def __repr__(self) -> str:
+        """Return sizes on one line."""
+        return f"Basis: {len(self.load_b)} bearing coordinates, {len(self.omega2)} modes"
 
 
 def bearing_rows(system: System) -> SparseMatrix:

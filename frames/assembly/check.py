@@ -114,10 +114,15 @@ def check_mass(system: System) -> None:
         raise ModelError(message)
     for axis, word in enumerate("xyz"):
         if moving[:, axis].any() and not inert[:, axis].any():
-            free = np.array(system.node_names)[moving[:, axis]]
+            names = np.array(system.node_names)
+            free = names[moving[:, axis]]
+            holding = names[~moving[:, axis] & (system.node_mass[:, axis] > 0.0)]
+            where = (
+                f"the mass is at {_quoted(holding)}, fixed along {word}; " if len(holding) else ""
+            )
             message = (
                 f"no mass along {word}: {_quoted(free)} can move along {word}, but no node that "
-                f'can has mass: put mass on one of them, or fix their "u{word}"'
+                f'can has mass: {where}put mass on one of them, or fix their "u{word}"'
             )
             raise ModelError(message)
 
@@ -214,6 +219,12 @@ def _remedy(system: System, node: str, dof: str) -> str:
     if node.endswith(" (diaphragm)"):
         return "connect the diaphragm's nodes by members, springs or bearings that hold it"
     advice = f'fix it with fix("{node}", "{dof}"), or connect the node by a member or a spring'
+    if dof == "uz":
+        advice = (
+            "connect the node by a member or a spring, and put its mass where members or bearings "
+            "carry it: a diaphragm ties nothing vertically, and a support would take the weight "
+            "past the bearings"
+        )
     ends = {system.node_names[end] for _, i, j, _ in system.bearings for end in (i, j)}
     if node in ends and dof.startswith("r"):
         advice += (

@@ -44,7 +44,7 @@ class MemberTable:
         return element_dofs(self.nodes)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class System:
     """A frame as matrices over its free degrees of freedom q; SI units.
 
@@ -102,6 +102,13 @@ class System:
     node_load: FloatArray
     members: MemberTable
     features: Features
+
+    def __repr__(self) -> str:
+        """Return sizes on one line."""
+        return (
+            f"System: {len(self.node_names)} nodes, {len(self.dof_labels)} degrees of freedom, "
+            f"{len(self.members.names)} members, {len(self.bearings)} bearings"
+        )
 
 
 def element_dofs(nodes: IntArray) -> IntArray:

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from frames._validate import new_name, non_negative
 from frames.model.damping import Damping
 from frames.model.parts import BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.superelement import Superelement
+from lir_element.tables import html_table
+from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
-STANDARD_GRAVITY = 9.80665
-"""Standard acceleration of gravity [m/s2]."""
+
+def frozen(values: FloatArray) -> FloatArray:
+    """Return the array itself, read-only from now on."""
+    values.flags.writeable = False
+    return values
 
 
 class FrameContents:
@@ -46,6 +51,17 @@ class FrameContents:
         self._uniform_loads: dict[str, FloatArray] = {}
         self._damping: Damping | None = None
 
+    def __getstate__(self) -> dict[str, Any]:
+        # dicts of its own, so that what is added to a copy is not added to the original
+        return {k: dict(v) if isinstance(v, dict) else v for k, v in vars(self).items()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # copies of arrays can be written to: they are frozen again
+        vars(self).update(state)
+        for group in (self._masses, self._loads, self._uniform_loads):
+            for values in group.values():
+                frozen(values)
+
     def __repr__(self) -> str:
         """Return the name and counts of the parts.
 
@@ -59,6 +75,14 @@ class FrameContents:
             parts.append("superelements")
         counts = ", ".join(f"{len(getattr(self, part))} {part}" for part in parts)
         return f'Frame("{self._name}": {counts})'
+
+    def _repr_html_(self) -> str:
+        kinds = ("nodes", "members", "springs", "superelements", "diaphragms", "bearings", "levels")
+        rows = [(kind, str(len(getattr(self, kind)))) for kind in kinds if getattr(self, kind)]
+        lumped = sum(float(values[0]) for values in self._masses.values())
+        rows.append(("lumped mass", f"{1e-3 * lumped:.5g} t at {len(self._masses)} nodes"))
+        rows.append(("damping", repr(self._damping)))
+        return html_table(self._name, rows, notes=["totals and axial forces: frame.check()"])
 
     @property
     def name(self) -> str:

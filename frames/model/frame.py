@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._validate import ModelError, known_name, new_name, non_negative, of_type, vector
 from frames.model.axes import default_up, local_axes
-from frames.model.contents import STANDARD_GRAVITY, FrameContents
+from frames.model.contents import STANDARD_GRAVITY, FrameContents, frozen
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
 from frames.model.parts import (
     DOFS,
@@ -24,9 +24,12 @@ from frames.model.parts import (
 )
 from frames.model.sections import Section
 from frames.model.superelement import superelement
+from lir_element.units import LENGTHS
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike
+    from frames.analysis.model_check import ModelCheck
+    from frames.motion.ground_motion import GroundMotion
     from lir_element import LIRBearing
 
 POSITION_TOLERANCE = 1e-3
@@ -219,7 +222,7 @@ class Frame(FrameContents):
             )
             raise ModelError(message)
         total = self._masses.get(node, np.zeros(6))
-        self._masses[node] = total + np.concatenate([np.full(3, number), rotary])
+        self._masses[node] = frozen(total + np.concatenate([np.full(3, number), rotary]))
 
     def add_member(
         self, name: str, i: str, j: str, section: Section, up: Sequence[float] | None = None
@@ -376,13 +379,13 @@ class Frame(FrameContents):
         """Add permanent forces (3 x N) and moments (3 x N m), global axes; they carry no mass."""
         known_name(node, self._nodes, "node")
         values = vector(forces, 6, f'forces [N, N m] at node "{node}"')
-        self._loads[node] = self._loads.get(node, np.zeros(6)) + values
+        self._loads[node] = frozen(self._loads.get(node, np.zeros(6)) + values)
 
     def add_uniform_load(self, member: str, q: Sequence[float]) -> None:
         """Add a permanent load per unit length [N/m], (3,) in global axes; it carries no mass."""
         known_name(member, self._members, "member")
         values = vector(q, 3, f'uniform load [N/m] on member "{member}"')
-        self._uniform_loads[member] = self._uniform_loads.get(member, np.zeros(3)) + values
+        self._uniform_loads[member] = frozen(self._uniform_loads.get(member, np.zeros(3)) + values)
 
     def add_bearing(self, name: str, i: str, j: str, bearing: LIRBearing) -> None:
         """Put a bearing between two nodes of one vertical.
@@ -418,7 +421,7 @@ class Frame(FrameContents):
             message = (
                 f'bearing "{name}": node "{j}" is {rise:g} m above node "{i}", it must be 0 m or '
                 f"the bearing's height {height:g} m within {POSITION_TOLERANCE:g} m: "
-                "place node j at z of node i plus bearing.height"
+                f"place node j at z of node i plus bearing.height{_in_mm(rise, height)}"
             )
             raise ModelError(message)
         self._bearings[name] = BearingLink(name, i, j, bearing)
@@ -471,6 +474,29 @@ class Frame(FrameContents):
         of_type(damping, kinds, "damping", remedy)
         self._damping = damping
 
+    def check(self, motion: GroundMotion | None = None) -> ModelCheck:
+        """Add the model up, and say what looks as if given in other units or put in a wrong place.
+
+        Parameters
+        ----------
+        motion : GroundMotion, optional
+            The motion it is meant for.
+
+        Returns
+        -------
+        ModelCheck
+            Mass, weight and loads; periods with bearings held and on the bearings; axial force,
+            pressure and settlement of each bearing; what is strange. It prints as a table.
+
+        Raises
+        ------
+        ModelError
+            If the model cannot be assembled. Where only the equilibrium fails, the table says so.
+        """
+        from frames.analysis.model_check import check_model  # the analysis reads the model
+
+        return check_model(self, motion)
+
     def _two_nodes(self, i: str, j: str, owner: str) -> None:
         for node in (i, j):
             known_name(node, self._nodes, "node")
@@ -503,3 +529,10 @@ class Frame(FrameContents):
             )
             raise ModelError(message)
         return low.z
+
+
+def _in_mm(rise: float, height: float) -> str:
+    for name, factor in LENGTHS:
+        if abs(rise * factor - height) <= max(POSITION_TOLERANCE * factor, 1e-3 * height):
+            return f"; coordinates are in m ({rise:g} {name} are {rise * factor:.4g} m)"
+    return ""

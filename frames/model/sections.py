@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, fields
 
 from frames._validate import ModelError, finite, non_negative, positive, real
+from lir_element.tables import html_table
+from lir_element.units import AREAS, LENGTHS, MODULI, meant
 
 STEEL_ELASTIC_MODULUS = 200e9
 """Elastic modulus of structural steel [Pa]."""
@@ -15,6 +17,19 @@ STEEL_POISSON_RATIO = 0.3
 
 STEEL_DENSITY = 7850.0
 """Density of structural steel [kg/m3]."""
+
+
+SOFTEST, LARGEST_AREA = 1e6, 500.0
+"""Elastic modulus [Pa] below, and area [m2] above which no member is."""
+
+LARGEST_SIDE = 100.0
+"""Outer dimension of a ready-made shape that no member has [m]."""
+
+UNITS = {
+    "area": "m2", "inertia_y": "m4", "inertia_z": "m4", "torsion_constant": "m4",
+    "elastic_modulus": "Pa", "shear_modulus": "Pa", "density": "kg/m3", "shear_area_y": "m2",
+    "shear_area_z": "m2",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -87,6 +102,32 @@ class Section:
             else:
                 number = positive(value, what, "a member needs every stiffness; give SI units")
             object.__setattr__(self, field.name, number)
+        self._refuse_units()
+
+    def _refuse_units(self) -> None:
+        # Moduli that no material has, areas that no member has; sections of modulus 1, with
+        # stiffnesses in the place of areas, and rigid ones pass.
+        if self.elastic_modulus < SOFTEST and self.area < LARGEST_AREA:
+            message = (
+                f"Section.elastic_modulus = {self.elastic_modulus:g} Pa is softer than rubber: "
+                f"{meant(self.elastic_modulus, 'Pa', MODULI, 1e9, 5e11)}; steel has 200e9, "
+                "concrete 30e9"
+            )
+            raise ModelError(message)
+        if self.area > LARGEST_AREA and self.density > 0.0 and self.elastic_modulus > SOFTEST:
+            message = (
+                f"Section.area = {self.area:g} m2, at most {LARGEST_AREA:g} m2 for a member with "
+                f"mass: {meant(self.area, 'm2', AREAS, 1e-5, 20.0)}"
+            )
+            raise ModelError(message)
+
+    def _repr_html_(self) -> str:
+        def text(value: float) -> str:
+            return "not counted" if math.isinf(value) else f"{value:.4g}"
+
+        rows = [(f.name.replace("_", " "), text(getattr(self, f.name)), UNITS[f.name]) for f in
+                fields(self)]  # fmt: skip
+        return html_table("Section", rows)
 
     @classmethod
     def box(
@@ -258,7 +299,14 @@ class Section:
 
 def _dimensions(where: str, **values: float) -> tuple[float, ...]:
     remedy = "give the outer dimensions in metres"
-    return tuple(positive(value, f"{where}: {name}", remedy) for name, value in values.items())
+    for name, value in values.items():
+        if positive(value, f"{where}: {name}", remedy) > LARGEST_SIDE:
+            message = (
+                f"{where}: {name} = {value:g} m, at most {LARGEST_SIDE:g} m: "
+                f"{meant(value, 'm', LENGTHS, 1e-3, 10.0)}"
+            )
+            raise ModelError(message)
+    return tuple(values.values())
 
 
 def _shear_modulus(elastic_modulus: float, poisson_ratio: float) -> float:

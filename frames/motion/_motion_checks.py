@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
+from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
+
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
@@ -14,8 +16,19 @@ PAD_SAMPLES, PAD_PART = 20, 0.01
 """Largest difference in length of the components that zeros at the end make up for."""
 
 
+STRONGEST = 1000.0
+"""Peak acceleration that no ground and no shake table has [m/s2]: 100 g."""
+
+LONGEST_STEP = 2.0
+"""Time step that no motion has [s]."""
+
+
 class MotionError(ValueError):
     """A ground motion, or a file of one, that cannot be used; the message names the culprit."""
+
+
+class MotionWarning(UserWarning):
+    """A ground motion that can be used, with something that its user should know."""
 
 
 def number(name: str, value: object, meaning: str) -> float:
@@ -44,7 +57,30 @@ def checked_component(axis: str, values: object) -> FloatArray:
     if bad.size:
         msg = f"{axis}[{bad[0]}] = {array[bad[0]]} must be finite: repair the record, in m/s2"
         raise MotionError(msg)
+    peak = float(np.abs(array).max())
+    if peak > STRONGEST:
+        in_g = peak / STANDARD_GRAVITY
+        msg = (
+            f"{axis} peaks at {peak:.4g} m/s2 = {in_g:.4g} g, no ground shakes like that: "
+            f"{meant(peak, 'm/s2', ACCELERATIONS, 0.05, 30.0)}"
+        )
+        if 0.05 < 0.01 * in_g < 30.0:
+            msg += f"; {in_g:.4g} cm/s2 taken for g are {0.01 * in_g:.4g} m/s2"
+        raise MotionError(msg)
     return array
+
+
+def checked_step(value: object) -> float:
+    """Return a time step [s] that a motion can have, or raise."""
+    step = number("dt", value, "s, the time step")
+    if step <= 0.0:
+        msg = f"dt = {step:g} s must be greater than 0: give the time step in s"
+        raise MotionError(msg)
+    if step > LONGEST_STEP:
+        hint = meant(step, "s", TIMES, 1e-4, 0.1)
+        msg = f"dt = {step:g} s is longer than any record's, at most {LONGEST_STEP:g} s: {hint}"
+        raise MotionError(msg)
+    return step
 
 
 def equal_lengths(given: dict[str, FloatArray]) -> dict[str, FloatArray]:

@@ -7,6 +7,7 @@ samples the acceleration is linear; before the first and after the last one it i
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +16,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._types import FloatArray
-from frames.model.contents import STANDARD_GRAVITY
-from frames.motion._motion_checks import MotionError, checked_component, equal_lengths, number
+from frames.motion._motion_checks import (
+    MotionError,
+    MotionWarning,
+    checked_component,
+    checked_step,
+    equal_lengths,
+    number,
+)
+from frames.motion.baseline import LARGEST_CHANGE, LARGEST_DRIFT, Drift, corrected, drift_of
 from frames.motion.records import (
     AccelerationTrace,
     ColumnLayout,
@@ -27,6 +35,8 @@ from frames.motion.records import (
     source_file,
 )
 from frames.motion.spectra import response_spectrum
+from lir_element.tables import html_table
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -34,6 +44,9 @@ if TYPE_CHECKING:
 
 AXES = ("x", "y", "z")
 """Names of the components; z points up."""
+
+LEAST_RECORD = 8.0
+"""Duration from which a file holds a record, not a pulse, and its end is looked at [s]."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -81,11 +94,7 @@ class GroundMotion:
         MotionError
             If a field is out of its bounds.
         """
-        step = number("dt", self.dt, "s, the time step")
-        if step <= 0.0:
-            msg = f"dt = {step:g} s must be greater than 0: give the time step in s"
-            raise MotionError(msg)
-        object.__setattr__(self, "dt", step)
+        object.__setattr__(self, "dt", checked_step(self.dt))
         given = {
             axis: checked_component(axis, values)
             for axis in AXES
@@ -97,6 +106,10 @@ class GroundMotion:
         for axis, values in equal_lengths(given).items():
             values.flags.writeable = False
             object.__setattr__(self, axis, values)
+
+    def __reduce__(self) -> tuple[type[GroundMotion], tuple[object, ...]]:
+        # copies and pickles are made anew: arrays that are copied one by one can be written to
+        return type(self), (self.x, self.y, self.z, self.dt, self.name)
 
     @classmethod
     def from_at2(
@@ -128,6 +141,11 @@ class GroundMotion:
         ------
         MotionError
             If a file cannot be used, or time steps or lengths differ.
+
+        Warns
+        -----
+        MotionWarning
+            If the ground still moves at the end of a component.
         """
         files = {axis: path for axis, path in zip(AXES, (x, y, z), strict=True) if path is not None}
         traces = {axis: read_at2(path) for axis, path in files.items()}
@@ -187,6 +205,11 @@ class GroundMotion:
         MotionError
             If a file cannot be used, or time steps or lengths differ.
 
+        Warns
+        -----
+        MotionWarning
+            If the ground still moves at the end of a component.
+
         Examples
         --------
         One file with times, north, east and up, in cm/s2; three files of one column, in g:
@@ -218,7 +241,20 @@ class GroundMotion:
             msg = f"the components have unlike time steps ({found}): resample them to one dt first"
             raise MotionError(msg)
         arrays = {axis: trace.acceleration for axis, trace in traces.items()}
-        return cls(**arrays, dt=next(iter(steps.values()), 1.0), name=name)
+        motion = cls(**arrays, dt=next(iter(steps.values()), 1.0), name=name)
+        moving = [
+            f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), "
+            f"displacement {left.displacement:.3g} m"
+            for axis, left in motion.drift.items()
+            if left.share > LARGEST_DRIFT and motion.duration >= LEAST_RECORD
+        ]
+        if moving:
+            msg = (
+                f"{name}: the ground is not at rest at the end of the record, {'; '.join(moving)}. "
+                "corrected() takes that out, unless the record was cut"
+            )
+            warnings.warn(msg, MotionWarning, stacklevel=3)
+        return motion
 
     @property
     def n_steps(self) -> int:
@@ -239,6 +275,11 @@ class GroundMotion:
     def peak(self) -> dict[str, float]:
         """Peak ground acceleration of each component that is given [m/s2]."""
         return {axis: float(np.abs(values).max()) for axis, values in self._given().items()}
+
+    @property
+    def drift(self) -> dict[str, Drift]:
+        """Velocity [m/s] and displacement [m] of the ground at its end, and peaks, by component."""
+        return {axis: drift_of(values, self.dt) for axis, values in self._given().items()}
 
     @property
     def components(self) -> FloatArray:
@@ -383,6 +424,53 @@ class GroundMotion:
         tail = (0, math.ceil(length / self.dt - 1e-6))
         return self._with({axis: np.pad(a, tail) for axis, a in self._given().items()})
 
+    def corrected(self, *, displacement: bool = True) -> GroundMotion:
+        """Return the motion with its baseline corrected: the ground is at rest at its end.
+
+        The smallest acceleration that does so, a straight line in time, is taken off each
+        component (`frames.motion.baseline`). The name tells by how much the peaks changed.
+
+        Parameters
+        ----------
+        displacement : bool
+            Whether the displacement at the end shall vanish, too. False keeps it free, for records
+            with a permanent displacement of the ground.
+
+        Returns
+        -------
+        GroundMotion
+            The corrected motion.
+
+        Raises
+        ------
+        MotionError
+            If a peak acceleration would change by more than 5 %: that is no baseline.
+
+        Examples
+        --------
+        >>> motion = GroundMotion(x=0.01 + np.cos(np.linspace(0.0, 62.8, 2001)), dt=0.01)
+        >>> still = motion.corrected()
+        >>> round(motion.drift["x"].velocity, 3), abs(still.drift["x"].velocity) < 1e-12
+        (0.2, True)
+        """
+        arrays, largest = {}, 0.0
+        for axis, values in self._given().items():
+            arrays[axis] = corrected(values, self.dt, displacement=displacement)
+            before, after = float(np.abs(values).max()), float(np.abs(arrays[axis]).max())
+            change = after / before - 1.0 if before > 0.0 else 0.0
+            if abs(change) > LARGEST_CHANGE:
+                left = self.drift[axis]
+                msg = (
+                    f"the correction would change the peak of {axis} by {change:.1%}, at most "
+                    f"{LARGEST_CHANGE:.0%}: velocity {left.velocity:.3g} m/s and displacement "
+                    f"{left.displacement:.3g} m at the end are no matter of a baseline; use the "
+                    "whole record, or corrected(displacement=False)"
+                )
+                raise MotionError(msg)
+            largest = max(largest, change, -change)
+        label = f"{self.name or 'motion'} (baseline corrected, peaks within {100 * largest:.2g} %)"
+        return GroundMotion(**arrays, dt=self.dt, name=label)
+
     def response_spectrum(
         self, periods: npt.ArrayLike, damping: float = 0.05, component: str = "x"
     ) -> xr.Dataset:
@@ -428,17 +516,27 @@ class GroundMotion:
         Returns
         -------
         str
-            Name, samples, and the peak of each component in m/s2 and g.
+            Name, samples, peaks of each component, and what is left at its end.
         """
-        lines = [
-            self.name or "ground motion",
-            f"  {self.n_steps} samples, dt = {self.dt:g} s, duration {self.duration:g} s",
-        ]
-        lines += [
-            f"  {axis}: peak {peak:.3f} m/s2 ({peak / STANDARD_GRAVITY:.3f} g)"
-            for axis, peak in self.peak.items()
-        ]
-        return "\n".join(lines)
+        lines = [self.name or "ground motion"]
+        return "\n".join(lines + [f"  {what}: {value}" for what, value in self.facts().items()])
+
+    def facts(self) -> dict[str, str]:
+        """Return size, peaks and what is left at the end, in words by name."""
+        size = f"{self.n_steps} samples, dt = {self.dt:g} s, duration {self.duration:g} s"
+        found = {"motion": size}
+        for axis, left in self.drift.items():
+            peak = self.peak[axis]
+            found[axis] = (
+                f"peak {peak:.3f} m/s2 ({peak / STANDARD_GRAVITY:.3f} g), "
+                f"{left.peak_velocity:.3f} m/s, {left.peak_displacement:.3f} m; at its end "
+                f"{round(left.velocity, 3) + 0.0:.3f} m/s, "
+                f"{round(left.displacement, 3) + 0.0:.3f} m"
+            )
+        return found
+
+    def _repr_html_(self) -> str:
+        return html_table(self.name or "ground motion", list(self.facts().items()))
 
     def __repr__(self) -> str:
         """Name, size and peaks on one line."""

@@ -15,3 +15,14 @@ from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
+
+__all__ = [
+    "QUANTITIES",
+    "bearing_sections",
+    "energy",
+    "histories",
+    "hysteresis",
+    "orbits",
+    "storey_profiles",
+    "worst_bearing",
+]

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
 
 
+WORDS = ("bodies_old", "bodies_new", "touch_old", "touch_new")
+"""Records of `Contacts` that are there as words, too."""
+
+
 class Contacts(NamedTuple):
     """Bearings with contact points: constants, committed (old) and trial (new) state, scratch.
 
@@ -89,6 +93,14 @@ def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
     for k, bearing in enumerate(bearings):
         start = initial_touches(bearing, point_records(bearing))[0]
         contacts.touch_old[k, : len(start)] = start
+
+
+def detached(contacts: Contacts) -> Contacts:
+    """Return a copy that shares no memory, its words being views of its own records again."""
+    own = {name: values.copy() for name, values in contacts._asdict().items()}
+    for name in WORDS:
+        own[f"{name}_words"] = as_rows(own[name])
+    return Contacts(**own)
 
 
 def as_rows(records: Records) -> Words:

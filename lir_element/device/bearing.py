@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Literal, cast
 
 import numpy as np
@@ -12,15 +12,26 @@ from lir_element.device.bearing_checks import check_bearing
 from lir_element.device.friction import Friction
 from lir_element.door import as_number, as_pair, frozen_pair, require_positive
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
+from lir_element.tables import html_table, text_table
+from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
-STANDARD_GRAVITY = 9.80665
+_UNITS = {
+    **dict.fromkeys(
+        ("radius", "slider_height", "slider_radius", "capacity", "rims", "rim_overrun",
+         "slip_capacity", "yield_displacement", "interface_yield_displacement", "plate_thickness"),
+        "m",
+    ),
+    "axial_stiffness": "N/m", "axial_damping": "N s/m", "rim_stiffness": "N/m",
+    "rim_damping": "N s/m", "design_load": "N", "slider_density": "kg/m3", "slider_mass": "kg",
+    "slider_inertia": "kg m2",
+}  # fmt: skip
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
 _DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
 _AXIAL_DAMPING_RATIO = 0.05
 _RIM_DAMPING_RATIO = 0.10
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class LIRBearing:
     """A Lateral Impact Resilient Double Concave Friction Pendulum bearing.
 
@@ -139,6 +150,44 @@ class LIRBearing:
             )
             object.__setattr__(self, "slider_inertia", pairs)
         check_bearing(self)
+
+    def __repr__(self) -> str:
+        """Return what was given; defaults are in `resolved`, `describe` lists all."""
+        plain = {f.name: f.default for f in fields(self)}
+        given = [
+            f"{name}={getattr(self, name)!r}"
+            for name, default in plain.items()
+            if getattr(self, name) != default
+        ]
+        return f"LIRBearing({', '.join(given)})"
+
+    def describe(self) -> str:
+        """Return a table of what applies, defaults and derived values included, for people."""
+        return text_table(self._rows(), left=3)
+
+    def _repr_html_(self) -> str:
+        kind = "plain DCFP" if self.is_dcfp else "LIR-DCFP"
+        return html_table(f"{kind} bearing", self._rows())
+
+    def _rows(self) -> list[tuple[str, str, str]]:
+        options = self.resolved()
+        rows = [
+            ("effective radius", f"{self.effective_radius:.4g}", "m"),
+            ("pendulum period", f"{self.period:.3g}", "s"),
+            ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
+            ("sliding force / load", f"{self.effective_friction:.4g}", "-"),
+        ]
+        for f in fields(self):
+            value, note = getattr(self, f.name), ""
+            if value is None and f.name not in options:
+                continue
+            if value is None:
+                value, note = options[f.name], ", default"
+            elif value == f.default:
+                note = ", default"
+            shown = f"{value:.4g}" if isinstance(value, float) else str(value)
+            rows.append((f.name, shown, f"{_UNITS.get(f.name, '-')}{note}"))
+        return rows
 
     @property
     def radii(self) -> tuple[float, float]:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.device.plausible import doubts, refuse_forces, refuse_sizes
 from lir_element.door import as_pair, require_non_negative, require_positive
+from lir_element.units import LENGTHS, meant, per_cent
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
@@ -63,6 +65,9 @@ def check_bearing(bearing: LIRBearing) -> None:
     if require_positive("bouc_wen_exponent", bearing.bouc_wen_exponent, "-") < 1.0:
         msg = f"bouc_wen_exponent = {bearing.bouc_wen_exponent:g} must be at least 1"
         raise ValueError(msg)
+    refuse_forces(bearing)
+    for doubt in doubts(bearing):
+        warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 
 def _check_sliders(bearing: LIRBearing) -> None:
@@ -99,6 +104,7 @@ def _check_geometry(bearing: LIRBearing) -> None:
     require_positive("slider_radius", bearing.slider_radius, "m")
     for value in as_pair("plate_thickness", bearing.plate_thickness):
         require_non_negative("plate_thickness", value, "m")
+    refuse_sizes(bearing)
     height, edge = bearing.slider_height, bearing.slider_radius
     if edge >= min(bearing.radii):
         msg = (
@@ -132,6 +138,12 @@ def _check_friction(bearing: LIRBearing) -> None:
             )
             raise TypeError(msg)
     mu_h = require_positive("interface_friction", bearing.interface_friction, "-", infinite=True)
+    if 1.0 <= mu_h < math.inf:
+        msg = (
+            f"interface_friction = {mu_h:g} [-] must be below 1, or math.inf for a slider in one "
+            f"piece: {per_cent(mu_h)}"
+        )
+        raise ValueError(msg)
     largest = max(law.f_max for law in bearing.frictions)
     if bearing.allow_weak_interface:
         return
@@ -174,7 +186,8 @@ def _check_rims(bearing: LIRBearing) -> None:
     if math.isfinite(bearing.lateral_capacity) and bearing.lateral_capacity > limit:
         msg = (
             f"capacity = {bearing.lateral_capacity:g} m lies beyond the spheres: it must not "
-            f"exceed {LARGEST_SINE} L = {limit:.4g} m; use larger radii"
+            f"exceed {LARGEST_SINE} L = {limit:.4g} m; use larger radii, or "
+            f"{meant(bearing.lateral_capacity, 'm', LENGTHS, 0.002, 0.5 * limit)}"
         )
         raise ValueError(msg)
     for name, reach, r in zip(
@@ -187,3 +200,21 @@ def _check_rims(bearing: LIRBearing) -> None:
                 f"the radius {r:g} m; reduce capacity or slider_radius"
             )
             raise ValueError(msg)
+    _refuse_overlap(bearing)
+
+
+def _refuse_overlap(bearing: LIRBearing) -> None:
+    # Both surfaces reach out to where a slider at the rim ends; at rest, one above the other, they
+    # come closest at the edge of the smaller one. Displaced and raised, the gap only grows.
+    edge = min(bearing.rim_displacement) + bearing.slider_radius
+    if not math.isfinite(edge):
+        return
+    rise = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
+    if bearing.slider_height <= rise:
+        msg = (
+            f"slider_height = {bearing.slider_height:g} m: the plates overlap at rest, their "
+            f"concave surfaces rise by {rise:.4g} m together at the edge ({edge:.4g} m from the "
+            "middle, where a slider at the rim ends): use a higher slider, larger radii, or less "
+            "capacity"
+        )
+        raise ValueError(msg)

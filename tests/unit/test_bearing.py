@@ -215,11 +215,23 @@ def test_slider_wider_than_a_sphere(radius: object, edge: float) -> None:
 
 
 def test_slider_lower_than_its_caps() -> None:
-    """Two caps of height R - sqrt(R^2 - r^2)."""
+    """Two caps of height R - sqrt(R^2 - r^2); without rims, whose plates would overlap before."""
     caps = (0.75 - math.sqrt(0.75**2 - 0.08**2)) + (1.1 - math.sqrt(1.1**2 - 0.08**2))
     words = ("slider_height", f"{caps:.4g} m", "slider_radius = 0.08 m", "slimmer slider")
-    refused(ValueError, *words, radius=(0.75, 1.1), slider_height=caps * 0.9999)
-    assert bearing(radius=(0.75, 1.1), slider_height=caps * 1.0001).radii == (0.75, 1.1)
+    free = {"radius": (0.75, 1.1), "capacity": math.inf}
+    refused(ValueError, *words, slider_height=caps * 0.9999, **free)
+    assert bearing(slider_height=caps * 1.0001, **free).radii == (0.75, 1.1)
+
+
+@pytest.mark.parametrize("rims", [(0.09, 0.12), (0.12, 0.09), (0.09, math.inf)])
+def test_plates_that_overlap_at_rest(rims: tuple[float, float]) -> None:
+    """One above the other they come closest at the edge of the smaller one: a slider at its rim."""
+    radii, edge = (0.75, 1.1), 0.09 + 0.08
+    rise = sum(r - math.sqrt(r**2 - edge**2) for r in radii)
+    options = {"radius": radii, "rims": rims, "capacity": None}
+    words = ("slider_height", "plates overlap at rest", f"{rise:.4g} m", "less capacity")
+    refused(ValueError, *words, slider_height=rise * 0.9999, **options)
+    assert bearing(slider_height=rise * 1.0001, **options).rim_displacement == rims
 
 
 @pytest.mark.parametrize("height", [1.5, 1.6])
@@ -240,9 +252,9 @@ def test_slider_beyond_the_edge_of_a_plate(surface: str) -> None:
     """At the rim the slider's edge must still lie over the sphere: d_max + r < R."""
     rims = (0.68, 0.3) if surface == "bottom" else (0.3, 0.68)
     words = (f"does not fit the {surface} plate", "0.68", "slider_radius 0.08", "reduce capacity")
-    refused(ValueError, *words, capacity=None, rims=rims)
+    refused(ValueError, *words, capacity=None, rims=rims, slider_height=0.25)
     good = tuple(min(r, 0.6699) for r in rims)
-    assert bearing(capacity=None, rims=good).rim_displacement == good
+    assert bearing(capacity=None, rims=good, slider_height=0.25).rim_displacement == good
 
 
 @pytest.mark.parametrize("mu_h", [0.01, 0.0659, 0.066])
@@ -316,8 +328,10 @@ RADIUS = st.floats(0.3, 5.0)
 
 @given(r_1=RADIUS, r_2=RADIUS, share_1=st.floats(0.05, 0.6), share_2=st.floats(0.05, 0.6))
 def test_derived_values(r_1: float, r_2: float, share_1: float, share_2: float) -> None:
-    """Closed forms with unequal radii and rims."""
-    h, t = 0.12, (0.02, 0.05)
+    """Closed forms with unequal radii and rims; high enough for the plates to clear each other."""
+    edge = min(share_1 * r_1, share_2 * r_2) + 0.08
+    rise = sum(r - math.sqrt(r**2 - edge**2) for r in (r_1, r_2))
+    h, t = max(0.12, 1.1 * rise), (0.02, 0.05)
     b = bearing(
         radius=(r_1, r_2), slider_height=h, capacity=None, rims=(share_1 * r_1, share_2 * r_2),
         plate_thickness=t, interface_friction=0.3,
@@ -344,7 +358,7 @@ def test_no_limit_of_force_without_rims_or_interface() -> None:
 
 def test_force_limit_of_a_steep_and_rough_bearing() -> None:
     """theta_max + atan(mu_h) above 90 degrees: no horizontal force starts the interface."""
-    steep = bearing(capacity=0.85 * 1.415, interface_friction=0.9)
+    steep = bearing(slider_height=1.1, capacity=0.85 * 0.4, interface_friction=0.9)
     assert steep.force_limit(1.0) == math.inf
 
 
@@ -457,7 +471,7 @@ def test_record_of_the_neutral_values() -> None:
 def test_explicit_values_are_not_overruled() -> None:
     given_ = {
         "axial_stiffness": 1e8, "axial_damping": 0.0, "rim_stiffness": 2e7, "rim_damping": 0.0,
-        "rim_overrun": 0.02, "slip_capacity": 0.03, "design_load": 1.0,
+        "rim_overrun": 0.02, "slip_capacity": 0.03, "design_load": 1e5,
     }  # fmt: skip
     assert bearing(**given_).resolved() == given_
 

@@ -1,0 +1,105 @@
+"""Where permanent loads go: what the bearings carry, and what supports of the structure take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
+
+if TYPE_CHECKING:
+    from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames.assembly.system import System
+
+UNSAID = 0.01
+"""Part of the weight that supports above the bearings may take without a word [-]."""
+
+NAMED = 4
+"""How many supports a sentence names."""
+
+
+class LoadPath(NamedTuple):
+    """How the weight of what stands on bearings reaches the ground.
+
+    Attributes
+    ----------
+    weight : float
+        Permanent vertical load above the bearings [N].
+    bearings : float
+        What the bearings carry of it [N].
+    supports : tuple of (str, float)
+        Nodes above the bearings whose uz is held, and what each takes [N], largest first.
+    """
+
+    weight: float
+    bearings: float
+    supports: tuple[tuple[str, float], ...]
+
+    @property
+    def lost(self) -> float:
+        """What the supports take past the bearings [N]."""
+        return sum(force for _, force in self.supports)
+
+    def sentence(self) -> str:
+        """Return what the supports take, and what to do; empty where it is next to nothing."""
+        taken = [pair for pair in self.supports if abs(pair[1]) > UNSAID * self.weight]
+        if not taken:
+            return ""
+        names = ", ".join(f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken[:NAMED])
+        rest = f" and {len(taken) - NAMED} more" if len(taken) > NAMED else ""
+        return (
+            f"the bearings carry {1e-3 * self.bearings:.4g} kN of the {1e-3 * self.weight:.4g} kN "
+            f"above them: vertical supports take the rest past them, at {names}{rest}. Free their "
+            '"uz" and put the masses where columns or bearings carry them (a diaphragm ties '
+            "nothing vertically), unless these supports are meant"
+        )
+
+
+def load_path(
+    system: System, geometric: SparseMatrix, displacement: FloatArray, axial_forces: FloatArray
+) -> LoadPath:
+    """Compare what the bearings carry with the weight above them.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    geometric : csr_array, (6 n_nodes, 6 n_nodes)
+        Geometric stiffness of the members before elimination.
+    displacement : ndarray, (n_free,)
+        Under permanent loads.
+    axial_forces : ndarray, (n_bearings,)
+        Of the bearings, compression positive [N].
+
+    Returns
+    -------
+    LoadPath
+        Sums over the parts of the structure that stand on a bearing.
+    """
+    above = _above_bearings(system)
+    held = np.diff(system.transform.indptr)[2::6] == 0
+    moves = np.asarray(system.transform @ displacement)
+    forces = np.asarray((system.node_stiffness + geometric) @ moves) - system.node_load
+    reactions = forces[2::6]
+    taken = [(system.node_names[k], float(reactions[k])) for k in np.flatnonzero(above & held)]
+    standing = [above[j] and not above[i] for _, i, j, _ in system.bearings]
+    return LoadPath(
+        weight=float(-system.node_load[2::6][above].sum()),
+        bearings=float(np.asarray(axial_forces)[standing].sum()),
+        supports=tuple(sorted(taken, key=lambda pair: -abs(pair[1]))),
+    )
+
+
+def _above_bearings(system: System) -> BoolArray:
+    # Nodes that members, springs, superelements, ties or diaphragms join to the top of a bearing.
+    count = len(system.node_names)
+    of_node = sparse.csr_array(
+        (np.ones(6 * count), (np.arange(6 * count) // 6, np.arange(6 * count))),
+        shape=(count, 6 * count),
+    )
+    tied = of_node @ abs(system.transform)
+    joined = sparse.csr_array(of_node @ abs(system.node_stiffness) @ of_node.T + tied @ tied.T)
+    _, part = csgraph.connected_components(joined, directed=False)
+    tops = {int(part[j]) for _, _, j, _ in system.bearings}
+    return np.isin(part, list(tops))

@@ -1,0 +1,70 @@
+"""Small tables for people: as text, and as HTML for notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+
+Rows = Sequence[Sequence[str]]
+
+
+def text_table(rows: Rows, head: Sequence[str] = (), left: int = 1) -> str:
+    """Return rows of cells as lines of text.
+
+    Parameters
+    ----------
+    rows : sequence of sequences of str
+        The cells; rows of one length.
+    head : sequence of str
+        Titles of the columns.
+    left : int
+        How many columns stand to the left, the others to the right.
+
+    Returns
+    -------
+    str
+        A line for each row.
+    """
+    lines = [tuple(head), *map(tuple, rows)] if head else [tuple(row) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return "\n".join(
+        "  ".join(
+            f"{cell:<{wide}}" if k < left else f"{cell:>{wide}}"
+            for k, (cell, wide) in enumerate(zip(line, widths, strict=True))
+        ).rstrip()
+        for line in lines
+    )
+
+
+def html_table(title: str, rows: Rows, head: Sequence[str] = (), notes: Sequence[str] = ()) -> str:
+    """Return a table as HTML, everything escaped.
+
+    Parameters
+    ----------
+    title : str
+        Stands above it.
+    rows : sequence of sequences of str
+        The cells.
+    head : sequence of str
+        Titles of the columns.
+    notes : sequence of str
+        Sentences below it.
+
+    Returns
+    -------
+    str
+        For a notebook's `_repr_html_`.
+    """
+
+    def line(tag: str, cells: Sequence[str]) -> str:
+        return (
+            "<tr>"
+            + "".join(f'<{tag} style="text-align: left">{escape(c)}</{tag}>' for c in cells)
+            + "</tr>"
+        )
+
+    body = "".join(line("td", row) for row in rows)
+    top = line("th", head) if head else ""
+    below = "".join(f"<li>{escape(note)}</li>" for note in notes)
+    listed = f"<ul>{below}</ul>" if notes else ""
+    return f"<div><b>{escape(title)}</b><table>{top}{body}</table>{listed}</div>"

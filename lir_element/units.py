@@ -1,0 +1,54 @@
+"""The constant of gravity, and the unit that a number of the wrong size was probably given in."""
+
+from __future__ import annotations
+
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity [m/s2]."""
+
+Units = tuple[tuple[str, float], ...]
+
+LENGTHS: Units = (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254))
+STIFFNESSES: Units = (("kN/mm", 1e6), ("kN/m", 1e3))
+FORCES: Units = (("kN", 1e3), ("MN", 1e6))
+MASSES: Units = (("t", 1e3),)
+ACCELERATIONS: Units = (("mm/s2", 1e-3), ("cm/s2", 1e-2), ("g", STANDARD_GRAVITY))
+MODULI: Units = (("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3))
+AREAS: Units = (("mm2", 1e-6), ("cm2", 1e-4))
+TIMES: Units = (("ms", 1e-3), ("us", 1e-6))
+RATES: Units = (("s/mm", 1e3), ("s/cm", 1e2))
+DENSITIES: Units = (("t/m3", 1e3), ("kg/mm3", 1e9))
+"""Units that numbers come in besides those of SI, and what one of them is there."""
+
+
+def meant(value: float, unit: str, units: Units, low: float, high: float) -> str:
+    """Return which unit makes a number of the wrong size a usual one, as the end of a sentence.
+
+    Parameters
+    ----------
+    value : float
+        The number as it was given.
+    unit : str
+        Its SI unit.
+    units : sequence of (str, float)
+        Units that it may have been meant in, and what one of them is in SI.
+    low, high : float
+        What is usual, in SI.
+
+    Returns
+    -------
+    str
+        As in "give m (80 mm are 0.08 m)"; the SI unit alone where none fits.
+    """
+    fitting = [
+        f"{value:.5g} {name} are {value * factor:.4g} {unit}"
+        for name, factor in units
+        if low <= value * factor <= high
+    ]
+    return f"give {unit} ({', '.join(fitting)})" if fitting else f"give {unit}"
+
+
+def per_cent(value: object) -> str:
+    """Return what a coefficient of friction above one was probably meant to be."""
+    if isinstance(value, (int, float)) and 1.0 <= value < 100.0:
+        return f"give a pure number ({value:g} per cent are {0.01 * value:g})"
+    return "give a pure number, 0.06 for six per cent"
