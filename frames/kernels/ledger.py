@@ -102,6 +102,7 @@ def add_bearing_energy(run: Run) -> None:
         run.energy[6] += run.old[k].work_friction[1]
         run.energy[7] += run.old[k].work_interface
         run.energy[8] += run.old[k].work_elastic
+        run.energy[12] += run.old[k].work_step
         run.energy[9] += run.old[k].work_rim[0] + run.old[k].work_rim[1]
         run.energy[10] += run.old[k].work_contact
         run.energy[11] += run.old[k].work_sliders
