@@ -95,6 +95,8 @@ def test_friction_never_gives_more_than_it_has(
 ) -> None:
     """Random axial forces, uplift among them, at random slidings: the store stays a store.
 
+    At the level 'contact' the bearing stays down: its sliders have next to no mass here.
+
     And what the trapezoidal rule owes where slip turns round within a step stays small.
     """
     rng = np.random.default_rng(seed)
@@ -105,13 +107,14 @@ def test_friction_never_gives_more_than_it_has(
         np.sin(1.3 * t) + 0.5 * np.sin(2.9 * t), np.sin(0.7 * t + 1.0) - math.sin(1.0),
         20.0 * np.sin(1.9 * t),
     ])  # fmt: skip
-    loads = LOAD * (1.0 + 1.2 * np.sin(t * rng.uniform(0.8, 4.0)) * np.minimum(t, 1.0))
+    swing = 1.2 if level == "pendulum" else 0.7
+    loads = LOAD * (1.0 + swing * np.sin(t * rng.uniform(0.8, 4.0)) * np.minimum(t, 1.0))
     bearing = device(lab, name)
     element = Element(bearing, level)
     out = walk(element, lab, path, loads, 2e-3)
     scale = 0.5 * 0.08 * LOAD * bearing.yield_displacement
     assert out.work_elastic.min() > -1e-9 * scale
-    assert out.work_elastic.max() < 10.0 * scale
+    assert out.work_elastic.max() < 20.0 * scale  # (2.2 N)^2, three interfaces
     friction = out.work_friction + out.work_interface + out.work_elastic
     assert friction.min() > -1e-9 * scale
     assert (np.diff(out.work_friction) >= 0.0).all()
@@ -128,10 +131,12 @@ def test_uplift_loses_the_store(lab: SimpleNamespace) -> None:
     loads = np.concatenate([loads[:9], [-100.0, -100.0, LOAD]])
     element = Element(bearing)
     out = walk(element, lab, path, loads, 1e-3)
-    assert out.work_elastic[8] > 0.1
-    assert_allclose(out.work_elastic[9:], 0.0, rtol=0.0, atol=1e-5 * out.work_elastic[8])
+    assert out.work_elastic[8] > 0.05
+    # forces fade below a thousandth of the design load: a tenth of that is left of a full store
+    full = 0.5 * 0.08 * LOAD * bearing.yield_displacement
+    assert_allclose(out.work_elastic[9:], 0.0, rtol=0.0, atol=3e-4 * full)
     lost = out.work_friction + out.work_interface
-    assert lost[9] - lost[8] == pytest.approx(out.work_elastic[8], rel=1e-3)
+    assert lost[9] - lost[8] == pytest.approx(out.work_elastic[8], rel=1e-2)
     assert np.abs(element.response("friction_force")).max() < 2e-3 * 0.08 * LOAD
 
 
