@@ -335,3 +335,8 @@ Scratch: TypeAlias = Any
 
 Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
+
+Mapped: TypeAlias = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float
+]
+"""What the return map of friction gives: see `kernels.slip.return_map`."""

@@ -17,13 +17,12 @@ The second becomes the first as eta grows without bound.
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 
-Mapped: TypeAlias = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float
-]
+if TYPE_CHECKING:
+    from lir_element.layout import Mapped
 
 _FADE = 0.1  # of the reference: axial force below which friction's stiffness falls with it
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
