@@ -58,20 +58,19 @@ except KeyboardInterrupt as stop:
 )
 def test_answered_and_kept(level: str, options: str) -> None:
     script = SCRIPT.replace("{level}", level).replace("{options}", options)
-    child = subprocess.Popen(  # noqa: S603
-        [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
-    )
-    try:
-        assert child.stdout is not None
-        assert child.stdout.readline() == "begin\n"
-        time.sleep(1.0)
-        child.send_signal(signal.SIGINT)
-        sent = time.perf_counter()
-        words = child.stdout.readline().split()
-        waited = time.perf_counter() - sent
-        assert child.wait(20.0) == 0
-    finally:
-        child.kill()
+    command = [sys.executable, "-c", script]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:  # noqa: S603
+        try:
+            assert child.stdout is not None
+            assert child.stdout.readline() == "begin\n"
+            time.sleep(1.0)
+            child.send_signal(signal.SIGINT)
+            sent = time.perf_counter()
+            words = child.stdout.readline().split()
+            waited = time.perf_counter() - sent
+            assert child.wait(20.0) == 0
+        finally:
+            child.kill()
     kind, status, count, end, stopped, finite, turn = words
     assert (kind, status, finite, turn) == ("AnalysisInterrupted", "interrupted", "True", "0")
     assert int(count) > 1
