@@ -16,7 +16,7 @@ from validation.fuzzing.checks import (
     WORKS,
 )
 from validation.fuzzing.scenes import LEVELS, MODELS
-from validation.fuzzing.trial import FINER, MARGIN, NOISE, TURN
+from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, TURN
 from validation.page import table
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ KINDS = {
     "turn ends differently": "motion turned: another end",
     "mirror": "seen in a mirror: the same",
     "mirror ends differently": "seen in a mirror: another end",
+    "auto": f'level="auto" against all features: the peak differs by more than {AUTO:g}',
     "finer ends differently": f"chosen step against one {FINER} times finer: another end",
     "gravity": "no equilibrium under the weight",
     "weight": "bearings of a building that do not carry its weight",
@@ -136,7 +137,8 @@ def _checks(scenes: Sequence[Entry], buildings: Sequence[Entry]) -> str:
         "turn": _given(scenes, "turn"), "mirror": _given(scenes, "mirror"),
         "turn ends differently": _given(scenes, "turn"),
         "mirror ends differently": _given(scenes, "mirror"),
-        "finer ends differently": _given(scenes, "peak_error"),
+        "auto": f'level="auto" against all features: the peak differs by more than {AUTO:g}',
+    "finer ends differently": _given(scenes, "peak_error"),
     }  # fmt: skip
     rows = []
     for kind, words in KINDS.items():

@@ -30,6 +30,8 @@ MARGIN = 10.0
 """How many times more than that noise a turn may change [-]."""
 SENSITIVE_ERROR = 1e-2
 """Error of a chosen step from which the sensitivity of the scene is asked for, too [-]."""
+AUTO = 1e-2
+"""Largest difference of the peak between what `level="auto"` keeps and all features [-]."""
 FINER = 25
 """How many times finer the step of the reference is."""
 REFERENCE_LEVELS = ("pendulum", "contact")
@@ -106,6 +108,8 @@ def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool)
     if finer and report.controlled and scene.level in REFERENCE_LEVELS:
         step = data.attrs["dt"] / FINER
         compare_steps(report, data, run(scene, scene.motion, dt=step, record_every=FINER)[1])
+    if scene.level == "auto":
+        compare_features(report, data, run(scene, scene.motion, level=data.attrs["level"])[1])
     for kind, changed, other in turned_too:
         ends = data.attrs["status"], other.attrs["status"]
         if changed > TURN or ends[0] != ends[1]:
@@ -167,6 +171,15 @@ def compare_steps(report: Report, data: xr.Dataset, reference: xr.Dataset) -> No
     scale = max(peaks[1], _least(data))
     report.peak_error = abs(peaks[0] - peaks[1]) / scale
     report.path_error = float(np.linalg.norm(ours[:count] - theirs[:count], axis=-1).max()) / scale
+
+
+def compare_features(report: Report, data: xr.Dataset, whole: xr.Dataset) -> None:
+    """Compare the peak of `level="auto"` with that of all features at the level it chose."""
+    peaks = [float(np.linalg.norm(places(d), axis=-1).max()) for d in (data, whole)]
+    off = abs(peaks[0] - peaks[1]) / max(peaks[1], _least(data))
+    if off > AUTO:
+        out = data.attrs["features_left_out"]
+        report.found("auto", off, f"the peak is off by {100.0 * off:.3g} %, left out: {out}")
 
 
 def places(data: xr.Dataset) -> FloatArray:
