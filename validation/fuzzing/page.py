@@ -11,12 +11,13 @@ from validation.fuzzing.checks import (
     BALANCE,
     FAILED_BEARINGS,
     GIVEN_BACK,
+    INACCURATE,
     LEDGER,
     SMALL_INPUT,
     WORKS,
 )
 from validation.fuzzing.scenes import LEVELS, MODELS
-from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, TURN
+from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SMALL_PEAK, TURN
 from validation.page import table
 
 if TYPE_CHECKING:
@@ -101,7 +102,8 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         _checks(scenes, buildings),
         "## Error of the chosen step",
         f"`dt=None` against a step {FINER} times finer: error of the peak displacement, and "
-        "largest difference of the displacement at any time over its peak, in per cent.",
+        "largest difference of the displacement at any time over its peak, in per cent; a peak "
+        f"below {SMALL_PEAK:g} of the effective radius counts as that.",
         _errors(scenes),
         "## Buildings under their weight",
         _gravity(buildings),
@@ -120,6 +122,8 @@ def _ends(scenes: Sequence[Entry]) -> str:
         what = "completed" if name == "ok" else f"`{name}`"
         if name in FAILED_BEARINGS:
             what += " (the bearing failed)"
+        elif name == INACCURATE:
+            what += " (completed, and says that its ledger is open)"
         rows.append([what, *(str(n) for n in own), str(sum(own))])
     total = [sum(entry["level"] == level for entry in scenes) for level in columns]
     rows.append(["all", *(str(n) for n in total), str(len(scenes))])
