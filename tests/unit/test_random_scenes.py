@@ -14,7 +14,7 @@ from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.scenes import random_scene
-from validation.fuzzing.trial import change, compare_steps, run, sensitivity
+from validation.fuzzing.trial import change, compare_features, compare_steps, run, sensitivity
 from validation.random_scenes import arguments, lost, main, tasks
 
 SEED, CALM = 1, 26  # a mass in vertical motion, Newmark, a given step
@@ -132,13 +132,17 @@ def test_a_bit_makes_a_difference(result):
 def test_changes_are_measured_over_the_peak(result):
     data = result[2]
     other = data.copy(deep=True)
+    moved = data["bearing_displacement"].copy()
     other["bearing_displacement"] *= 1.01
     assert change(data, other) == pytest.approx(0.01)
     report = Report(0, "", "mass", "pendulum")
     compare_steps(report, other, data)
     assert report.peak_error == pytest.approx(0.01)
     compare_steps(report, other.assign_attrs(status="newton_failed"), data)
+    compare_features(report, data, data)
     assert [kind for kind, _, _ in report.findings] == ["finer ends differently"]
+    compare_features(report, data, data.assign(bearing_displacement=1.2 * moved))
+    assert report.findings[-1][0] == "auto"
 
 
 def test_a_calm_scene_is_not_sensitive(result):

@@ -107,15 +107,26 @@ def _end(scene: Scene, data: xr.Dataset, warned: Sequence[str]) -> Iterator[tupl
         yield "end", last, f"{status}, but ended at {last:g} s"
     if status == "ok":
         return
-    message, failed_at = data.attrs["message"], data.attrs.get("failed_at", np.nan)
-    if "What to try" not in message or f"{failed_at:.6g}" not in message:
-        yield "end", last, f"a message without time or remedy: {message}"
+    message = data.attrs["message"]
+    if "What to try" not in message:
+        yield "end", last, f"a message without a remedy: {message}"
+    if message not in warned:
+        yield "end", last, f"{status} without a warning"
+    if status == INACCURATE:
+        return
+    failed_at = data.attrs.get("failed_at", np.nan)
+    if f"{failed_at:.6g}" not in message:
+        yield "end", last, f"a message without the time: {message}"
     if not data.attrs.get("failed_where"):
         yield "end", last, "a failure without place"
-    if message not in warned:
-        yield "end", last, "a failure without a warning"
     if failed_at < last - 1e-9:
         yield "end", last, f"failed at {failed_at:g} s, before the last output"
+
+
+def end_of(data: xr.Dataset) -> str:
+    """Return how a run ended; one whose ledger is open went to its end, too."""
+    status = str(data.attrs["status"])
+    return "ok" if status == INACCURATE else status
 
 
 def _numbers(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:

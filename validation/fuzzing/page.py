@@ -11,12 +11,13 @@ from validation.fuzzing.checks import (
     BALANCE,
     FAILED_BEARINGS,
     GIVEN_BACK,
+    INACCURATE,
     LEDGER,
     SMALL_INPUT,
     WORKS,
 )
 from validation.fuzzing.scenes import LEVELS, MODELS
-from validation.fuzzing.trial import FINER, MARGIN, NOISE, TURN
+from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SMALL_PEAK, TURN
 from validation.page import table
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ KINDS = {
     "turn ends differently": "motion turned: another end",
     "mirror": "seen in a mirror: the same",
     "mirror ends differently": "seen in a mirror: another end",
+    "auto": f'level="auto" against all features: the peak differs by more than {AUTO:g}',
     "finer ends differently": f"chosen step against one {FINER} times finer: another end",
     "gravity": "no equilibrium under the weight",
     "weight": "bearings of a building that do not carry its weight",
@@ -100,7 +102,8 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         _checks(scenes, buildings),
         "## Error of the chosen step",
         f"`dt=None` against a step {FINER} times finer: error of the peak displacement, and "
-        "largest difference of the displacement at any time over its peak, in per cent.",
+        "largest difference of the displacement at any time over its peak, in per cent; a peak "
+        f"below {SMALL_PEAK:g} of the effective radius counts as that.",
         _errors(scenes),
         "## Buildings under their weight",
         _gravity(buildings),
@@ -119,6 +122,8 @@ def _ends(scenes: Sequence[Entry]) -> str:
         what = "completed" if name == "ok" else f"`{name}`"
         if name in FAILED_BEARINGS:
             what += " (the bearing failed)"
+        elif name == INACCURATE:
+            what += " (completed, and says that its ledger is open)"
         rows.append([what, *(str(n) for n in own), str(sum(own))])
     total = [sum(entry["level"] == level for entry in scenes) for level in columns]
     rows.append(["all", *(str(n) for n in total), str(len(scenes))])
@@ -136,7 +141,8 @@ def _checks(scenes: Sequence[Entry], buildings: Sequence[Entry]) -> str:
         "turn": _given(scenes, "turn"), "mirror": _given(scenes, "mirror"),
         "turn ends differently": _given(scenes, "turn"),
         "mirror ends differently": _given(scenes, "mirror"),
-        "finer ends differently": _given(scenes, "peak_error"),
+        "auto": f'level="auto" against all features: the peak differs by more than {AUTO:g}',
+    "finer ends differently": _given(scenes, "peak_error"),
     }  # fmt: skip
     rows = []
     for kind, words in KINDS.items():

@@ -11,7 +11,7 @@ import numpy as np
 
 from frames import GroundMotion, ModelError, time_history
 from lir_element import AnalysisError, AnalysisWarning
-from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.checks import Report, check_result, end_of, same
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.scenes import random_scene
 
@@ -28,8 +28,12 @@ NOISE = 1e-9
 """Relative change of a motion that must not matter [-]."""
 MARGIN = 10.0
 """How many times more than that noise a turn may change [-]."""
+SMALL_PEAK = 1e-3
+"""Least peak that errors of a chosen step are measured against, over the effective radius [-]."""
 SENSITIVE_ERROR = 1e-2
 """Error of a chosen step from which the sensitivity of the scene is asked for, too [-]."""
+AUTO = 1e-2
+"""Largest difference of the peak between what `level="auto"` keeps and all features [-]."""
 FINER = 25
 """How many times finer the step of the reference is."""
 REFERENCE_LEVELS = ("pendulum", "contact")
@@ -106,9 +110,10 @@ def compare_runs(report: Report, scene: Scene, data: xr.Dataset, *, finer: bool)
     if finer and report.controlled and scene.level in REFERENCE_LEVELS:
         step = data.attrs["dt"] / FINER
         compare_steps(report, data, run(scene, scene.motion, dt=step, record_every=FINER)[1])
+    if scene.level == "auto":
+        compare_features(report, data, run(scene, scene.motion, level=data.attrs["level"])[1])
     for kind, changed, other in turned_too:
-        ends = data.attrs["status"], other.attrs["status"]
-        if changed > TURN or ends[0] != ends[1]:
+        if changed > TURN or end_of(data) != end_of(other):
             _judge(report, scene, data, kind, changed, other)
     if (report.peak_error or 0.0) > SENSITIVE_ERROR and report.sensitivity is None:
         report.sensitivity = sensitivity(scene, data)[0]
@@ -119,7 +124,7 @@ def _judge(
 ) -> None:
     # A change is a finding where one of the motion's ninth digit does not do nearly as much.
     report.sensitivity, ends = sensitivity(scene, data)
-    status, theirs = data.attrs["status"], other.attrs["status"]
+    status, theirs = end_of(data), end_of(other)
     if changed > max(TURN, MARGIN * report.sensitivity):
         words = f"the displacement changes by {100.0 * changed:.3g} % of its peak"
         report.found(kind, changed, words)
@@ -150,13 +155,13 @@ def sensitivity(scene: Scene, data: xr.Dataset) -> tuple[float, set[str]]:
         x, y, z = (scene.motion.components * noise).T
         other = run(scene, GroundMotion(x=x, y=y, z=z, dt=scene.motion.dt, name="random"))[1]
         changed.append(change(data, other))
-        ends.add(str(other.attrs["status"]))
+        ends.add(end_of(other))
     return max(changed), ends
 
 
 def compare_steps(report: Report, data: xr.Dataset, reference: xr.Dataset) -> None:
     """Put the errors of the chosen step into the report; both ends must be the same."""
-    if data.attrs["status"] != reference.attrs["status"]:
+    if end_of(data) != end_of(reference):
         report.found(
             "finer ends differently", 1.0,
             f"{data.attrs['message']} -- finer: {reference.attrs['message']}",
@@ -164,9 +169,18 @@ def compare_steps(report: Report, data: xr.Dataset, reference: xr.Dataset) -> No
     ours, theirs = places(data), places(reference)
     count = min(len(ours), len(theirs))
     peaks = [float(np.linalg.norm(u[:count], axis=-1).max()) for u in (ours, theirs)]
-    scale = max(peaks[1], _least(data))
+    scale = max(peaks[1], SMALL_PEAK * float(data["length"].min()))
     report.peak_error = abs(peaks[0] - peaks[1]) / scale
     report.path_error = float(np.linalg.norm(ours[:count] - theirs[:count], axis=-1).max()) / scale
+
+
+def compare_features(report: Report, data: xr.Dataset, whole: xr.Dataset) -> None:
+    """Compare the peak of `level="auto"` with that of all features at the level it chose."""
+    peaks = [float(np.linalg.norm(places(d), axis=-1).max()) for d in (data, whole)]
+    off = abs(peaks[0] - peaks[1]) / max(peaks[1], _least(data))
+    if off > AUTO:
+        out = data.attrs["features_left_out"]
+        report.found("auto", off, f"the peak is off by {100.0 * off:.3g} %, left out: {out}")
 
 
 def places(data: xr.Dataset) -> FloatArray:
