@@ -1,6 +1,7 @@
 """Damping given as a matrix, in bearing coordinates and fixed-interface modes.
 
-Such damping couples the modes with each other and with the bearings' displacements. Where it does
+Such damping couples the modes with each other and with the bearings' displacements, unless it is
+proportional to the present stiffness: then it is a number a mode. Where it does
 not follow the stiffness, directions without mass do not follow the rest statically any more:
 they lag. Their deviation from the static shape then joins the modes, as coordinates without mass.
 """
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.basis import Basis
 
+_UNCOUPLED = 1e-10  # of the gross damping of two coordinates, below which nothing couples them
 _CONSISTENT = 1e-6  # cosine of damping forces, up to which massless ones follow statically
 
 
@@ -37,17 +39,34 @@ def with_matrix_damping(
     Returns
     -------
     Basis
-        With full damping matrices, and coordinates without mass where massless ones lag.
+        With full damping matrices where modes are coupled, and coordinates without mass where
+        massless ones lag.
     """
     basis = _with_lag(basis, damping, stiffness, still)
     to_b, to_e = basis.expand_b, basis.expand_e
-    own_b, own_e = to_b.T @ damping @ to_b, to_e.T @ damping @ to_e
-    return replace(
-        basis,
-        damping_b=basis.damping_b + 0.5 * (own_b + own_b.T),
-        damping_be=to_b.T @ damping @ to_e,
-        damping_ee=0.5 * (own_e + own_e.T),
-    )
+    own_b, own_e = (0.5 * (c + c.T) for c in (to_b.T @ damping @ to_b, to_e.T @ damping @ to_e))
+    between = to_b.T @ damping @ to_e
+    basis = replace(basis, damping_b=basis.damping_b + own_b)
+    alone = np.diag(own_e)
+    if _is_nothing(own_e - np.diag(alone), to_e, to_e, damping) and _is_nothing(
+        between, to_b, to_e, damping
+    ):
+        return replace(basis, damping_e=basis.damping_e + alone.clip(0.0))
+    return replace(basis, damping_be=between, damping_ee=own_e)
+
+
+def _is_nothing(
+    coupling: FloatArray, rows: FloatArray, columns: FloatArray, damping: FloatArray
+) -> bool:
+    # Whether what damping couples of these shapes is round-off.
+    bound = np.sqrt(np.outer(_gross(rows, damping), _gross(columns, damping)))
+    return bool((np.abs(coupling) <= _UNCOUPLED * bound).all())
+
+
+def _gross(shapes: FloatArray, damping: FloatArray) -> FloatArray:
+    # The work of each shape with itself, all terms counted positive: no round-off where it is zero.
+    size = np.abs(shapes)
+    return np.asarray(np.sum(size * (np.abs(damping) @ size), axis=0))
 
 
 def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray) -> Basis:
@@ -57,10 +76,7 @@ def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: F
     still = still / np.sqrt(np.sum(still * (stiffness @ still), axis=0))
     shapes = np.hstack([basis.expand_b, basis.expand_e])
     forces = np.abs(still.T @ damping @ shapes)
-    # the work of each shape with itself, all terms counted positive: no round-off where it is zero
-    work, own = (
-        np.sum(np.abs(part) * (np.abs(damping) @ np.abs(part)), axis=0) for part in (shapes, still)
-    )
+    work, own = _gross(shapes, damping), _gross(still, damping)
     if not (forces > _CONSISTENT * np.sqrt(np.outer(own, work))).any():
         return basis
     block = still.T @ stiffness @ still

@@ -330,9 +330,9 @@ def page(found: Sequence[Outcome]) -> str:
         "## Equilibrium and cost",
         "Axial forces at rest, the energy ledger of `frames`, and computation for a step (the "
         "smaller one) in both programs on the same machine, which had other work: the ratio "
-        "counts. `frames` keeps all modes of the structure; a damping matrix then costs the "
-        "square of their number a step. Plain Newton's method of OpenSees factorises the whole "
-        "model several times a step.",
+        "counts. `frames` keeps all modes of the structure; damping that is not proportional to "
+        "the present stiffness costs the square of their number a step. Plain Newton's method of "
+        "OpenSees factorises the whole model several times a step.",
         table(
             ("model", "axial forces differ by", "ledger, error / input", "OpenSees [ms]",
              "frames [ms]"),
