@@ -53,8 +53,9 @@ USUAL_PROPORTIONS = (0.02, 10.0)
 
 USUAL_DENSITY = (500.0, 25e3)
 LARGEST_FRICTION = 0.4
-SLOWEST_RATE = 0.11
-"""Rate parameter below which friction hardly depends on speed [s/m]."""
+SLOWEST_RATES = (1e-4, 0.11)
+"""Rate parameters with which friction hardly depends on speed, as those in s/mm are [s/m]; lower
+ones are meant to be none."""
 
 
 def pressure_remedy(pressure: float) -> str:
@@ -216,7 +217,7 @@ def _of_friction(bearing: LIRBearing) -> list[str]:
                 f"friction of {law.f_max:g} is far above that of sliding materials, 0.01 to 0.2: "
                 "give a pure number, 0.06 for six per cent"
             )
-        if law.f_max > law.f_min and 0.0 < law.rate < SLOWEST_RATE:
+        if law.f_max > law.f_min and SLOWEST_RATES[0] < law.rate < SLOWEST_RATES[1]:
             found.append(
                 f"rate = {law.rate:g} s/m leaves friction at f_min = {law.f_min:g} at all speeds "
                 f"of an earthquake: {meant(law.rate, 's/m', RATES, 5.0, 500.0)}"

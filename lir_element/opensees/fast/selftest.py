@@ -100,7 +100,7 @@ def main() -> None:
     bearing = LIRBearing(
         radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
         friction=CoulombFriction(0.05), interface_friction=0.15,
-        axial_stiffness=_STIFFNESS, axial_damping=0.0,
+        axial_stiffness=_STIFFNESS, axial_damping=0.0, design_load=1e4,
     )  # fmt: skip
     for turn in (1, 2):
         expected, got = _run(None), _run(bearing)
