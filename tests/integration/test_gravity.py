@@ -256,3 +256,24 @@ def test_bearing_that_fails_under_permanent_loads_is_refused():
     with pytest.raises(AnalysisError, match="rim_overrun") as caught:
         gravity(frame)
     assert caught.value.status is RunStatus.RIM_OVERRUN
+
+
+@pytest.mark.filterwarnings("ignore::frames.ModelWarning")  # heavy on purpose
+@pytest.mark.parametrize(("elastic", "load"), [(1e-6, 1e6), (3e-7, 5e6), (1e-7, 2e7)])
+def test_heavy_load_on_stiff_friction(elastic, load):
+    """Newton's method alone does not get there: friction holds within parts of a micrometre."""
+    mu = 0.08
+    bearing = LIRBearing(
+        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+        friction=CoulombFriction(mu), interface_friction=1.5 * mu, yield_displacement=elastic,
+        design_load=1e6,
+    )  # fmt: skip
+    frame = moment_frame(bays=(2, 1), storeys=2, bearing=bearing, bay_width=(11.0, 7.0))
+    for node in list(frame.nodes)[-3:]:
+        frame.add_load(node, [0.0, 0.0, -load, 0.0, 0.0, 0.0])
+    state = gravity(frame)
+    weight = -state.system.node_load[2::6].sum()
+    assert_allclose(state.axial_forces.sum(), weight, rtol=1e-6, atol=0.0)
+    shear = np.linalg.norm(state.run.old["force"][:, 6:8], axis=1)
+    assert (shear < mu * state.axial_forces).all()
+    assert_allclose(state.model.props["yield_displacement"], elastic, rtol=0.0, atol=0.0)
