@@ -29,6 +29,7 @@ NAMES = (
 )  # fmt: skip
 EACH = pytest.mark.parametrize("name", NAMES)
 UPSIDE = 4e-4  # of N
+pytestmark = pytest.mark.filterwarnings("ignore:slider_density")
 WEIGHTLESS = {"slider_density": 1e-3}  # 8 micrograms a slider
 # Newton's method stops at 1e-10 of the normal forces; carried along some hundred steps.
 HISTORY = {"rtol": 0.0, "atol": 2e-8}
@@ -99,10 +100,27 @@ def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 1e
     k = element.tangent_stiffness()
     scale = max(np.abs(k).max(), 1.0)
     coarse, fine = (differences(element, u, time, s) for s in (2.0 * step, step))
+    bend = sides_apart(element, u, time, 0.1 * step)
     element.set_trial(u, STILL, time)
-    if np.abs(coarse - fine).max() > 1e-6 * scale:
+    if max(np.abs(coarse - fine).max(), bend) > 1e-6 * scale:
         return None
     return float(np.abs(k - coarse).max() / scale)
+
+
+def sides_apart(element: Element, u: np.ndarray, time: float, step: float) -> float:
+    """Return how far the differences to both sides are apart: a corner at the very place shows.
+
+    Bouc-Wen friction has one where a point's sliding turns round; a point that sticks is there.
+    """
+    element.set_trial(u, STILL, time)
+    middle, largest = element.resisting_force().copy(), 0.0
+    for way in np.eye(12):
+        sides = []
+        for sign in (1.0, -1.0):
+            element.set_trial(u + sign * step * way, STILL, time)
+            sides.append(element.resisting_force().copy())
+        largest = max(largest, float(np.abs(sides[0] + sides[1] - 2.0 * middle).max()) / step)
+    return largest
 
 
 @EACH
@@ -126,7 +144,7 @@ def test_tangent_along_a_motion(name: str, lab: SimpleNamespace) -> None:
 
     walk(bearing, u, time, visit=visit)
     smooth = [e for e in errors if e is not None]
-    assert len(smooth) >= 0.5 * len(errors)
+    assert len(smooth) >= 0.4 * len(errors)  # Bouc-Wen has many corners
     # the equilibrium inside is exact to 1e-10 of N: 1e-5 N over 1e-7 m, of 1e8 N/m
     assert_allclose(smooth, 0.0, rtol=0.0, atol=2e-6)
 

@@ -87,7 +87,7 @@ def test_tangent_along_a_motion(variant: str, lab: SimpleNamespace) -> None:
 
     lab.walk(bearing, u, time, visit=visit)
     smooth = [e for e in errors if e is not None]
-    assert len(smooth) >= 0.8 * len(errors)  # corners are rare
+    assert len(smooth) >= 0.75 * len(errors)  # corners are rare
     # Two steps agree to 2e-8; a term of 1 % of W/L would show as 2e-6.
     assert_allclose(smooth, 0.0, rtol=0.0, atol=3e-8)
 
@@ -127,6 +127,7 @@ REGIMES = {
 @pytest.mark.parametrize("law", ["elastic-plastic", "bouc-wen"])
 @pytest.mark.parametrize("mu_h", [0.13, math.inf])
 @pytest.mark.parametrize("regime", REGIMES)
+@pytest.mark.filterwarnings("ignore:design_load")  # far beyond the slider's, on purpose
 def test_tangent_in_each_regime(
     regime: str, mu_h: float, law: str, sign: float, lab: SimpleNamespace
 ) -> None:
@@ -138,6 +139,7 @@ def test_tangent_in_each_regime(
         friction_law=law,
         torsional_friction=True,
         design_load=2e7,  # fades below 20 kN
+        slider_height=0.25,  # more than the settlement under that load
         axial_damping=0.0 if regime.startswith("partial") else None,  # the damper would open it
     )
     reach = bearing.lateral_capacity
@@ -757,24 +759,23 @@ def test_fused_slider_is_the_dcfp(lab: SimpleNamespace) -> None:
 
 
 def test_very_high_interface_friction_tends_to_the_dcfp(lab: SimpleNamespace) -> None:
-    """The elastic slip u_yh mu_d / mu_h vanishes: the error falls as 1 / mu_h, then with u_yh."""
+    """What is left is the elastic slip u_yh mu_d / mu_h: the error falls in proportion to u_yh."""
+    free = {"rims": None, "capacity": math.inf}
     u, time = lab.smooth_path(lab.make("velocity"), 61, 300)
-    fused = lab.walk(lab.make("velocity", interface_friction=math.inf), u, time).resisting
+    fused = lab.walk(lab.make("velocity", interface_friction=math.inf, **free), u, time).resisting
     scale = np.abs(fused).max()
-    errors = [
-        np.abs(
-            lab.walk(lab.make("velocity", interface_friction=mu), u, time).resisting - fused
-        ).max()
-        / scale
-        for mu in (10.0, 100.0, 1000.0)
-    ]
+    errors = []
+    for small in (2.5e-5, 2.5e-6, 2.5e-7):
+        options = {"interface_friction": 0.99, "interface_yield_displacement": small, **free}
+        forces = lab.walk(lab.make("velocity", **options), u, time).resisting
+        errors.append(np.abs(forces - fused).max() / scale)
     assert errors[0] < 1e-2
-    # first order in 1 / mu_h: a tenth each time
+    # first order: a tenth each time
     assert_allclose(np.diff(np.log10(errors)), -1.0, rtol=0.0, atol=0.1)
 
 
 def test_no_rims_is_rims_far_away(lab: SimpleNamespace) -> None:
-    far, none = lab.make("velocity", rims=(0.6, 0.9)), lab.make("velocity", rims=(math.inf,) * 2)
+    far, none = lab.make("velocity", rims=(0.2, 0.25)), lab.make("velocity", rims=(math.inf,) * 2)
     u, time = lab.smooth_path(none, 63, 300)
     one = lab.walk(far, u, time, ("rim_force",))
     assert_array_equal(one.rim_force, 0.0)

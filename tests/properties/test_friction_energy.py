@@ -13,6 +13,8 @@ from numpy.testing import assert_allclose
 
 from lir_element import Element, LIRBearing
 
+# Sliders next to without mass, on purpose: their density is no metal's.
+pytestmark = pytest.mark.filterwarnings("ignore:slider_density")
 LOAD = 1e5
 WORKS = ("work_friction", "work_interface", "work_elastic")
 LAWS = {
