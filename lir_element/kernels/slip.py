@@ -47,11 +47,12 @@ def return_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
     k: float, cap: float,
 ) -> Mapped:  # fmt: skip
-    """Return q, its derivatives, the sliding that slips, and its derivatives.
+    """Return q, its derivatives, the sliding that loads it further, and its derivatives.
 
-    Twelve numbers: q (2), dq/d(dw) (2 x 2, by rows), the slipped part of the sliding (>= 0; what a
-    falling cap alone gives way to is no sliding) and its derivative by dw (2), dq/d(cap) (2) and
-    d(slip)/d(cap).
+    Twelve numbers: q (2), dq/d(dw) (2 x 2, by rows), the part of the sliding that goes on past the
+    old q (>= 0) and its derivative by dw (2), dq/d(cap) (2), and that part's by the cap. It gives
+    the friction its speed: sliding that unloads has none; neither what a falling cap gives way to,
+    nor what a rising one lets build up, changes it.
     """
     d_1, d_2 = k * dw_1, k * dw_2
     b_1, b_2 = old_1 + d_1, old_2 + d_2
@@ -71,15 +72,12 @@ def return_map(
                 rho, by_cap, held = cap * x, x * (1.0 - by_size), False
                 grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
                 grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
-    if held:
-        return b_1, b_2, k, 0.0, 0.0, k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    slip, s_1, s_2, s_cap = 0.0, 0.0, 0.0, 0.0
+    slip, s_1, s_2 = 0.0, 0.0, 0.0
     before = math.sqrt(old_1 * old_1 + old_2 * old_2)
-    if rho < cap or before <= rho:
-        slip = max(size - rho, 0.0) / k
-        s_1, s_2, s_cap = e_1 - grad_1, e_2 - grad_2, -by_cap / k
-    elif size > before:
+    if size > before:
         slip, s_1, s_2 = (size - before) / k, e_1, e_2
+    if held:
+        return b_1, b_2, k, 0.0, 0.0, k, slip, s_1, s_2, 0.0, 0.0, 0.0
     hoop = rho / size
     return (
         rho * e_1,
@@ -93,7 +91,7 @@ def return_map(
         s_2,
         by_cap * e_1,
         by_cap * e_2,
-        s_cap,
+        0.0,
     )
 
 
@@ -119,15 +117,24 @@ def friction_map(
     q = (angle / _BEND) ** 2
     if not q < 1.0:
         return flat
+    b_1, b_2 = old_1 + k * dw_1, old_2 + k * dw_2
+    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
+    e_1, e_2 = b_1 / size, b_2 / size
+    slipped = size - (e_1 * q_1 + e_2 * q_2)
+    if slipped <= 1e-14 * size:  # held
+        return flat
+    slipped /= k
+    p_1, p_2 = e_1 - (e_1 * h_11 + e_2 * h_21) / k, e_2 - (e_1 * h_12 + e_2 * h_22) / k
+    p_n = -(e_1 * n_1 + e_2 * n_2) / k
     square = dw_1 * dw_1 + dw_2 * dw_2
     u_y = cap / k  # elastic sliding before slip under the present cap
-    part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
+    part = slipped / (slipped + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part
     by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
-    by_part = share * angle * (1.0 - q) ** 2 / (slip + u_y) ** 2
-    turn_1 = -by_angle * dw_2 + by_part * u_y * s_1
-    turn_2 = by_angle * dw_1 + by_part * u_y * s_2
-    turn_n = by_part * (u_y * s_n - slip / k)
+    by_part = share * angle * (1.0 - q) ** 2 / (slipped + u_y) ** 2
+    turn_1 = -by_angle * dw_2 + by_part * u_y * p_1
+    turn_2 = by_angle * dw_1 + by_part * u_y * p_2
+    turn_n = by_part * (u_y * p_n - slipped / k)
     c, s = math.cos(turn), math.sin(turn)
     r_1, r_2 = c * q_1 - s * q_2, s * q_1 + c * q_2
     return (

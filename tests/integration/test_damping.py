@@ -17,6 +17,12 @@ from frames import (
 )
 from lir_element import CoulombFriction, LIRBearing
 
+# Friction that holds whatever comes, on purpose.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:friction of 0.9"),
+    pytest.mark.filterwarnings("ignore:.*the bearings hardly slide"),
+]
+
 MASS = 1e5
 DT = 0.002
 

@@ -43,7 +43,7 @@ def test_to_the_end() -> None:
 
 
 def test_slow_work_makes_small_pieces() -> None:
-    loop = Loop(work=1000, pause=0.2)
+    loop = Loop(work=100, pause=0.1)
     in_pieces(loop.advance, lambda: loop.done, 1)
     assert min(loop.calls) < 20
 
