@@ -61,9 +61,9 @@ def bearing_messages(tag: int, design_load: float, placement: Placement) -> dict
         "What to try: run the analysis again up to here, or keep several analyses in one process."
     )
     texts[HINT] = (
-        "a step failed in a model with LIR bearings, whose tangent is unsymmetric. What to try: "
+        "a step failed in a model with LIR bearings, whose tangent is unsymmetric. It needs "
         "system UmfPack, BandGeneral or FullGeneral; a symmetric system (ProfileSPD, BandSPD, "
-        'SparseSYM) only with tangent="symmetric" in bearing_element; algorithm KrylovNewton; '
-        "smaller steps."
+        'SparseSYM) only with tangent="symmetric" in bearing_element. '
+        "Algorithm KrylovNewton or smaller steps may help, too."
     )
     return {number: f"WARNING {text}\n" for number, text in texts.items()}

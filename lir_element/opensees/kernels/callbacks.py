@@ -6,8 +6,6 @@ portable route calls, takes that of the block.
 
 from __future__ import annotations
 
-import math
-
 from numba import carray
 
 from lir_element._jit import entry_point
@@ -68,9 +66,9 @@ def revert_to_last_commit(element: int) -> int:
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     if h.refused != 0:
         h.failures += 1
-    elif h.unfinished == 1:
-        give_hint(h)
     host_revert(h)
+    if h.last_status == 0:  # what was committed is no cause
+        give_hint(h)
     return 0
 
 
@@ -78,9 +76,7 @@ def revert_to_last_commit(element: int) -> int:
 def revert_remote(element: int) -> int:
     """Do what there is to do in the model's process where another one determines the states."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
-    copy_vector(call_word(h.host_force, element), h.dofs, 0, h.force)
-    if math.isfinite(h.force[0]):  # no refusal of the bearing's
-        give_hint(h)
+    give_hint(h)
     return 0
 
 

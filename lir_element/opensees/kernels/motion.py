@@ -100,7 +100,7 @@ def fail(h: Host) -> int:
 
 @kernel
 def give_hint(h: Host) -> None:
-    """Tell once in a process what a step that failed for no bearing's sake may suffer from."""
+    """Tell once in a process what a step that failed may suffer from."""
     word = carray(pointer(h.hinted), 1, WORDS)
     if word[0] == 0 and h.symmetric == 0:
         word[0] = 1
