@@ -21,7 +21,7 @@ from lir_element.device.plausible import (
     USUAL_PRESSURE,
     pressure_remedy,
 )
-from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
+from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -39,9 +39,6 @@ LEAST_SPAN = 2.0
 
 STRONG_GROUND, FEEBLE = 50.0, 1e-3
 """Peak ground acceleration above all that was recorded; one below which nothing is said [m/s2]."""
-
-COARSE_STEP = 0.25
-"""Step of an analysis that resolves no earthquake [s]."""
 
 
 class BearingLoad(NamedTuple):
@@ -251,7 +248,7 @@ def motion_doubts(frame: FrameContents, motion: GroundMotion) -> tuple[str, ...]
     return ()
 
 
-def check_analysis(model: object, motion: object, dt: object) -> None:
+def check_analysis(model: object, motion: object) -> None:
     """Refuse what cannot be analysed, and warn of what was probably not meant.
 
     Parameters
@@ -260,15 +257,11 @@ def check_analysis(model: object, motion: object, dt: object) -> None:
         The structure.
     motion : GroundMotion
         The motion.
-    dt : float or None
-        Step of the analysis [s].
 
     Raises
     ------
     TypeError
         If model and motion are not what they should be, or swapped.
-    ValueError
-        If the step is longer than any; the message names the unit to suspect.
 
     Warns
     -----
@@ -284,9 +277,5 @@ def check_analysis(model: object, motion: object, dt: object) -> None:
     if not isinstance(motion, GroundMotion):
         msg = f"motion = {motion!r} must be a GroundMotion: time_history(model, motion)"
         raise TypeError(msg)
-    if isinstance(dt, (int, float)) and COARSE_STEP < dt < math.inf:
-        hint = meant(dt, "s", TIMES, 1e-5, 0.05)
-        msg = f"dt = {dt:g} s is longer than any step of an analysis, {COARSE_STEP:g} s: {hint}"
-        raise ValueError(msg)
     for doubt in motion_doubts(model, motion):
         warnings.warn(doubt, ModelWarning, stacklevel=3)

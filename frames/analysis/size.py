@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING
 
 from lir_element.door import require_positive
 from lir_element.layout import BODIES, STATE
+from lir_element.units import TIMES, meant
 
 if TYPE_CHECKING:
     from frames.analysis.static import GravityState
 
 MOST_STEPS = 10**9
 """Steps beyond which a run is refused: the fastest would take an hour."""
+
+COARSEST = 1.0
+"""Step that resolves no earthquake [s]."""
 
 USUAL_MEMORY = 8e9
 """Memory to count on where the system does not tell [bytes]."""
@@ -42,7 +46,7 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
     Raises
     ------
     ValueError
-        If the step is longer than the run, or there are more than `MOST_STEPS`.
+        If the step is longer than the run or than `COARSEST`, or there are more than `MOST_STEPS`.
     """
     step = largest if dt is None else require_positive("dt", dt, "s")
     if dt is not None and dt > duration * (1.0 + 1e-9):
@@ -50,6 +54,10 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
             f"dt = {dt:g} s is longer than the run of {duration:g} s: a step of 0.005 s is usual; "
             "give it in seconds, or leave it out"
         )
+        raise ValueError(msg)
+    if dt is not None and dt > COARSEST:
+        hint = meant(dt, "s", TIMES, 1e-5, 0.05)
+        msg = f"dt = {dt:g} s is longer than any step of an analysis, {COARSEST:g} s: {hint}"
         raise ValueError(msg)
     if duration / step > MOST_STEPS:
         msg = (

@@ -126,7 +126,7 @@ def time_history(
     lir_element.AnalysisInterrupted
         After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
     """
-    check_analysis(model, motion, dt)
+    check_analysis(model, motion)
     _check_options(level, method, integrator, record_every, on_failure, features)
     if tolerance is not None:
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
