@@ -16,7 +16,7 @@ SEED = 1
 CASES = 300
 AGAIN = 6
 BUILDINGS = 20
-KNOWN = {"store", "numerical", "balance", "turn"}
+KNOWN = {"numerical"}
 """Kinds of finding that the page still lists."""
 FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
 
@@ -32,5 +32,5 @@ def test_completes_or_reports(number):
 @pytest.mark.parametrize("number", range(BUILDINGS))
 def test_a_building_finds_its_equilibrium_and_rests(number):
     report = try_building(SEED, number)
-    assert [entry for entry in report.findings if entry[0] != "gravity"] == [], report.scene
-    assert report.outcome in {"ok", "uplifted", "refused", "newton_failed"}, report.message
+    assert report.findings == [], report.scene
+    assert report.outcome in {"ok", "uplifted", "refused"}, report.message

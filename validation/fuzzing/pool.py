@@ -38,8 +38,8 @@ def in_children(
     workers : int
         Number of child processes.
     limit : float
-        Longest time for a task [s]; the first one of a child has ten times as long, for it may
-        compile.
+        Longest time for a task [s]; the first one of a child has ten times as long, for it has
+        to load.
 
     Yields
     ------
