@@ -8,12 +8,12 @@ from frames.analysis.static import Modes as Modes
 from frames.analysis.static import gravity as gravity
 from frames.analysis.static import modes as modes
 from frames.analysis.transient import time_history as time_history
+from frames.frame import Frame as Frame
+from frames.library.models import lumped_mass as lumped_mass
+from frames.library.models import moment_frame as moment_frame
+from frames.library.models import shear_building as shear_building
 from frames.model.damping import ModalDamping as ModalDamping
 from frames.model.damping import RayleighDamping as RayleighDamping
-from frames.model.frame import Frame as Frame
-from frames.model.library import lumped_mass as lumped_mass
-from frames.model.library import moment_frame as moment_frame
-from frames.model.library import shear_building as shear_building
 from frames.model.sections import Section as Section
 from frames.motion._motion_checks import MotionError as MotionError
 from frames.motion._motion_checks import MotionWarning as MotionWarning

@@ -19,8 +19,8 @@ import numpy as np
 
 from frames.analysis.static import gravity
 from frames.analysis.transient import time_history
+from frames.library.moment_frames import moment_frame
 from frames.model.contents import STANDARD_GRAVITY
-from frames.model.moment_frames import moment_frame
 from frames.motion.ground_motion import GroundMotion
 from frames.plots import (
     bearing_sections,

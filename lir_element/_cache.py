@@ -25,7 +25,7 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
-            "bundles/*.py", "opensees/block/*.py", "opensees/portable/*.py")  # fmt: skip
+            "bundles/*.py", "opensees/block/*.py")  # fmt: skip
 """Patterns of the sources, in a package, that kernels consist of or import."""
 
 VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)

@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from frames.analysis.static import GravityState
     from frames.assembly.assemble import System
     from frames.kernel_data import Ground, Output
-    from frames.model.frame import Frame
+    from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
     from lir_element.layout import Records
 
 
 def build_dataset(
-    frame: Frame,
+    frame: FrameContents,
     state: GravityState,
     shaking: Ground,
     peak: FloatArray,
@@ -187,6 +187,6 @@ def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArra
     return total
 
 
-def _levels_of_nodes(frame: Frame, names: tuple[str, ...]) -> Any:
+def _levels_of_nodes(frame: FrameContents, names: tuple[str, ...]) -> Any:
     place = {node: k for k, level in enumerate(frame.levels) for node in level.nodes}
     return np.array([place.get(name, -1) for name in names], dtype=np.int64)

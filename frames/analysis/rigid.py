@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray, IntArray
     from frames.analysis.static import GravityState
-    from frames.model.frame import Frame
+    from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
     from lir_element.bundles.rigid_data import RigidInput, RigidOutput, RigidRun, RigidSetup
 
@@ -52,7 +52,7 @@ _WORKS = {
 
 
 def rigid_time_history(
-    model: Frame,
+    model: FrameContents,
     motion: GroundMotion,
     length: float,
     dt: float | None,

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from frames.analysis.static import GravityState
     from frames.kernel_data import Output
-    from frames.model.frame import Frame
+    from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
 METHODS = ("direct",)
@@ -51,7 +51,7 @@ _ENERGY_FLOOR = 1e-6  # of weight times effective radius
 
 
 def time_history(
-    model: Frame,
+    model: FrameContents,
     motion: GroundMotion,
     duration: float | None = None,
     dt: float | None = None,
@@ -183,7 +183,7 @@ class Options(NamedTuple):
 
 
 def _run(
-    model: Frame,
+    model: FrameContents,
     motion: GroundMotion,
     features: Features,
     level: str | Mapping[str, str],

@@ -66,7 +66,7 @@ def assemble(
     coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
     members = _member_table(frame, index, coordinates)
     own_mass = _node_mass(frame, index, members)
-    parts = placed(frame, index)
+    parts = placed(frame.superelements.values(), index)
     node_mass = own_mass + lumped(parts.mass)
     transform, labels = free_dofs(
         frame, coordinates, node_mass, planar=not features.second_direction

@@ -15,7 +15,7 @@ from frames.model.parts import DOFS
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.assembly.assemble import System
+    from frames.assembly.system import System
     from frames.model.contents import FrameContents
     from frames.model.superelement import Superelement
 

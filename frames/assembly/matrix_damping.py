@@ -16,7 +16,7 @@ from scipy import linalg
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.assembly.basis import Basis
+    from frames.assembly.coordinates import Basis
 
 _UNCOUPLED = 1e-10  # of the gross damping of two coordinates, below which nothing couples them
 _CONSISTENT = 1e-6  # cosine of damping forces, up to which massless ones follow statically

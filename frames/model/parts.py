@@ -1,4 +1,4 @@
-"""Records of what a frame is made of; `frames.model.frame.Frame` checks and creates them."""
+"""Records of what a frame is made of; `frames.frame.Frame` checks and creates them."""
 
 from __future__ import annotations
 

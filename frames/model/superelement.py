@@ -11,10 +11,9 @@ from scipy import sparse
 from frames._validate import ModelError, vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from frames._types import FloatArray, MatrixLike, SparseMatrix
-    from frames.model.contents import FrameContents
 
 _SYMMETRY = 1e-8  # of the largest entry, that a matrix may differ from its transpose
 
@@ -140,15 +139,15 @@ class Placed(NamedTuple):
     equations: SparseMatrix
 
 
-def placed(frame: FrameContents, index: dict[str, int]) -> Placed:
-    """Sum up the superelements of a frame.
+def placed(parts: Iterable[Superelement], index: dict[str, int]) -> Placed:
+    """Sum up superelements.
 
     Parameters
     ----------
-    frame : Frame
-        The model.
+    parts : iterable of Superelement
+        What is summed up.
     index : dict of str to int
-        Places of its nodes.
+        Places of the nodes of the frame.
 
     Returns
     -------
@@ -159,7 +158,7 @@ def placed(frame: FrameContents, index: dict[str, int]) -> Placed:
     stiffness, mass, damping = (sparse.csr_array((size, size), dtype=np.float64) for _ in range(3))
     load = np.zeros(size)
     equations = [sparse.csr_array((0, size), dtype=np.float64)]
-    for part in frame.superelements.values():
+    for part in parts:
         places = np.array([index[node] for node in part.nodes], dtype=np.int64)
         dofs = (6 * places[:, None] + np.arange(6)).ravel()
         count = len(dofs)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError, ModelWarning, positive
+from frames._validate import ModelError, positive
 from frames.assembly.assemble import assemble
 from frames.model.parts import DOFS, bearing_height
 from frames.model.superelement import lumped
@@ -23,13 +21,13 @@ from frames.opensees.checks import (
 )
 from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
+from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
-    from frames._types import BoolArray, FloatArray, SparseMatrix
     from frames.assembly.system import System
-    from frames.model.frame import Frame
+    from frames.model.contents import FrameContents
     from frames.opensees.model import OpenSeesModel
     from lir_element import LIRBearing
 
@@ -40,48 +38,18 @@ BASE_ROTATIONS = ("kept", "free", "fixed")
 LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
-@dataclass(frozen=True)
-class Options:
-    """What `Frame.from_opensees` was asked for."""
-
-    base_nodes: tuple[int, ...]
-    bearings: Mapping[int, LIRBearing]
-    vertical: str | None
-    base_rotations: str
-    base_diaphragm: bool
-    gravity: float | None
-    damping: bool
-    levels: Mapping[str, Sequence[int]] | None
-    other_supports: Collection[int]
-    accept_nonlinear: bool
-    vertical_mass: str | Mapping[int, float] | None
-    length_unit: float
-    force_unit: float
-
-
-@dataclass(frozen=True, eq=False)
-class Structure:
-    """The model in axes of the frame (z up) and SI units, six displacements a node."""
-
-    tags: tuple[int, ...]
-    coordinates: FloatArray
-    matrices: dict[str, SparseMatrix]  # mass, damping, stiffness
-    initial: SparseMatrix  # stiffness of the elements before any load
-    fixed: BoolArray  # (n, 6), true where held
-    present: BoolArray  # (n, 6), false for displacements that the model does not have
-    equations: SparseMatrix
-    load: FloatArray  # (6 n,)
-
-
-def build(frame: Frame, options: Options) -> None:
-    """Fill an empty frame with the current model of OpenSeesPy, on bearings.
+def read(options: Options) -> tuple[Taken, Structure]:
+    """Read the current model of OpenSeesPy: what a frame on bearings is given, and the structure.
 
     Parameters
     ----------
-    frame : Frame
-        An empty frame.
     options : Options
         What was asked for.
+
+    Returns
+    -------
+    tuple of Taken and Structure
+        For `Frame.from_opensees` to add, and for `refuse_taken` to judge what came of it.
 
     Raises
     ------
@@ -109,14 +77,33 @@ def build(frame: Frame, options: Options) -> None:
     notes += said
     load, said = permanent_load(structure, options)
     notes += said + rigid_damping(structure, options) + light_base(structure, options)
-    _add_structure(frame, structure, load, notes)
-    _add_bearings(frame, structure, options)
-    _add_levels(frame, structure, options)
+    taken = Taken(load=load, notes=notes)
+    _add_structure(taken, structure)
+    _add_bearings(taken, structure, options)
+    _add_levels(taken, structure, options)
+    return taken, structure
+
+
+def refuse_taken(frame: FrameContents, structure: Structure, options: Options) -> None:
+    """Refuse a frame taken over whose bearings could not work, or that would fall.
+
+    Parameters
+    ----------
+    frame : Frame
+        With all that was read.
+    structure : Structure
+        What was read.
+    options : Options
+        What was asked for.
+
+    Raises
+    ------
+    ModelError
+        If constraints still hold a base node, or the structure leans.
+    """
     system = assemble(frame)
     _refuse_held_bases(system, structure, options)
     refuse_leaning(system, structure.initial)
-    for note in notes:
-        warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=3)
 
 
 def bearings_by_tag(
@@ -239,53 +226,51 @@ def _released(structure: Structure, options: Options) -> Structure:
     )
 
 
-def _add_structure(frame: Frame, structure: Structure, load: FloatArray, notes: list[str]) -> None:
-    names = tuple(str(tag) for tag in structure.tags)
-    for name, point, fixed in zip(names, structure.coordinates, structure.fixed, strict=True):
-        frame.add_node(name, *point.tolist())
-        held = [dof for dof, is_held in zip(DOFS, fixed, strict=True) if is_held]
+def _add_structure(taken: Taken, structure: Structure) -> None:
+    taken.members = tuple(str(tag) for tag in structure.tags)
+    taken.matrices, taken.equations = structure.matrices, structure.equations
+    for name, point, fixed in zip(
+        taken.members, structure.coordinates.tolist(), structure.fixed, strict=True
+    ):
+        taken.nodes[name] = (point[0], point[1], point[2])
+        held = tuple(dof for dof, is_held in zip(DOFS, fixed, strict=True) if is_held)
         if held:
-            frame.fix(name, *held)
-    frame.add_superelement(
-        NAME, names, **structure.matrices, load=load, equations=structure.equations, notes=notes
-    )
+            taken.fixed[name] = held
 
 
-def _add_bearings(frame: Frame, structure: Structure, options: Options) -> None:
+def _add_bearings(taken: Taken, structure: Structure, options: Options) -> None:
     for tag, device in options.bearings.items():
-        base = frame.nodes[str(tag)]
+        x, y, z = taken.nodes[str(tag)]
         ground = f"ground-{tag}"
-        frame.add_node(ground, base.x, base.y, base.z - device.height)
-        frame.fix(ground, "all")
-        frame.add_bearing(f"bearing-{tag}", ground, base.name, device)
+        taken.nodes[ground] = (x, y, z - device.height)
+        taken.fixed[ground] = ("all",)
+        taken.bearings[f"bearing-{tag}"] = (ground, str(tag), device)
     if not options.base_diaphragm:
         return
-    at = {str(tag): frame.nodes[str(tag)].z for tag in options.base_nodes}
+    at = {str(tag): taken.nodes[str(tag)][2] for tag in options.base_nodes}
     groups = [group for group in _by_elevation(at) if len(group) > 1]
     for k, group in enumerate(groups):
-        frame.add_diaphragm("base" if len(groups) == 1 else f"base-{k + 1}", group)
+        taken.diaphragms["base" if len(groups) == 1 else f"base-{k + 1}"] = group
 
 
-def _add_levels(frame: Frame, structure: Structure, options: Options) -> None:
+def _add_levels(taken: Taken, structure: Structure, options: Options) -> None:
     # The base, and every elevation with mass; or as given.
+    at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
     if options.levels is not None:
-        given = sorted(options.levels.items(), key=lambda item: frame.nodes[str(item[1][0])].z)
-        for name, tags in given:
-            frame.add_level(name, [str(tag) for tag in tags])
+        given = sorted(options.levels.items(), key=lambda item: at.get(str(item[1][0]), math.inf))
+        taken.levels = {name: [str(tag) for tag in tags] for name, tags in given}
         return
     mass = lumped(structure.matrices["mass"])[:, 0]
-    at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
     heavy = dict(zip(at, mass.tolist(), strict=True))
     rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))
     bases = {str(tag) for tag in options.base_nodes}
-    place = 0
     for group in _by_elevation(at):
         is_base = bool(bases.intersection(group))
         if not is_base and not any(heavy[name] > 0.0 for name in group):
             continue
         # a master node that is held vertically is no part of the floor's vertical motion
-        frame.add_level(f"level-{place}", [name for name in group if rises[name]] or group)
-        place += 1
+        name = f"level-{len(taken.levels)}"
+        taken.levels[name] = [node for node in group if rises[node]] or group
 
 
 def _by_elevation(at: dict[str, float]) -> list[list[str]]:

@@ -13,7 +13,7 @@ from frames.model.superelement import lumped
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.opensees.frame import Options, Structure
+    from frames.opensees.structure import Options, Structure
 
 _LOADED = 1e-3  # of the weight of the masses, from which on a model counts as loaded
 _RIGID_DAMPING = 0.005  # damping ratio of the rigid motion on the bearings that is worth a warning

@@ -14,7 +14,7 @@ from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
-    from frames.opensees.frame import Structure
+    from frames.opensees.structure import Structure
 
 HORIZONTAL = "horizontal"
 """The option that lets masses act along the vertical as they do along x."""

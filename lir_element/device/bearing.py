@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import Literal, cast
 
 import numpy as np
 
 from lir_element.device.bearing_checks import check_bearing
-from lir_element.device.friction import Friction
-from lir_element.door import as_number, as_pair, frozen_pair, require_positive
+from lir_element.device.specification import Specification
+from lir_element.door import as_pair, frozen_pair, require_positive
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
 from lir_element.tables import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
@@ -25,14 +24,10 @@ _UNITS = {
     "rim_damping": "N s/m", "design_load": "N", "slider_density": "kg/m3", "slider_mass": "kg",
     "slider_inertia": "kg m2",
 }  # fmt: skip
-_STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
-_DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
-_AXIAL_DAMPING_RATIO = 0.05
-_RIM_DAMPING_RATIO = 0.10
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class LIRBearing:
+class LIRBearing(Specification):
     """A Lateral Impact Resilient Double Concave Friction Pendulum bearing.
 
     Parameters
@@ -113,32 +108,6 @@ class LIRBearing:
     (0.0928, 0.0928)
     """
 
-    radius: float | tuple[float, float]
-    slider_height: float
-    slider_radius: float
-    friction: Friction | tuple[Friction, Friction]
-    interface_friction: float
-    capacity: float | None = None
-    rims: float | tuple[float, float] | None = None
-    axial_stiffness: float | None = None
-    axial_damping: float | None = None
-    rim_stiffness: float | None = None
-    rim_damping: float | None = None
-    rim_overrun: float | None = None
-    slip_capacity: float | None = None
-    design_load: float | None = None
-    yield_displacement: float = 0.25e-3
-    interface_yield_displacement: float = 0.01e-3
-    friction_law: Literal["elastic-plastic", "bouc-wen"] = "elastic-plastic"
-    bouc_wen_exponent: float = 2.0
-    torsional_friction: bool = True
-    plate_thickness: float | tuple[float, float] = 0.0
-    slider_density: float = 7850.0
-    slider_mass: float | tuple[float, float] | None = None
-    slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = None
-    contact_points: int = 8
-    allow_weak_interface: bool = False
-
     def __post_init__(self) -> None:
         for name in ("radius", "friction", "plate_thickness", "rims", "slider_mass"):
             object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
@@ -189,62 +158,6 @@ class LIRBearing:
             rows.append((f.name, shown, f"{_UNITS.get(f.name, '-')}{note}"))
         return rows
 
-    @property
-    def radii(self) -> tuple[float, float]:
-        """Radius of the bottom and of the top surface [m]."""
-        first, second = as_pair("radius", self.radius)
-        return as_number("radius", first, "m"), as_number("radius", second, "m")
-
-    @property
-    def frictions(self) -> tuple[Friction, Friction]:
-        """Friction of the bottom and of the top surface."""
-        return cast("tuple[Friction, Friction]", as_pair("friction", self.friction))
-
-    @property
-    def effective_radius(self) -> float:
-        """L = R1 + R2 - h [m] (R_eff in the paper)."""
-        return sum(self.radii) - self.slider_height
-
-    @property
-    def rim_displacement(self) -> tuple[float, float]:
-        """Sliding on the bottom and the top surface at which its rim is met [m]."""
-        if self.rims is not None:
-            bottom, top = as_pair("rims", self.rims)
-            return as_number("rims", bottom, "m"), as_number("rims", top, "m")
-        first, second = self.radii
-        ratio = float(self.capacity or math.inf) / self.effective_radius
-        return first * ratio, second * ratio
-
-    @property
-    def lateral_capacity(self) -> float:
-        """Lateral displacement at the first rim contact, plates parallel [m]."""
-        ratios = (d / r for d, r in zip(self.rim_displacement, self.radii, strict=True))
-        return self.effective_radius * min(ratios)
-
-    @property
-    def effective_friction(self) -> float:
-        """Sliding force at zero displacement over weight, at high speed [-].
-
-        (mu1 R1 + mu2 R2) / L, from the moment equilibrium of the slider.
-        """
-        moment = sum(f.f_max * r for f, r in zip(self.frictions, self.radii, strict=True))
-        return moment / self.effective_radius
-
-    @property
-    def period(self) -> float:
-        """Period of the pendulum, 2 pi sqrt(L / g) [s]."""
-        return 2.0 * math.pi * math.sqrt(self.effective_radius / STANDARD_GRAVITY)
-
-    @property
-    def height(self) -> float:
-        """Vertical distance from node i to node j, undeformed [m]."""
-        return sum(as_pair("plate_thickness", self.plate_thickness)) + self.slider_height
-
-    @property
-    def is_dcfp(self) -> bool:
-        """Whether the slider is one piece."""
-        return math.isinf(self.interface_friction)
-
     def force_limit(self, axial_load: float) -> float:
         """Return the lateral force that starts the high-friction sliding at the rim [N].
 
@@ -274,25 +187,6 @@ class LIRBearing:
         if rims:
             return replace(self, interface_friction=math.inf)
         return replace(self, interface_friction=math.inf, capacity=math.inf, rims=None)
-
-    def resolved(self) -> dict[str, float]:
-        """Return the optional mechanical properties, defaults filled in (SI units)."""
-        area = math.pi * self.slider_radius**2
-        load = self.design_load or _DESIGN_PRESSURE * area
-        mass = load / STANDARD_GRAVITY
-        axial = self.axial_stiffness or _STACK_MODULUS * area / self.slider_height
-        rim = self.rim_stiffness or 0.1 * axial
-        return {
-            "design_load": load,
-            "axial_stiffness": axial,
-            "axial_damping": _or(
-                self.axial_damping, 2.0 * _AXIAL_DAMPING_RATIO * math.sqrt(axial * mass)
-            ),
-            "rim_stiffness": rim,
-            "rim_damping": _or(self.rim_damping, 2.0 * _RIM_DAMPING_RATIO * math.sqrt(rim * mass)),
-            "rim_overrun": self.rim_overrun or 0.1 * self.slider_radius,
-            "slip_capacity": self.slip_capacity or self.slider_radius,
-        }
 
     def to_record(self) -> Records:
         """Return the kernels' properties, a record array of shape (1,)."""
@@ -332,7 +226,3 @@ class LIRBearing:
         for name in record.dtype.names or ():
             complete[name] = record[name]
         return complete
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else float(value)

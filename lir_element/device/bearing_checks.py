@@ -14,7 +14,7 @@ from lir_element.door import as_pair, require_non_negative, require_positive
 from lir_element.units import LENGTHS, meant, per_cent
 
 if TYPE_CHECKING:
-    from lir_element.device.bearing import LIRBearing
+    from lir_element.device.specification import Specification
 
 LARGEST_SINE = 0.95
 """Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
@@ -34,7 +34,7 @@ class DesignWarning(UserWarning):
     """A bearing that can be computed, but will not work as it is meant to."""
 
 
-def check_bearing(bearing: LIRBearing) -> None:
+def check_bearing(bearing: Specification) -> None:
     """Check every number of a bearing and what they make together.
 
     Raises
@@ -70,7 +70,7 @@ def check_bearing(bearing: LIRBearing) -> None:
         warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 
-def _check_sliders(bearing: LIRBearing) -> None:
+def _check_sliders(bearing: Specification) -> None:
     require_positive("slider_density", bearing.slider_density, "kg/m3")
     for mass in as_pair("slider_mass", bearing.slider_mass):
         if mass is not None:
@@ -97,7 +97,7 @@ def _check_sliders(bearing: LIRBearing) -> None:
         raise ValueError(msg)
 
 
-def _check_geometry(bearing: LIRBearing) -> None:
+def _check_geometry(bearing: Specification) -> None:
     for name, value in zip(("bottom", "top"), as_pair("radius", bearing.radius), strict=True):
         require_positive(f"radius ({name})", value, "m")
     require_positive("slider_height", bearing.slider_height, "m")
@@ -128,7 +128,7 @@ def _check_geometry(bearing: LIRBearing) -> None:
         raise ValueError(msg)
 
 
-def _check_friction(bearing: LIRBearing) -> None:
+def _check_friction(bearing: Specification) -> None:
     pair: tuple[object, object] = as_pair("friction", bearing.friction)
     for law in pair:
         if not isinstance(law, (CoulombFriction, VelocityFriction)):
@@ -162,7 +162,7 @@ def _check_friction(bearing: LIRBearing) -> None:
         warnings.warn(msg, DesignWarning, stacklevel=6)
 
 
-def _check_rims(bearing: LIRBearing) -> None:
+def _check_rims(bearing: Specification) -> None:
     if bearing.capacity is None and bearing.rims is None:
         msg = (
             "capacity is missing: give the lateral displacement at the first rim contact [m] "
@@ -203,7 +203,7 @@ def _check_rims(bearing: LIRBearing) -> None:
     _refuse_overlap(bearing)
 
 
-def _refuse_overlap(bearing: LIRBearing) -> None:
+def _refuse_overlap(bearing: Specification) -> None:
     # Both surfaces reach out to where a slider at the rim ends; at rest, one above the other, they
     # come closest at the edge of the smaller one. Displaced and raised, the gap only grows.
     edge = min(bearing.rim_displacement) + bearing.slider_radius

@@ -23,7 +23,7 @@ from lir_element.units import (
 )
 
 if TYPE_CHECKING:
-    from lir_element.device.bearing import LIRBearing
+    from lir_element.device.specification import Specification
 
 LARGEST_SLIDER = 3.0
 """Radius or height of a slider that nobody builds [m]; the largest are about 1 m."""
@@ -65,12 +65,12 @@ def pressure_remedy(pressure: float) -> str:
     return "look at the units of load and mass (N for kg) and at the slider's radius"
 
 
-def refuse_sizes(bearing: LIRBearing) -> None:
+def refuse_sizes(bearing: Specification) -> None:
     """Refuse lengths that no bearing has.
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Specification
         Its lengths are positive numbers.
 
     Raises
@@ -100,12 +100,12 @@ def _refuse(name: str, value: float, bound: float, usual: tuple[float, float]) -
         raise ValueError(msg)
 
 
-def refuse_forces(bearing: LIRBearing) -> None:
+def refuse_forces(bearing: Specification) -> None:
     """Refuse loads and stiffnesses that no bearing has.
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Specification
         Its numbers are checked one by one.
 
     Raises
@@ -134,12 +134,12 @@ def refuse_forces(bearing: LIRBearing) -> None:
         raise ValueError(msg)
 
 
-def doubts(bearing: LIRBearing) -> tuple[str, ...]:
+def doubts(bearing: Specification) -> tuple[str, ...]:
     """Return what is strange about a bearing, a sentence each; nothing for usual ones.
 
     Parameters
     ----------
-    bearing : LIRBearing
+    bearing : Specification
         The device, checked.
 
     Returns
@@ -150,7 +150,7 @@ def doubts(bearing: LIRBearing) -> tuple[str, ...]:
     return (*_of_geometry(bearing), *_of_loads(bearing), *_of_friction(bearing), *_of_rims(bearing))
 
 
-def _of_geometry(bearing: LIRBearing) -> list[str]:
+def _of_geometry(bearing: Specification) -> list[str]:
     found = []
     length = bearing.effective_radius
     if length > LONG_PENDULUM and max(bearing.radii) < FLAT:
@@ -188,7 +188,7 @@ def _of_geometry(bearing: LIRBearing) -> list[str]:
     return found
 
 
-def _of_loads(bearing: LIRBearing) -> list[str]:
+def _of_loads(bearing: Specification) -> list[str]:
     found = []
     options = bearing.resolved()
     load, stiffness = options["design_load"], options["axial_stiffness"]
@@ -209,7 +209,7 @@ def _of_loads(bearing: LIRBearing) -> list[str]:
     return found
 
 
-def _of_friction(bearing: LIRBearing) -> list[str]:
+def _of_friction(bearing: Specification) -> list[str]:
     found = []
     for law in dict.fromkeys(bearing.frictions):
         if law.f_max > LARGEST_FRICTION:
@@ -225,7 +225,7 @@ def _of_friction(bearing: LIRBearing) -> list[str]:
     return found
 
 
-def _of_rims(bearing: LIRBearing) -> list[str]:
+def _of_rims(bearing: Specification) -> list[str]:
     found = []
     options = bearing.resolved()
     edge = bearing.slider_radius
@@ -251,5 +251,5 @@ def _of_rims(bearing: LIRBearing) -> list[str]:
     return found
 
 
-def _area(bearing: LIRBearing) -> float:
+def _area(bearing: Specification) -> float:
     return math.pi * bearing.slider_radius**2

@@ -10,14 +10,14 @@ from typing import Any, Literal
 
 from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
-from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.fast.grafted import Grafted
 from lir_element.opensees.fast.manners import Manners
 from lir_element.opensees.fast.selftest import why_not_fast
 from lir_element.opensees.fast.symbols import NotPossibleError
+from lir_element.opensees.hosted import Hosted
 from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import Placement, place
-from lir_element.opensees.portable.connection import add_host_element
 from lir_element.opensees.portable.remote import Orphans, Remote, Server, ServerError
 
 Route = Literal["auto", "fast", "portable"]

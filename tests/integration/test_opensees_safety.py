@@ -36,7 +36,7 @@ import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
 from tests.integration.conftest import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
-from lir_element.opensees.portable import connection
+from lir_element.opensees import connection
 from lir_element.opensees.plugin import _SESSION
 
 ops = opensees()

@@ -1,6 +1,7 @@
 """How the packages are built: imports point one way, functions stay short, nothing is swallowed."""
 
 import ast
+import functools
 import warnings
 from pathlib import Path
 
@@ -58,6 +59,18 @@ def is_kernel(function: ast.FunctionDef) -> bool:
     return any(isinstance(d, ast.Name) and d.id in DECORATORS for d in decorators)
 
 
+# Rooms of modules alone, from the floor to the roof: each imports from those before it.
+FLOORS = (
+    "lir_element.device", "lir_element.bundles", "lir_element.kernels.pendulum",
+    "lir_element.kernels.contact", "lir_element.kernels.rigid_body", "lir_element.results",
+    "lir_element.rig", "lir_element.opensees.block", "lir_element.opensees.kernels",
+    "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
+    "frames.model", "frames.motion", "frames.assembly", "frames.kernels", "frames.results",
+    "frames.analysis", "frames.opensees", "frames.library", "frames.plots",
+    "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
+)  # fmt: skip
+
+
 def test_there_is_something_to_check() -> None:
     assert len(MODULES) > 25
     assert sum(is_kernel(f) for path in MODULES for f in functions(parse(path))) > 30
@@ -76,6 +89,66 @@ def dotted(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
+def targets(path: Path) -> set[str]:
+    """Return the modules that a module imports, anywhere in it and for annotations, too."""
+    names = imported(parse(path), "")
+    found = {m for n in names for m in (n, n.rpartition(".")[0]) if m in FILES}
+    whole = {m for m in found if m not in names and any(n.startswith(f"{m}.") for n in names)}
+    parts = {n.rpartition(".")[0] for n in names & found}
+    return (found - (parts & whole)) - {dotted(path)}
+
+
+@functools.cache
+def room(path: Path) -> str:
+    """Return the folder, or the module itself where its folder holds rooms."""
+    return dotted(path) if holds_rooms(path.parent) else name_of(path.parent)
+
+
+def name_of(folder: Path) -> str:
+    return ".".join(folder.relative_to(ROOT).parts)
+
+
+def holds_rooms(folder: Path) -> bool:
+    return any(folder in other.parents and other.parent != folder for other in MODULES)
+
+
+def circles(graph: dict[str, set[str]]) -> list[str]:
+    """Return what is left of a graph when, again and again, all that lead nowhere are removed."""
+    left = {node: set(after) for node, after in graph.items()}
+    while ends := {node for node, after in left.items() if not after & set(left)}:
+        left = {node: after for node, after in left.items() if node not in ends}
+    return sorted(left)
+
+
+def test_a_circle_is_found() -> None:
+    assert circles({"a": {"b"}, "b": {"c"}, "c": set()}) == []
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"e"}, "e": set()}) == ["a", "b", "c"]
+
+
+def test_modules_do_not_import_each_other_in_a_circle() -> None:
+    assert circles({dotted(path): targets(path) for path in MODULES}) == []
+
+
+@functools.cache
+def room_graph() -> dict[str, set[str]]:
+    rooms: dict[str, set[str]] = {room(path): set() for path in MODULES}
+    for path in MODULES:
+        rooms[room(path)] |= {room(FILES[name]) for name in targets(path)} - {room(path)}
+    return rooms
+
+
+def test_rooms_do_not_import_each_other_in_a_circle() -> None:
+    assert circles(room_graph()) == []
+
+
+def test_rooms_keep_their_direction() -> None:
+    graph = room_graph()
+    folders = {path.parent for path in MODULES}
+    assert {name_of(folder) for folder in folders if not holds_rooms(folder)} == set(FLOORS)
+    for k, name in enumerate(FLOORS):
+        assert graph[name] & set(FLOORS) <= set(FLOORS[:k]), name
+
+
 def at_runtime(path: Path) -> ast.Module:
     """Return the module without what only annotations need."""
     tree = parse(path)
@@ -87,9 +160,11 @@ def at_runtime(path: Path) -> ast.Module:
 
 def needed_modules(path: Path) -> set[Path]:
     """Return the files of the packages that a module imports at runtime."""
-    files = {dotted(p): p for p in MODULES}
     names = imported(at_runtime(path), "")
-    return {files[m] for n in names for m in (n, n.rpartition(".")[0]) if m in files}
+    return {FILES[m] for n in names for m in (n, n.rpartition(".")[0]) if m in FILES}
+
+
+FILES = {dotted(path): path for path in MODULES}
 
 
 @pytest.mark.parametrize("path", KERNELS, ids=[dotted(p) for p in KERNELS])

@@ -22,8 +22,8 @@ from frames.assembly.assemble import (
     member_axial_forces,
     member_end_forces,
 )
-from frames.model.frame import Frame
-from frames.model.library import moment_frame
+from frames.frame import Frame
+from frames.library.models import moment_frame
 from frames.model.sections import Section
 
 if TYPE_CHECKING:

@@ -15,9 +15,9 @@ from numpy.testing import assert_allclose
 
 from frames._validate import ModelError
 from frames.assembly.assemble import System, assemble, member_axial_forces
+from frames.frame import Frame
+from frames.library.models import lumped_mass, moment_frame, shear_building
 from frames.model.damping import ModalDamping, RayleighDamping
-from frames.model.frame import Frame
-from frames.model.library import lumped_mass, moment_frame, shear_building
 from frames.model.parts import bearing_axial_stiffness
 from frames.model.sections import Section
 

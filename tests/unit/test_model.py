@@ -12,8 +12,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames._validate import ModelError
+from frames.frame import Frame
 from frames.model.damping import ModalDamping, RayleighDamping
-from frames.model.frame import Frame
 from frames.model.parts import bearing_axial_stiffness
 from frames.model.sections import Section
 

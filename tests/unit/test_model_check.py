@@ -13,8 +13,8 @@ from scipy import sparse
 from frames.assembly import check
 from frames.assembly.assemble import assemble
 from frames.assembly.check import ModelError, free_motions
-from frames.model.frame import Frame
-from frames.model.library import lumped_mass, moment_frame
+from frames.frame import Frame
+from frames.library.models import lumped_mass, moment_frame
 from frames.model.sections import Section
 
 if TYPE_CHECKING:

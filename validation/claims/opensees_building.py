@@ -23,7 +23,7 @@ from frames import (
     moment_frame,
     time_history,
 )
-from frames.model.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import builtin_element
 from validation.cases import example_bearing

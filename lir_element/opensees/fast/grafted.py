@@ -15,7 +15,7 @@ from lir_element.opensees.fast.graft import Graft, address_of, common_functions
 if TYPE_CHECKING:
     import socket
 
-    from lir_element.opensees.block.hosted import Hosted
+    from lir_element.opensees.hosted import Hosted
 
 _HOST_RESPONSES = {"force"}
 """Names that the host element answers by itself, from our resisting force."""
@@ -106,7 +106,7 @@ def _state_words() -> list[tuple[str, int, int, bool]]:
 @functools.cache
 def _callbacks(level: str) -> dict[str, int]:
     # Addresses of what stands in for each function; compiled on first use.
-    from lir_element.opensees.block.hosted import entries_of
+    from lir_element.opensees.hosted import entries_of
     from lir_element.opensees.kernels import callbacks
 
     entries = entries_of(level)

@@ -23,12 +23,12 @@ from lir_element import CoulombFriction, LIRBearing
 from lir_element._cache import keep
 from lir_element._jit import OWN
 from lir_element._progress import say
-from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.fast.grafted import Grafted
 from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
+from lir_element.opensees.hosted import Hosted
 from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.placement import place
-from lir_element.opensees.portable.connection import add_host_element
 
 _LONGEST = 900.0
 """How long the self-test may take [s]; it compiles the kernels the first time."""

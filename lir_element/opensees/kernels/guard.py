@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from numba import carray
 
 from lir_element._jit import entry_point, kernel
+from lir_element.opensees.block.guard_layout import GUARD
 from lir_element.opensees.block.pointers import call_poll, call_transfer, call_write, pointer
-from lir_element.opensees.portable.guard_layout import GUARD
-from lir_element.opensees.portable.protocol import END
+from lir_element.opensees.block.protocol import END
 
 if TYPE_CHECKING:
-    from lir_element.opensees.portable.guard_layout import GuardBlock
+    from lir_element.opensees.block.guard_layout import GuardBlock
 
 _STDERR = 2
 _READABLE = 1  # POLLIN, the same on all systems

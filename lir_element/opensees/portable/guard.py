@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lir_element.opensees.portable.guard_layout import GUARD, MOST_CHANNELS
+from lir_element.opensees.block.guard_layout import GUARD, MOST_CHANNELS
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

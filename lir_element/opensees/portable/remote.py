@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import psutil
 
+from lir_element.opensees.block.protocol import vector_length
 from lir_element.opensees.library import child_environment
 from lir_element.opensees.portable.guard import Guard
-from lir_element.opensees.portable.protocol import vector_length
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

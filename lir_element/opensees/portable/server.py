@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lir_element.errors import RunStatus
-from lir_element.opensees.block.hosted import Hosted
+from lir_element.opensees.block import protocol
 from lir_element.opensees.block.layout import MOST_DOFS
-from lir_element.opensees.portable import protocol
+from lir_element.opensees.hosted import Hosted
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
-from frames._validate import ModelError, known_name, new_name, non_negative, of_type, vector
+from frames._validate import (
+    ModelError,
+    ModelWarning,
+    known_name,
+    new_name,
+    non_negative,
+    of_type,
+    vector,
+)
 from frames.model.axes import default_up, local_axes
 from frames.model.contents import STANDARD_GRAVITY, FrameContents, frozen
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
@@ -30,6 +39,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike
     from frames.analysis.model_check import ModelCheck
     from frames.motion.ground_motion import GroundMotion
+    from frames.opensees.structure import Taken
     from lir_element import LIRBearing
 
 POSITION_TOLERANCE = 1e-3
@@ -142,9 +152,10 @@ class Frame(FrameContents):
         docs/choices.md.
         """
         from frames.opensees import frame as opensees_frame  # needs the optional openseespy
+        from frames.opensees.structure import Options
 
         tags, devices = opensees_frame.bearings_by_tag(base_nodes, bearing)
-        options = opensees_frame.Options(
+        options = Options(
             base_nodes=tags,
             bearings=devices,
             vertical=vertical,
@@ -160,8 +171,29 @@ class Frame(FrameContents):
             force_unit=force_unit,
         )
         frame = cls(name, STANDARD_GRAVITY if gravity is None else gravity)
-        opensees_frame.build(frame, options)
+        taken, structure = opensees_frame.read(options)
+        frame._add_taken(taken)
+        opensees_frame.refuse_taken(frame, structure, options)
+        for note in taken.notes:
+            warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=2)
         return frame
+
+    def _add_taken(self, taken: Taken) -> None:
+        # Everything that was read of an OpenSees model.
+        for name, point in taken.nodes.items():
+            self.add_node(name, *point)
+        for name, dofs in taken.fixed.items():
+            self.fix(name, *dofs)
+        self.add_superelement(
+            "opensees", taken.members, **taken.matrices,
+            load=taken.load, equations=taken.equations, notes=taken.notes,
+        )  # fmt: skip
+        for name, (i, j, device) in taken.bearings.items():
+            self.add_bearing(name, i, j, device)
+        for name, nodes in taken.diaphragms.items():
+            self.add_diaphragm(name, nodes)
+        for name, nodes in taken.levels.items():
+            self.add_level(name, nodes)
 
     def add_node(self, name: str, x: float, y: float, z: float) -> None:
         """Add a node at (x, y, z) [m]; the name must be new."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from frames._validate import ModelError, positive
-from frames.model.frame import Frame
+from frames.frame import Frame
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

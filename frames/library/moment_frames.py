@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from frames._validate import ModelError, non_negative, positive
+from frames.frame import Frame
+from frames.library.grid import bearing_grid, pair
 from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping, ModalDamping
-from frames.model.frame import Frame
-from frames.model.grid import bearing_grid, pair
 from frames.model.sections import Section
 
 if TYPE_CHECKING:
-    from frames.model.grid import Bearings
+    from frames.library.grid import Bearings
 
 DEFAULT_DAMPING = ModalDamping(0.02)
 """Two per cent in every mode of the structure, customary for steel above an isolation level."""

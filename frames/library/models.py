@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from frames._validate import ModelError, positive
+from frames.frame import Frame
+from frames.library.grid import bearing_grid, pair
+from frames.library.moment_frames import DEFAULT_DAMPING
+from frames.library.moment_frames import moment_frame as moment_frame
 from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping
-from frames.model.frame import Frame
-from frames.model.grid import bearing_grid, pair
-from frames.model.moment_frames import DEFAULT_DAMPING
-from frames.model.moment_frames import moment_frame as moment_frame
 from frames.model.parts import bearing_axial_stiffness
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.model.grid import Bearings
+    from frames.library.grid import Bearings
     from lir_element import LIRBearing
 
     Storeys: TypeAlias = float | Sequence[float] | FloatArray

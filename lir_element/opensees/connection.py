@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import psutil
 
-from lir_element.opensees.portable.protocol import vector_length
+from lir_element.opensees.block.protocol import vector_length
 
 if TYPE_CHECKING:
     from lir_element.opensees.placement import Placement

@@ -1,0 +1,62 @@
+"""A frame in bearing degrees of freedom and fixed-interface modes, as `build_basis` makes it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray
+
+
+@dataclass(frozen=True, repr=False)
+class Basis:
+    """A frame in bearing coordinates b (n_b) and fixed-interface modes eta (n_e).
+
+    Attributes
+    ----------
+    bearing_dofs : ndarray, (n_b,)
+        Places of b among the free DOFs q.
+    expand_b, expand_e : ndarray, (n_free, n_b), (n_free, n_e)
+        ``q = expand_b @ b + expand_e @ eta + offset``.
+    offset : ndarray, (n_free,)
+        Static displacement of what has no mass under its own loads.
+    mass_b, mass_be : ndarray, (n_b, n_b), (n_b, n_e)
+        Mass of b, and what couples it with eta.
+    mass_e : ndarray, (n_e,)
+        Mass of eta: 1 of the modes, 0 of what lags behind (frames/assembly/matrix_damping.py).
+    stiffness_b : ndarray, (n_b, n_b)
+        Stiffness without bearings, geometric part included.
+    damping_b : ndarray, (n_b, n_b)
+        Damping of the base's own deformation.
+    omega2, damping_e : ndarray, (n_e,)
+        Squared circular frequencies and damping constants (2 zeta omega) of the modes.
+    damping_be, damping_ee : ndarray, (n_b, n_e), (n_e, n_e)
+        Damping besides that is given as a matrix; of no size where there is none.
+    load_b, load_e : ndarray
+        Permanent loads.
+    inertia_b, inertia_e : ndarray, (n_b, 3), (n_e, 3)
+        Loads per unit ground acceleration, with positive sign.
+    """
+
+    bearing_dofs: IntArray
+    expand_b: FloatArray
+    expand_e: FloatArray
+    offset: FloatArray
+    mass_b: FloatArray
+    mass_be: FloatArray
+    mass_e: FloatArray
+    stiffness_b: FloatArray
+    damping_b: FloatArray
+    omega2: FloatArray
+    damping_e: FloatArray
+    damping_be: FloatArray
+    damping_ee: FloatArray
+    load_b: FloatArray
+    load_e: FloatArray
+    inertia_b: FloatArray
+    inertia_e: FloatArray
+
+    def __repr__(self) -> str:
+        """Return sizes on one line."""
+        return f"Basis: {len(self.load_b)} bearing coordinates, {len(self.omega2)} modes"
