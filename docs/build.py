@@ -45,6 +45,9 @@ ATTRIBUTES = {
     "features_left_out": 'names of the features left out, or "none"',
     "plane_coupling": "displacement along y over that along x of a push along x, where the second "
     "direction is left out [-]; else 0",
+    "energy_error": "largest gap of the ledger of energy over the largest input [-]",
+    "numerical_share": "largest work that the time integration leaves over, over the largest input "
+    "[-]",
     "audit": 'lines of the audit; "!" begins those on something left out that mattered',
     "auto_runs": 'a line for each run of `level="auto"`; only of those',
     "method": "method of the analysis",
@@ -52,7 +55,7 @@ ATTRIBUTES = {
     "spectral_radius": "of the generalised-alpha method at infinite frequency [-]",
     "dt": "base step [s]",
     "step_control": '"error" where the program chose the step (dt=None), "fixed" where given',
-    "tolerance": "error of a step over the effective radius [-] where the program chose the step",
+    "tolerance": "error of a step over the displacement reached [-] where the program chose it",
     "steps": "steps taken, halved ones included",
     "newton_iterations": "iterations of Newton's method in all",
     "halvings": "how often a step was halved",
@@ -76,7 +79,7 @@ TERMS = {
     "low_friction_bottom": "dissipated on the bottom concave surfaces (and half of torsion)",
     "low_friction_top": "dissipated on the top concave surfaces (and half of torsion)",
     "high_friction": "dissipated in the high-friction interfaces",
-    "friction_elastic": "work of all friction before slip (elastic sliding)",
+    "friction_elastic": "stored in the elastic sliding before slip, all friction",
     "rims": "work done on the rims: strain and damping",
     "contact": "work done on the axial contacts: strain and damping",
     "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",

@@ -14,6 +14,7 @@ from lir_element.rig.cyclic_test import cyclic_test as cyclic_test
 
 __all__ = [
     "AnalysisError",
+    "AnalysisInterrupted",
     "AnalysisWarning",
     "CoulombFriction",
     "DesignWarning",

@@ -124,7 +124,10 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             each, states["work_interface"].copy(), "J", "dissipated by the high-friction interface"
         ),
         "work_friction_elastic": labelled(
-            each, states["work_elastic"].copy(), "J", "work of all friction before slip"
+            each,
+            states["work_elastic"].copy(),
+            "J",
+            "stored by all friction before slip",
         ),
         "work_rims": labelled(each, states["work_rim"].sum(axis=-1), "J", "work done on the rims"),
         "work_contact": labelled(
