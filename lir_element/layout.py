@@ -51,12 +51,6 @@ PROPS_FIELDS = (
     Field("slider_radius", "m", "a", "radius of the inner slider in plan"),
     Field("bilateral", "-", "", "1 where uplift is left out: the contact pulls", (), "i8"),
     Field("fixed_load", "N", "W", "constant vertical load without vertical coupling; 0: coupled"),
-    Field(
-        "design_load",
-        "N",
-        "",
-        "axial load the friction's stiffness refers to without a state at rest",
-    ),
 )
 
 STATE_FIELDS = (
@@ -76,12 +70,11 @@ STATE_FIELDS = (
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
     Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
     Field("slid", "m", "", "slipped part of the last step's sliding: bottom, top", (2,)),
+    Field("slid_interface", "m", "", "slipped part of the last step in the interface"),
+    Field("slid_twist", "rad", "", "slipped part of the last step's twist"),
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
-    Field(
-        "reference_load", "N", "N_0", "axial force at rest, to which friction's stiffness refers"
-    ),
-    Field("hysteresis", "N", "q", "friction force over mu: bottom, top surface", (2, 2)),
-    Field("interface_hysteresis", "N", "q_h", "the same of the interface", (2,)),
+    Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
+    Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
     Field("friction_force", "N", "F", "friction force, tangent plane: bottom, top", (2, 2)),
     Field("interface_force", "N", "F_h", "friction force of the interface, in its plane", (2,)),
     Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
@@ -90,19 +83,11 @@ STATE_FIELDS = (
     Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
     Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
     Field("twist", "rad", "psi", "relative rotation about the vertical axis"),
-    Field("twist_hysteresis", "N m", "q_t", "torsional friction, not faded"),
+    Field("twist_hysteresis", "-", "z_t", "hysteretic variable of the torsional friction"),
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("work_friction", "J", "", "dissipated by low friction: bottom, top", (2,)),
     Field("work_interface", "J", "", "dissipated by the high-friction interface"),
-    Field("work_elastic", "J", "", "stored in the elastic sliding before slip, all friction"),
-    Field(
-        "work_owed",
-        "J",
-        "",
-        "of friction that turns round within a step: bottom, top, interface",
-        (3,),
-    ),
-    Field("work_step", "J", "", "what the last step changed of it"),
+    Field("work_elastic", "J", "", "work of all friction before slip (elastic sliding)"),
     Field("work_rim", "J", "", "work done on the rims: bottom, top", (2,)),
     Field("work_contact", "J", "", "work done on the axial contact"),
     Field("work_sliders", "J", "", "taken up by the sliders' own mass: motion, weight"),
@@ -132,7 +117,7 @@ WORK_FIELDS = (
     Field("fixed_length", "m", "l", "the string's constant length under a fixed load; 0: elastic"),
     Field("vertical", "N", "", "force of the vertical spring beside a fixed load"),
     Field("stiff_vertical", "N/m", "", "its derivative"),
-    Field("drag", "N m", "", "moment of the surfaces' friction", _W_PAIR),
+    Field("drag", "m", "", "moment of the surfaces' friction over axial force", _W_PAIR),
     Field("push", "N m", "", "moment of the rims", _W_PAIR),
     Field("n_true", "N", "N", "axial force"),
     Field("n_pos", "N", "", "axial force, not below zero"),
@@ -140,36 +125,20 @@ WORK_FIELDS = (
     Field("stiff_n", "N/m", "", "derivative of the axial force"),
     Field("scale", "-", "", "n_pos / n_hat"),
     Field("closure", "m", "", "axial closure"),
-    Field("reference", "N", "N_0", "axial force to which friction's stiffness refers"),
-    Field(
-        "resting",
-        "-",
-        "",
-        "1 where the axial force becomes the reference: nothing has moved yet",
-        (),
-        "i8",
-    ),
-    Field("spring", "N", "", "friction's stiffness times yield displacement over mu"),
-    Field("kept", "-", "", "share of q that a fading spring keeps"),
-    Field(
-        "spring_kind", "-", "", "how the spring follows the axial force: see slip.hold", (), "i8"
-    ),
-    Field("cap", "N", "N", "axial force that limits friction"),
-    Field("q", "N", "q", "friction force over mu", (2, 2)),
+    Field("z", "-", "z", "hysteretic variable", (2, 2)),
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
     Field("slid", "m", "", "slipped part of it", _W_PAIR),
+    Field("slid_s", "m", "", "slipped part of the interface's increment"),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
-    Field("f", "N", "F", "friction force under n_hat", (2, 2)),
-    Field("h", "N/m", "", "its derivative by the sliding increment", (2, 2, 2)),
-    Field("f_n", "-", "", "its derivative by the axial force", (2, 2)),
-    Field("q_s", "N", "q_h", "interface force over mu_h", _W_PAIR),
+    Field("phi", "-", "", "friction force over axial force", (2, 2)),
+    Field("h", "1/m", "", "its derivative by the sliding increment", (2, 2, 2)),
+    Field("z_s", "-", "z_h", "hysteretic variable of the interface", _W_PAIR),
     Field("f_s", "N", "F_h", "force of the interface", _W_PAIR),
-    Field("g_s", "N", "F_h", "force of the interface under n_hat", _W_PAIR),
-    Field("h_s", "N/m", "", "its derivative by the slip", (2, 2)),
-    Field("g_n", "-", "", "its derivative by the axial force", _W_PAIR),
+    Field("phi_s", "-", "", "interface force over axial force", _W_PAIR),
+    Field("h_s", "1/m", "", "its derivative by the slip", (2, 2)),
     Field("n_hor", "-", "", "size of the axis' horizontal part", _W_PAIR),
     Field("unit", "-", "", "its direction, in axes of the plate", (2, 2)),
     Field("r_top", "-", "", "direction of the top rim's contact", _W_VECTOR),
@@ -234,8 +203,7 @@ BODY_FIELDS = (
 
 TOUCH_FIELDS = (
     Field("spot", "m", "", "place of the contact, axes of what carries it", (3,)),
-    Field("hysteresis", "N", "q", "friction force over mu", (2,)),
-    Field("reference", "N", "", "normal force at rest, to which its friction's stiffness refers"),
+    Field("hysteresis", "-", "z", "hysteretic variable of its friction", (2,)),
     Field("gap", "m", "", "penetration, negative when open"),
     Field("closure", "m", "pen", "penetration, zero when open"),
     Field("push", "N", "N", "normal force"),
@@ -246,15 +214,6 @@ TOUCH_FIELDS = (
 )
 
 SCRATCH_FIELDS = (
-    Field(
-        "resting",
-        "-",
-        "",
-        "1 where normal forces become references: nothing has moved yet",
-        (),
-        "i8",
-    ),
-    Field("least", "N", "", "least reference of all points of an interface"),
     Field("share", "-", "", "time step over the sum of this one and the one before"),
     Field("step_before", "s", "", "the one before"),
     Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
@@ -335,8 +294,3 @@ Scratch: TypeAlias = Any
 
 Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
-
-Mapped: TypeAlias = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float
-]
-"""What the return map of friction gives: see `kernels.slip.return_map`."""

@@ -103,4 +103,3 @@ def add_bearing_energy(run: Run) -> None:
         energy.rims += old.work_rim[0] + old.work_rim[1]
         energy.contact += old.work_contact
         energy.sliders += old.work_sliders
-        energy.numerical += old.work_step

@@ -64,8 +64,7 @@ class LIRBearing(Specification):
     design_load : float, optional
         Axial load the defaults refer to [N]. Default: 30 MPa on the slider's area.
     yield_displacement, interface_yield_displacement : float
-        Elastic sliding before slip, on a concave surface and in the interface [m], under the axial
-        force at rest (the design load, where a bearing moves before it was at rest under load).
+        Elastic sliding before slip, on a concave surface and in the interface [m].
     friction_law : {"elastic-plastic", "bouc-wen"}
         Regularisation of friction. Bouc-Wen creeps under small vibration about a biased force,
         the more the larger the yield displacement (docs/theory.md); it is there for comparison.

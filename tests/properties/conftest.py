@@ -25,7 +25,6 @@ BASE: dict[str, Any] = {
     "slip_capacity": 0.4,
     "yield_displacement": 0.5e-3,
     "interface_yield_displacement": 0.3e-3,
-    "design_load": 1e5,
     "torsional_friction": False,
 }
 VELOCITY = (VelocityFriction(0.07, 0.03, 12.0), VelocityFriction(0.09, 0.05, 6.0))

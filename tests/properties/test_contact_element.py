@@ -94,33 +94,16 @@ def differences(element: Element, u: np.ndarray, time: float, step: float) -> np
     return k
 
 
-def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 1e-7) -> float | None:
+def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 4e-7) -> float | None:
     """Return the error of the tangent over its largest entry; None where a corner lies near."""
     element.set_trial(u, STILL, time)
     k = element.tangent_stiffness()
     scale = max(np.abs(k).max(), 1.0)
     coarse, fine = (differences(element, u, time, s) for s in (2.0 * step, step))
-    bend = sides_apart(element, u, time, 0.1 * step)
     element.set_trial(u, STILL, time)
-    if max(np.abs(coarse - fine).max(), bend) > 1e-6 * scale:
+    if np.abs(coarse - fine).max() > 1e-6 * scale:
         return None
     return float(np.abs(k - coarse).max() / scale)
-
-
-def sides_apart(element: Element, u: np.ndarray, time: float, step: float) -> float:
-    """Return how far the differences to both sides are apart: a corner at the very place shows.
-
-    Bouc-Wen friction has one where a point's sliding turns round; a point that sticks is there.
-    """
-    element.set_trial(u, STILL, time)
-    middle, largest = element.resisting_force().copy(), 0.0
-    for way in np.eye(12):
-        sides = []
-        for sign in (1.0, -1.0):
-            element.set_trial(u + sign * step * way, STILL, time)
-            sides.append(element.resisting_force().copy())
-        largest = max(largest, float(np.abs(sides[0] + sides[1] - 2.0 * middle).max()) / step)
-    return largest
 
 
 @EACH
@@ -135,17 +118,15 @@ def test_tangent_along_a_motion(name: str, lab: SimpleNamespace) -> None:
         nonlocal rims
         if k % 30 == 19:
             short = u[k - 1] + 1e-5 / (time[1] - time[0]) * (u[k] - u[k - 1])
-            for place, when in ((u[k], time[k]), (u[k], time[k - 1])):
+            for place, when in ((u[k], time[k]), (u[k], time[k - 1]), (short, time[k - 1] + 1e-5)):
                 errors.append(tangent_error(element, place, when))
-            # 1e-7 m in 10 microseconds is 2.4 kN of the dampers: half of what a point carries
-            errors.append(tangent_error(element, short, time[k - 1] + 1e-5, 4e-9))
             rims = max(rims, element.response("rim_force").max())
             element.set_trial(u[k], STILL, time[k])
 
     walk(bearing, u, time, visit=visit)
     smooth = [e for e in errors if e is not None]
-    assert len(smooth) >= 0.4 * len(errors)  # Bouc-Wen has many corners
-    # the equilibrium inside is exact to 1e-10 of N: 1e-5 N over 1e-7 m, of 1e8 N/m
+    assert len(smooth) >= 0.6 * len(errors)
+    # the equilibrium inside is exact to 1e-10 of N: 1e-5 N over 4e-7 m, of 1e8 N/m
     assert_allclose(smooth, 0.0, rtol=0.0, atol=2e-6)
 
 
@@ -411,7 +392,7 @@ def test_whole_bearing_is_in_equilibrium(name: str, lab: SimpleNamespace) -> Non
     The rate of angular momentum about node i is that of the mass centres and of the spins.
     """
     bearing = lab.make(name)
-    u, time = lab.smooth_path(bearing, 31, 450, tilt=0.02, twist=0.04, swing=1.3)
+    u, time = lab.smooth_path(bearing, 31, 300, tilt=0.02, twist=0.04, swing=1.3)
     record = slider_record(bearing)[0]
     mass, place = record["mass"], record["place"] - record["place"][0]
     element = Element(bearing, "contact")
@@ -566,7 +547,7 @@ def test_rigid_motion_of_the_whole_bearing(name: str, lab: SimpleNamespace) -> N
 
 @pytest.mark.parametrize("name", ["velocity", "bouc_wen_velocity", "random-1", "random-2"])
 def test_friction_and_contacts_stay_within_bounds(name: str, lab: SimpleNamespace) -> None:
-    """Each point: |q| <= N, no pull; the whole: friction below mu N; with uplift and landing."""
+    """Each point: |z| <= 1, no pull; the whole: friction below mu N; with uplift and landing."""
     bearing = lab.make(name)
     u, time = lab.smooth_path(bearing, 13, 400, swing=1.6)
     lifted = []
@@ -574,8 +555,7 @@ def test_friction_and_contacts_stay_within_bounds(name: str, lab: SimpleNamespac
     def visit(element: Element, k: int) -> None:
         touch = contacts(element).touch_new[0]
         assert (touch["push"] >= 0.0).all()
-        q = np.linalg.norm(touch["hysteresis"], axis=1)
-        assert (q <= touch["push"] * (1.0 + 1e-12)).all()
+        assert (np.linalg.norm(touch["hysteresis"], axis=1) <= 1.0 + 1e-12).all()
         assert (touch["slid"] >= 0.0).all()
         lifted.append(element.response("axial_force") == 0.0)
         if lifted[-1] and element.response("rim_force")[1] == 0.0:

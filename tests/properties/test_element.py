@@ -58,11 +58,11 @@ def differences(element: Element, u: np.ndarray, time: float, step: float) -> np
     return k
 
 
-def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 1e-7) -> float | None:
+def tangent_error(element: Element, u: np.ndarray, time: float, step: float = 4e-7) -> float | None:
     """Return the error of the tangent over its largest entry; None where a corner lies near.
 
     A corner (start of slip, of rim contact) within the differences shows as a disagreement of two
-    steps. Without one they agree to some 5e-9 (round-off over step), measured.
+    steps. Without one they agree to some 2e-9 (round-off over step), measured.
     """
     element.set_trial(u, STILL, time)
     k = element.tangent_stiffness()
@@ -95,7 +95,6 @@ def test_tangent_along_a_motion(variant: str, lab: SimpleNamespace) -> None:
 def state_at(lab: SimpleNamespace, bearing: LIRBearing, corners: list, load: float) -> tuple:
     """Take a bearing to the last corner (lateral, tilts); return element, displacement, time."""
     element, time, at = Element(bearing), 0.0, np.zeros(8)
-    element._committed["reference_load"] = load  # as after a state at rest
     for corner in corners:
         for share in np.linspace(0.0, 1.0, 41)[1:]:
             x = at + share * (np.array(corner) - at)
@@ -158,8 +157,7 @@ def test_tangent_in_each_regime(
         moved[8] = lab.vertical(bearing, moved, load * (1.0 + 0.1 * scale))
         for when in (time + 0.01, time):
             errors.append(tangent_error(element, moved, when))
-            cap = max(float(element.response("axial_force")), 2e4)
-            hysteresis = np.linalg.norm(element.response("hysteresis"), axis=1).max() / cap
+            hysteresis = np.linalg.norm(element.response("hysteresis"), axis=1).max()
             if regime == "sticking":
                 assert hysteresis < 0.999 or law == "bouc-wen"
             if regime == "sliding":
@@ -169,7 +167,7 @@ def test_tangent_in_each_regime(
             if fading and when == time:
                 assert 0.0 < element.response("axial_force") < 2e4
             if regime in {"slipping on the rim", "along the rim"} and math.isfinite(mu_h):
-                assert np.linalg.norm(element.response("interface_hysteresis")) > 0.9 * cap
+                assert np.linalg.norm(element.response("interface_hysteresis")) > 0.9
     smooth = [e for e in errors if e is not None]
     assert len(smooth) >= 3
     assert_allclose(smooth, 0.0, rtol=0.0, atol=5e-8)  # two difference steps agree to 2e-8
@@ -449,7 +447,7 @@ def test_friction_and_contact_stay_within_bounds(
     r = lab.walk(bearing, u, time, names)
     size = np.linalg.norm(r.friction_force, axis=-1)
     limit = r.friction_coefficient * r.axial_force[:, None]
-    # |q| <= N to an ulp or two
+    # |z| <= 1 to an ulp or two
     assert (size <= limit * (1.0 + 1e-14)).all()
     for k, law in enumerate(bearing.frictions):
         assert (r.friction_coefficient[:, k] >= law.f_min * (1.0 - 1e-14)).all()
@@ -955,7 +953,7 @@ def test_speed_of_a_step_is_that_of_slip(lab: SimpleNamespace) -> None:
             u[8] = lab.vertical(bearing, u, 1e5)
             element.set_trial(u, STILL, 0.01 * k)
             element.commit()
-            z = element.response("hysteresis") / element.response("reference_load")
+            z = element.response("hysteresis")
             elastic = bearing.yield_displacement * (z - before)
             slip = np.linalg.norm(element.response("sliding_increment") - elastic, axis=1)
             speed = element.response("sliding_speed")
@@ -1001,9 +999,7 @@ def test_damping_of_the_axial_contact(sign: float, lab: SimpleNamespace) -> None
 
 def test_default_contacts(lab: SimpleNamespace) -> None:
     """5 % and 10 % of critical damping under the design load; the rim a tenth as stiff."""
-    bearing = lab.make(
-        "coulomb", axial_stiffness=None, rim_stiffness=None, rim_overrun=None, design_load=None
-    )
+    bearing = lab.make("coulomb", axial_stiffness=None, rim_stiffness=None, rim_overrun=None)
     o = bearing.resolved()
     area = math.pi * 0.08**2
     assert_allclose(o["design_load"], 30e6 * area, rtol=1e-12, atol=0.0)

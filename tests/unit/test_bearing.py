@@ -448,7 +448,7 @@ def test_record_is_complete() -> None:
         "friction_max": (0.07, 0.05), "friction_drop": (0.04, 0.0), "friction_rate": (12.0, 0.0),
         "interface_friction": 0.126, "fused": 0, "bouc_wen": 1, "exponent": 3.0,
         "yield_displacement": (3e-4, 3e-4), "interface_yield": 2e-4, "axial_stiffness": 3e8,
-        "axial_damping": 2e5, "axial_floor": 200.0, "design_load": 2e5, "rim_displacement": (0.07, 0.12),
+        "axial_damping": 2e5, "axial_floor": 200.0, "rim_displacement": (0.07, 0.12),
         "rim_stiffness": 4e7, "rim_damping": 5e4, "rim_overrun": 0.006, "slip_capacity": 0.05,
         "torsion_lever": 2 / 3 * 0.08, "torsion_yield": 3e-4 / (2 / 3 * 0.08),
         "slider_radius": 0.08, "bilateral": 0, "fixed_load": 0.0,

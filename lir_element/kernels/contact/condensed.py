@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.pairs import OWN, matrix_of, place_bodies, press, refer, turn_by
+from lir_element.kernels.contact.pairs import OWN, matrix_of, place_bodies, press, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.linear import solve_many
@@ -128,15 +128,14 @@ def unbalanced(
 @kernel
 def tolerance(p: Props, c: Sliders, touch: Records, dt: float) -> float:
     """Return the residual to reach: a share of the forces, and round-off under stiff laws."""
-    total, held = p.axial_floor, p.axial_floor
+    total = p.axial_floor
     for j in range(touch.shape[0]):
         total += touch[j].push
-        held += touch[j].reference
-    stiff = c.stiffness + held * (
+    stiff = c.stiffness + total * (
         p.friction_max[0] / p.yield_displacement[0] + p.friction_max[1] / p.yield_displacement[1]
     )
     if not p.fused:
-        stiff += held * p.interface_friction / p.interface_yield
+        stiff += total * p.interface_friction / p.interface_yield
     if dt > 0.0:
         stiff += c.damping / dt + (c.mass[0] + c.mass[1]) / (dt * dt)
     return _TOLERANCE * total + ROUND_OFF * stiff * (p.radius[0] + p.radius[1])
@@ -234,7 +233,6 @@ def contact_trial(
         return code
     dt = pen.dt
     place_nodes(p, c, w, u)
-    refer(p, w, old, dt)
     count = -1
     aloft = old.axial_force == 0.0 and dt > 0.0
     for attempt in range(2):
@@ -248,9 +246,8 @@ def contact_trial(
         else:
             follow_string(p, c, b_new, w, pen)
         count = settle(p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed)
-    reference = new.reference_load
     fill_state(p, c, points, old, new, b_new, touch_new, w, u)
-    new.time, new.step, new.reference_load = time, dt, reference
+    new.time, new.step = time, dt
     new.iterations = count
     status = bodies_status(p, w, new)
     if count < 0 and status != _NOT_FINITE:
@@ -266,7 +263,6 @@ def look_at_committed(
 ) -> None:  # fmt: skip
     """Set forces and derivative at the committed state, as a static one, without moving it."""
     place_nodes(p, c, w, old.displacement)
-    refer(p, w, old, 0.0)
     for k in range(2):
         for a in range(3):
             b_new.place[k, a] = b_old.place[k, a]

@@ -12,14 +12,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import (
-    by_spring,
-    friction_coefficient,
-    friction_map,
-    hold,
-    kelvin_voigt,
-    speed_at_end,
-)
+from lir_element.kernels.slip import friction_coefficient, friction_map, kelvin_voigt, speed_at_end
 
 if TYPE_CHECKING:
     from lir_element.layout import Bodies, Props, Scratch, Touch
@@ -44,26 +37,9 @@ def set_tangents(w: Scratch, x: float, y: float, z: float) -> None:
 
 
 @kernel
-def set_reference(w: Scratch, old: Touch, new: Touch, share: float) -> tuple[float, float, int]:
-    """Set the normal force to which a point's friction refers; return what `slip.hold` does.
-
-    At rest the largest normal force so far becomes the reference, which stays from then on; a
-    point that carries little at rest takes a share of what the interface carries.
-    """
-    if w.resting:
-        new.reference = max(new.push, old.reference)
-    else:
-        new.reference = max(old.reference, w.least * share)
-    spring, kept, kind = hold(new.push, new.reference, old.push, old.reference)
-    if w.resting and new.push == new.reference:
-        kind = 1
-    return spring, kept, kind
-
-
-@kernel
 def sphere(
-    p: Props, side: int, w: Scratch, old: Touch, new: Touch, share: float, stiffness: float,
-    damping: float, dt: float, static_speed: float,
+    p: Props, side: int, w: Scratch, old: Touch, new: Touch, stiffness: float, damping: float,
+    dt: float, static_speed: float,
 ) -> None:  # fmt: skip
     """Set force and derivative of a point on the concave sphere `side` (0 bottom, 1 top).
 
@@ -81,13 +57,10 @@ def sphere(
     o_2 = s[0] * o[0] + s[1] * o[1] + s[2] * o[2]
     o_n = n_0 * o[0] + n_1 * o[1] + n_2 * o[2]
     dw_1, dw_2 = -radius * o_1, -radius * o_2
-    push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
-    new.push = push
-    spring, kept, kind = set_reference(w, old, new, share)
     before = old.increment
-    q_1, q_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, q_n1, q_n2, s_n = friction_map(
-        p.bouc_wen, p.exponent, kept * old.hysteresis[0], kept * old.hysteresis[1], dw_1, dw_2,
-        spring / p.yield_displacement[side], push, before[0], before[1], w.share,
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
+        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
+        p.yield_displacement[side], before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
@@ -95,25 +68,22 @@ def sphere(
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
+    push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
-    new.hysteresis[0], new.hysteresis[1] = q_1, q_2
+    new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
-    new.gap, new.closure = size - radius, closure
+    new.gap, new.closure, new.push = size - radius, closure, push
     new.friction, new.slid, new.speed = mu, slip, speed
-    f_1, f_2 = mu * q_1, mu * q_2
+    f_1, f_2 = mu * z_1, mu * z_2
     m = new.spot
     for a in range(3):
         w.normal[a] = -push * m[a]
-        w.tangential[a] = -(f_1 * t[a] + f_2 * s[a])
+        w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
-    q_n1, q_n2, s_n = by_spring(
-        kind, push, q_n1, q_n2, s_n, q_1, q_2, h_11, h_12, h_21, h_22, dw_1, dw_2, slip, s_1, s_2,
-    )  # fmt: skip
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
-    g_11, g_12 = mu * h_11 + q_1 * by_1, mu * h_12 + q_1 * by_2
-    g_21, g_22 = mu * h_21 + q_2 * by_1, mu * h_22 + q_2 * by_2
-    g_1, g_2 = mu * q_n1 + q_1 * by_n, mu * q_n2 + q_2 * by_n
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
+    g_11, g_12 = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
+    g_21, g_22 = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
     k, inv = 1.0 / (1.0 + n_2), 1.0 / size
     for c in range(3):  # column: the point moves along axis c of the carrier
         along = m[c]
@@ -122,9 +92,9 @@ def sphere(
         dw_c1 = -radius * (-e_1 * o_n + w_n * o_2)
         dw_c2 = -radius * (-e_2 * o_n - w_n * o_1)
         d_push = stiff * along
-        d_1 = g_11 * dw_c1 + g_12 * dw_c2 + d_push * g_1 - f_2 * w_n
-        d_2 = g_21 * dw_c1 + g_22 * dw_c2 + d_push * g_2 + f_1 * w_n
-        d_n = -(f_1 * e_1 + f_2 * e_2) * sign + d_push  # along m = sign n
+        d_1 = push * (g_11 * dw_c1 + g_12 * dw_c2) + d_push * f_1 - push * f_2 * w_n
+        d_2 = push * (g_21 * dw_c1 + g_22 * dw_c2) + d_push * f_2 + push * f_1 * w_n
+        d_n = -push * (f_1 * e_1 + f_2 * e_2) * sign + d_push  # along m = sign n
         for a in range(3):
             unit = (1.0 if a == c else 0.0) - m[a] * along
             w.slope[a, c] = -d_n * m[a] - push * inv * unit - d_1 * t[a] - d_2 * s[a]
@@ -132,40 +102,32 @@ def sphere(
 
 @kernel
 def plane(
-    p: Props, w: Scratch, old: Touch, new: Touch, share: float, stiffness: float, damping: float,
-    dt: float,
-) -> None:  # fmt: skip
+    p: Props, w: Scratch, old: Touch, new: Touch, stiffness: float, damping: float, dt: float
+) -> None:
     """Set force and derivative of a point of the top slider on the bottom slider's plane.
 
     `w.d` runs from the plane's centre, its third entry is the gap.
     """
     d, o = w.d, old.spot
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
-    push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
-    new.push = push
-    spring, kept, kind = set_reference(w, old, new, share)
-    q_1, q_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, q_n1, q_n2, s_n = friction_map(
-        p.bouc_wen, p.exponent, kept * old.hysteresis[0], kept * old.hysteresis[1], dw_1, dw_2,
-        spring / p.interface_yield, push, old.increment[0], old.increment[1], w.share,
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
+        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
+        p.interface_yield, old.increment[0], old.increment[1], w.share,
     )  # fmt: skip
     mu = p.interface_friction
+    push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]
-    new.hysteresis[0], new.hysteresis[1] = q_1, q_2
+    new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
-    new.gap, new.closure = -d[2], closure
+    new.gap, new.closure, new.push = -d[2], closure, push
     new.friction, new.slid = mu, slip
     new.speed = slip / dt if dt > 0.0 else 0.0
     w.normal[2] = push
-    if push == 0.0:
-        return
-    q_n1, q_n2, _ = by_spring(
-        kind, push, q_n1, q_n2, s_n, q_1, q_2, h_11, h_12, h_21, h_22, dw_1, dw_2, slip, s_1, s_2,
-    )  # fmt: skip
-    w.tangential[0], w.tangential[1] = -mu * q_1, -mu * q_2
+    w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
     w.slope[2, 2] = -stiff
-    w.slope[0, 2], w.slope[1, 2] = stiff * mu * q_n1, stiff * mu * q_n2
-    w.slope[0, 0], w.slope[0, 1] = -mu * h_11, -mu * h_12
-    w.slope[1, 0], w.slope[1, 1] = -mu * h_21, -mu * h_22
+    w.slope[0, 2], w.slope[1, 2] = stiff * mu * z_1, stiff * mu * z_2
+    w.slope[0, 0], w.slope[0, 1] = -push * mu * h_11, -push * mu * h_12
+    w.slope[1, 0], w.slope[1, 1] = -push * mu * h_21, -push * mu * h_22
 
 
 @kernel
@@ -183,7 +145,7 @@ def bond(
     new.gap = -w.d[2]  # bonded: it neither opens nor closes
     new.closure = new.gap
     new.push = max(w.normal[2], 0.0)
-    new.hysteresis[0], new.hysteresis[1], new.reference = 0.0, 0.0, 0.0
+    new.hysteresis[0], new.hysteresis[1] = 0.0, 0.0
     new.increment[0], new.increment[1] = 0.0, 0.0
     new.friction, new.slid, new.speed = 0.0, 0.0, 0.0
 

@@ -16,11 +16,10 @@ from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, spher
 from lir_element.kernels.slip import step_share
 
 if TYPE_CHECKING:
-    from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders, State
+    from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders
 
 NORMAL, LOW_BOTTOM, HIGH, LOW_TOP, RIM_BOTTOM, RIM_TOP, OWN = 0, 1, 2, 3, 4, 5, 6
 _ORIGINS = 7
-_LEAST_SHARE = 0.1  # of its share of the reference load, for a point that carries little at rest
 
 
 @kernel
@@ -186,15 +185,6 @@ def add_slope(w: Scratch, body: int, carrier: int) -> None:
 
 
 @kernel
-def refer(p: Props, w: Scratch, old: State, dt: float) -> None:
-    """Set to what the friction of contact points refers in a step from the bearing's record."""
-    w.resting = 1 if dt == 0.0 and old.time == 0.0 else 0
-    w.least = _LEAST_SHARE * old.reference_load
-    if old.reference_load == 0.0:
-        w.least = p.design_load
-
-
-@kernel
 def press(
     p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
     touch_new: Records, w: Scratch, dt: float, speed_bottom: float, speed_top: float,
@@ -221,20 +211,18 @@ def press(
         if pair == 0:
             body, carrier, friction = 1, 0, LOW_BOTTOM
             locate(w, 1, 0, arm[0], arm[1], arm[2], p.lever[0])
-            sphere(p, 0, w, touch_old[j], touch_new[j], points[j].share, stiffness, damping, dt,
-                   speed_bottom)  # fmt: skip
+            sphere(p, 0, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_bottom)
         elif pair == 2:
             body, carrier, friction = 2, 3, LOW_TOP
             locate(w, 2, 3, arm[0], arm[1], arm[2], -p.lever[1])
-            sphere(p, 1, w, touch_old[j], touch_new[j], points[j].share, stiffness, damping, dt,
-                   speed_top)  # fmt: skip
+            sphere(p, 1, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_top)
         else:
             body, carrier, friction = 2, 1, HIGH
             locate(w, 2, 1, arm[0], arm[1], arm[2], c.plane[0])
             if p.fused:
                 bond(w, touch_old[j], touch_new[j], arm[0], arm[1], stiffness, damping, dt)
             else:
-                plane(p, w, touch_old[j], touch_new[j], points[j].share, stiffness, damping, dt)
+                plane(p, w, touch_old[j], touch_new[j], stiffness, damping, dt)
         if touch_new[j].push == 0.0 and not (pair == 1 and p.fused):
             continue
         add_pair(w, new.parts, body, carrier, friction, NORMAL)

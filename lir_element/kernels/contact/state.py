@@ -20,8 +20,7 @@ from lir_element.kernels.contact.pairs import (
     turn_between,
 )
 from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
-from lir_element.kernels.pendulum.work import taken
-from lir_element.kernels.slip import stored
+from lir_element.kernels.pendulum.work import dissipated
 
 if TYPE_CHECKING:
     from lir_element.layout import (
@@ -53,7 +52,7 @@ def fill_state(
     set_averages(points, touch, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
-    new.twist_hysteresis = 0.0
+    new.twist_hysteresis, new.slid_twist = 0.0, 0.0
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
 
@@ -110,7 +109,7 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
 @kernel
 def set_averages(points: Records, touch: Records, new: State) -> None:
     """Set friction states and forces of the three interfaces from their points."""
-    new.axial_force = 0.0
+    new.axial_force, new.slid_interface = 0.0, 0.0
     for a in range(2):
         new.slid[a], new.friction_coefficient[a], new.sliding_speed[a] = 0.0, 0.0, 0.0
         new.interface_hysteresis[a], new.interface_force[a] = 0.0, 0.0
@@ -120,9 +119,10 @@ def set_averages(points: Records, touch: Records, new: State) -> None:
     for j in range(points.shape[0]):
         t, share, pair = touch[j], points[j].share, points[j].pair
         if pair == 1:
+            new.slid_interface += share * t.slid
             for a in range(2):
-                new.interface_hysteresis[a] += t.hysteresis[a]
-                new.interface_force[a] += t.friction * t.hysteresis[a]
+                new.interface_hysteresis[a] += share * t.hysteresis[a]
+                new.interface_force[a] += t.push * t.friction * t.hysteresis[a]
             continue
         side = 0 if pair == 0 else 1
         sign = 1.0 if pair == 0 else -1.0  # on the top surface the plate's motion counts
@@ -132,8 +132,8 @@ def set_averages(points: Records, touch: Records, new: State) -> None:
         new.friction_coefficient[side] += share * t.friction
         new.sliding_speed[side] += share * t.speed
         for a in range(2):
-            new.hysteresis[side, a] += sign * t.hysteresis[a]
-            new.friction_force[side, a] += sign * t.friction * t.hysteresis[a]
+            new.hysteresis[side, a] += sign * share * t.hysteresis[a]
+            new.friction_force[side, a] += sign * t.push * t.friction * t.hysteresis[a]
             new.sliding_increment[side, a] += sign * share * t.increment[a]
 
 
@@ -183,23 +183,6 @@ def taken_up(b_old: Bodies, b_new: Bodies, moves: Floats, origin: int) -> float:
 
 
 @kernel
-def springs(p: Props, points: Records, touch: Records, pair: int) -> float:
-    """Return the energy in the elastic sliding of the points of one interface."""
-    mu, u_y = p.interface_friction, p.interface_yield
-    if pair != 1:
-        side = 0 if pair == 0 else 1
-        mu, u_y = p.friction_max[side] - p.friction_drop[side], p.yield_displacement[side]
-    elif p.fused:
-        return 0.0
-    total = 0.0
-    for j in range(points.shape[0]):
-        if points[j].pair == pair:
-            t = touch[j]
-            total += stored(mu, t.hysteresis[0], t.hysteresis[1], u_y, t.push, t.reference)
-    return total
-
-
-@kernel
 def contact_accumulate(
     p: Props, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
     touch_old: Records, touch_new: Records, moves: Floats, bodies: int,
@@ -207,17 +190,25 @@ def contact_accumulate(
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
-    What friction takes beyond its elastic energy is dissipated.
     """
     set_moves(old, new, b_old, b_new, bodies, moves)
-    for side, pair, origin in ((0, 0, LOW_BOTTOM), (1, 2, LOW_TOP), (2, 1, HIGH)):
-        spring = springs(p, points, touch_new, pair) - springs(p, points, touch_old, pair)
-        lost = taken(old, new, side, taken_up(b_old, b_new, moves, origin) - spring)
-        new.work_elastic += spring
-        if side < 2:
-            new.work_friction[side] += lost
+    lost, slip_work = 0.0, 0.0
+    for j in range(points.shape[0]):
+        before, after, pair = touch_old[j], touch_new[j], points[j].pair
+        work = dissipated(
+            before.friction * before.push, after.friction * after.push,
+            after.hysteresis[0], after.hysteresis[1], after.slid,
+        )  # fmt: skip
+        if pair == 1:
+            slip_work += work
         else:
-            new.work_interface += lost
+            side = 0 if pair == 0 else 1
+            new.work_friction[side] += work
+            lost += work
+    total = taken_up(b_old, b_new, moves, LOW_BOTTOM) + taken_up(b_old, b_new, moves, LOW_TOP)
+    total += taken_up(b_old, b_new, moves, HIGH)
+    new.work_interface += slip_work
+    new.work_elastic += total - lost - slip_work
     new.work_contact += taken_up(b_old, b_new, moves, NORMAL)
     new.work_rim[0] += taken_up(b_old, b_new, moves, RIM_BOTTOM)
     new.work_rim[1] += taken_up(b_old, b_new, moves, RIM_TOP)

@@ -16,13 +16,10 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import hold, kelvin_voigt
+from lir_element.kernels.slip import kelvin_voigt
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
-
-
-LEAST_REFERENCE = 0.05  # of the design load
 
 
 @kernel
@@ -53,44 +50,12 @@ def axial(p: Props, old: State, w: Work) -> None:
     w.vertical, w.stiff_vertical = 0.0, 0.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
-        set_reference(p, old, w, p.fixed_load)
         return
     w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
     if w.n_pos > p.axial_floor:
         w.n_hat, w.scale = w.n_pos, 1.0
     else:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
-    set_reference(p, old, w, w.n_hat)
-
-
-@kernel
-def set_reference(p: Props, old: State, w: Work, cap: float) -> None:
-    """Set the axial force that limits friction, and the one to which its stiffness refers.
-
-    At rest, before anything has moved, the largest axial force so far becomes the reference (a
-    twentieth of the design load at least); it stays from then on. A bearing that never was at
-    rest under load takes its design load.
-    """
-    w.cap = cap
-    if p.fixed_load > 0.0:
-        w.reference, w.spring, w.kept, w.spring_kind = cap, cap, 1.0, 0
-        return
-    w.reference = old.reference_load
-    if w.resting:
-        w.reference = max(w.reference, LEAST_REFERENCE * p.design_load, cap)
-    elif w.reference == 0.0:
-        w.reference = p.design_load
-    w.spring, w.kept, w.spring_kind = hold(
-        cap, w.reference, friction_cap(p, old), old.reference_load
-    )
-    if cap == w.reference and w.resting:
-        w.spring_kind = 1
-
-
-@kernel
-def friction_cap(p: Props, at: State) -> float:
-    """Return the axial force that limits friction in the state `at` (before it fades)."""
-    return max(at.axial_force, p.axial_floor)
 
 
 @kernel
@@ -98,10 +63,12 @@ def hold_load(p: Props, w: Work) -> None:
     """Set the axial force under which the vertical part of the string's force is the fixed load."""
     n = w.n
     if p.fused:
-        pull = n[0] * (w.drag[0] - w.push[0]) + n[1] * (w.drag[1] - w.push[1])
-        w.n_true = (p.fixed_load - pull / w.l) / n[2]
+        load = p.fixed_load + (n[0] * w.push[0] + n[1] * w.push[1]) / w.l
+        share = n[2] + (n[0] * w.drag[0] + n[1] * w.drag[1]) / w.l
     else:
-        w.n_true = (p.fixed_load - n[0] * w.g_s[0] - n[1] * w.g_s[1]) / n[2]
+        load = p.fixed_load
+        share = n[2] + n[0] * w.phi_s[0] + n[1] * w.phi_s[1]
+    w.n_true = load / share
     w.n_pos, w.n_hat, w.scale, w.stiff_n = w.n_true, w.n_true, 1.0, 0.0
 
 
@@ -110,22 +77,20 @@ def held_rate(w: Work, e_1: float, e_2: float, d_s1: float, d_s2: float) -> floa
     """Return the derivative of `hold_load` for two sliders: by a turn eta and a change of slip."""
     x = w.t[0, 0] * e_1 + w.t[1, 0] * e_2  # turn of n, horizontal
     y = w.t[0, 1] * e_1 + w.t[1, 1] * e_2
-    rate = x * w.g_s[0] + y * w.g_s[1] - w.n_true * (w.n[0] * e_1 + w.n[1] * e_2)
+    share = w.n[2] + w.n[0] * w.phi_s[0] + w.n[1] * w.phi_s[1]
+    rate = x * w.phi_s[0] + y * w.phi_s[1] - (w.n[0] * e_1 + w.n[1] * e_2)
     rate += w.n[0] * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2)
     rate += w.n[1] * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2)
-    share = w.n[2] + w.n[0] * w.g_n[0] + w.n[1] * w.g_n[1]
-    return -rate / share
+    return -w.n_true * rate / share
 
 
 @kernel
-def held_rate_fused(p: Props, w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> float:
+def held_rate_fused(w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> float:
     """Return the same for one piece; `r_1`, `r_2`: the residual's derivative at constant N."""
     x = w.t[0, 0] * e_1 + w.t[1, 0] * e_2
     y = w.t[0, 1] * e_1 + w.t[1, 1] * e_2
+    share = w.n[2] + (w.n[0] * w.drag[0] + w.n[1] * w.drag[1]) / w.l
     rate = w.n_true * (w.n[0] * e_1 + w.n[1] * e_2) - (x * w.f_s[0] + y * w.f_s[1])
-    drag_1 = p.radius[0] * w.f_n[0, 0] + p.radius[1] * w.f_n[1, 0]
-    drag_2 = p.radius[0] * w.f_n[0, 1] + p.radius[1] * w.f_n[1, 1]
-    share = w.n[2] + (w.n[0] * drag_1 + w.n[1] * drag_2) / w.l
     return (rate + (w.n[0] * r_1 + w.n[1] * r_2) / w.l) / share
 
 

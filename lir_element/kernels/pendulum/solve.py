@@ -32,11 +32,10 @@ def residual_size(w: Work) -> float:
 @kernel
 def tolerance(p: Props, w: Work) -> float:
     """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
-    spring = w.spring / w.n_hat  # friction's stiffness refers to another axial force
-    stiff = spring * w.l * p.interface_friction / p.interface_yield
+    stiff = w.l * p.interface_friction / p.interface_yield
     for k in range(2):
         by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
-        stiff += p.radius[k] * (spring * p.friction_max[k] / p.yield_displacement[k] + by_speed)
+        stiff += p.radius[k] * (p.friction_max[k] / p.yield_displacement[k] + by_speed)
         stiff += p.radius[k] ** 2 * w.stiff_rim[k] / (w.n_hat * w.l)
     return _TOLERANCE + _ROUND_OFF * stiff
 

@@ -22,10 +22,9 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.pendulum.axial import axial, fix_length, friction_cap, hold_load
+from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.rotation import rotate
 from lir_element.kernels.slip import (
-    by_spring,
     friction_coefficient,
     friction_map,
     kelvin_voigt,
@@ -86,36 +85,19 @@ def turn_axis(w: Work, x: float, y: float, z: float, eta_1: float, eta_2: float)
 
 
 @kernel
-def aim_at(w: Work, slip_1: float, slip_2: float) -> None:
-    """Turn the axis to where the interface has the slip given."""
+def aim_axis(p: Props, old: State, w: Work) -> None:
+    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused."""
+    if p.fused:
+        set_axis(w, -w.c[0], -w.c[1], -w.c[2])
+        w.sigma[0], w.sigma[1] = 0.0, 0.0
+        return
+    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
     for _ in range(8):
-        e_1 = (slip_1 - w.sigma[0]) / w.l
-        e_2 = (slip_2 - w.sigma[1]) / w.l
+        e_1 = (old.slip[0] - w.sigma[0]) / w.l
+        e_2 = (old.slip[1] - w.sigma[1]) / w.l
         turn_axis(w, w.n[0], w.n[1], w.n[2], e_1, e_2)
         if abs(e_1) + abs(e_2) < 1e-10:
             break
-
-
-@kernel
-def aim_axis(p: Props, old: State, w: Work) -> None:
-    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused.
-
-    While the surfaces slide, all friction is in proportion to the axial force: where that changed,
-    the interface's elastic sliding goes with it.
-    """
-    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
-    if p.fused:
-        w.sigma[0], w.sigma[1] = 0.0, 0.0
-        return
-    aim_at(w, old.slip[0], old.slip[1])
-    if p.fixed_load > 0.0:
-        return
-    axial(p, old, w)
-    before = friction_cap(p, old)
-    ratio = min(w.cap / before, 2.0)
-    share = (ratio - w.kept) * p.interface_yield / w.spring
-    q = old.interface_hysteresis
-    aim_at(w, old.slip[0] + share * q[0], old.slip[1] + share * q[1])
 
 
 @kernel
@@ -139,7 +121,6 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             along += rate[k] * (w.q_i[k, 0] * w.n[0] + w.q_i[k, 1] * w.n[1] + w.q_i[k, 2] * w.n[2])
         for k in range(3):
             rate[k] -= w.q_i[k, 2] * along / w.n[2]
-    square_bottom, square_top = 0.0, 0.0
     for a in range(2):
         bottom, top = 0.0, 0.0
         for k in range(3):
@@ -149,15 +130,14 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             n_m = w.q_i[m, 0] * w.n[0] + w.q_i[m, 1] * w.n[1] + w.q_i[m, 2] * w.n[2]
             n_o = w.q_i[o, 0] * w.n[0] + w.q_i[o, 1] * w.n[1] + w.q_i[o, 2] * w.n[2]
             top -= axis * ((v[9 + m] - v[3 + m]) * n_o - (v[9 + o] - v[3 + o]) * n_m)
-        square_bottom += bottom**2
-        square_top += (bottom + top) ** 2
-    w.static_speed[0] = p.radius[0] * math.sqrt(square_bottom)
-    w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
+        w.phi[0, a], w.phi[1, a] = bottom, bottom + top
+    for k in range(2):
+        w.static_speed[k] = p.radius[k] * math.sqrt(w.phi[k, 0] ** 2 + w.phi[k, 1] ** 2)
 
 
 @kernel
 def surface(p: Props, old: State, w: Work, k: int) -> None:
-    """Set the friction of surface `k` (0 bottom, 1 top) under n_hat: force and derivatives."""
+    """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
     m = w.old_top if k == 1 else old.axis
     for a in range(2):
         w.old[k, a] = w.t[a, 0] * m[0] + w.t[a, 1] * m[1] + w.t[a, 2] * m[2]
@@ -166,13 +146,9 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
     before = old.sliding_increment[k]
     share = step_share(w.dt, old.step)
-    q_1, q_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n = friction_map(
-        p.bouc_wen, p.exponent, w.kept * old.hysteresis[k, 0], w.kept * old.hysteresis[k, 1],
-        d_1, d_2, w.spring / p.yield_displacement[k], w.cap, before[0], before[1], share,
-    )  # fmt: skip
-    n_1, n_2, s_n = by_spring(
-        w.spring_kind, w.cap, n_1, n_2, s_n, q_1, q_2, h_11, h_12, h_21, h_22, d_1, d_2, slip,
-        s_1, s_2,
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
+        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
+        p.yield_displacement[k], before[0], before[1], share,
     )  # fmt: skip
     w.slid[k] = slip
     # the speed of slip, not of the elastic part: friction must not grow while it unloads
@@ -182,46 +158,32 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.mu[k] = mu
-    w.q[k, 0], w.q[k, 1] = q_1, q_2
-    w.f[k, 0], w.f[k, 1] = mu * q_1, mu * q_2
-    h = w.h[k]
-    h[0, 0], h[0, 1] = mu * h_11 + q_1 * by_1, mu * h_12 + q_1 * by_2
-    h[1, 0], h[1, 1] = mu * h_21 + q_2 * by_1, mu * h_22 + q_2 * by_2
-    f_n = w.f_n[k]
-    f_n[0], f_n[1] = mu * n_1 + q_1 * by_n, mu * n_2 + q_2 * by_n
+    w.z[k, 0], w.z[k, 1] = z_1, z_2
+    w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
+    w.h[k, 0, 0], w.h[k, 0, 1] = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
+    w.h[k, 1, 0], w.h[k, 1, 1] = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
 
 
 @kernel
 def interface(p: Props, old: State, w: Work) -> None:
-    """Set the friction of the plane interface under n_hat: force and derivatives."""
+    """Set the friction of the plane interface: force and derivative over N."""
     before = old.slip_increment
-    d_1, d_2 = w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1]
-    q_1, q_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n = friction_map(
-        p.bouc_wen, p.exponent, w.kept * old.interface_hysteresis[0],
-        w.kept * old.interface_hysteresis[1], d_1, d_2, w.spring / p.interface_yield, w.cap,
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
+        p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
+        w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
         before[0], before[1], step_share(w.dt, old.step),
     )  # fmt: skip
-    n_1, n_2, _ = by_spring(
-        w.spring_kind, w.cap, n_1, n_2, s_n, q_1, q_2, h_11, h_12, h_21, h_22, d_1, d_2, slip,
-        s_1, s_2,
-    )  # fmt: skip
     mu = p.interface_friction
-    w.q_s[0], w.q_s[1] = q_1, q_2
-    w.g_s[0], w.g_s[1] = mu * q_1, mu * q_2
+    w.z_s[0], w.z_s[1], w.slid_s = z_1, z_2, slip
+    w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
-    w.g_n[0], w.g_n[1] = mu * n_1, mu * n_2
 
 
 @kernel
 def rims(p: Props, old: State, w: Work) -> None:
-    """Set the rim forces of both plates.
-
-    One piece that is lifted by more than its height is no longer between the rims.
-    """
-    height = p.radius[0] + p.radius[1] - p.length
-    away = p.fused and p.length - w.l > height
+    """Set the rim forces of both plates."""
     for k in range(2):
         if k == 0:
             x, y = w.n[0], w.n[1]
@@ -231,7 +193,7 @@ def rims(p: Props, old: State, w: Work) -> None:
         size = math.sqrt(x * x + y * y)
         w.n_hor[k] = size
         w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
-            -math.inf if away else p.radius[k] * size - p.rim_displacement[k],
+            p.radius[k] * size - p.rim_displacement[k],
             old.rim_closure[k],
             p.rim_stiffness,
             p.rim_damping,
@@ -245,36 +207,6 @@ def rims(p: Props, old: State, w: Work) -> None:
 
 
 @kernel
-def frictions(p: Props, old: State, w: Work) -> None:
-    """Set the friction of surfaces and interface under the axial force ``w.cap``."""
-    surface(p, old, w, 0)
-    surface(p, old, w, 1)
-    for a in range(2):
-        w.drag[a] = p.radius[0] * w.f[0, a] + p.radius[1] * w.f[1, a]
-    if not p.fused:
-        interface(p, old, w)
-
-
-@kernel
-def balance(p: Props, old: State, w: Work) -> None:
-    """Find the axial force that holds the fixed load and limits the friction, which it holds with.
-
-    Secants: the axial force that friction leaves is in proportion to its cap, piece by piece.
-    """
-    low = w.cap
-    hold_load(p, w)
-    below = w.n_true - low
-    w.cap = w.n_true
-    for _ in range(20):
-        frictions(p, old, w)
-        hold_load(p, w)
-        above = w.n_true - w.cap
-        if abs(above) <= 4e-16 * w.cap or above == below:
-            break
-        low, below, w.cap = w.cap, above, w.cap - above * (w.cap - low) / (above - below)
-
-
-@kernel
 def evaluate(p: Props, old: State, w: Work) -> None:
     """Set all forces at the current axis and the residual of the slider's equilibrium.
 
@@ -282,18 +214,22 @@ def evaluate(p: Props, old: State, w: Work) -> None:
     still passes what the rims press.
     """
     axial(p, old, w)
+    surface(p, old, w, 0)
+    surface(p, old, w, 1)
     rims(p, old, w)
     for a in range(2):
         rim_top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
+        w.drag[a] = p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a]
         w.push[a] = (
             p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a] + p.radius[1] * w.rim[1] * rim_top
         )
-    frictions(p, old, w)
+    if not p.fused:
+        interface(p, old, w)
     if p.fixed_load > 0.0:
-        balance(p, old, w)
-    share = w.scale if p.fused else 1.0
+        hold_load(p, w)
+    n = w.n_pos if p.fused else w.n_hat
     for a in range(2):
-        w.residual[a] = -share * w.drag[a] + w.push[a]
+        w.residual[a] = -n * w.drag[a] + w.push[a]
     if p.fused:  # the interface carries what equilibrium asks for
         w.rim_scale = 1.0
         for a in range(2):
@@ -302,10 +238,10 @@ def evaluate(p: Props, old: State, w: Work) -> None:
         return
     w.rim_scale = w.scale
     k = 1.0 / (1.0 + w.n[2])
-    chi = k * (w.sigma[1] * w.g_s[0] - w.sigma[0] * w.g_s[1])
-    w.residual[0] += w.l * w.g_s[0] + chi * w.n[1] - w.n_hat * w.sigma[0]
-    w.residual[1] += w.l * w.g_s[1] - chi * w.n[0] - w.n_hat * w.sigma[1]
-    w.f_s[0], w.f_s[1] = w.scale * w.g_s[0], w.scale * w.g_s[1]
+    chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
+    w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
+    w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
+    w.f_s[0], w.f_s[1] = w.n_pos * w.phi_s[0], w.n_pos * w.phi_s[1]
     if w.n_true < 0.0:  # pulled along the line of centres: the interface holds
         w.f_s[0] += w.n_true * w.sigma[0] / w.l
         w.f_s[1] += w.n_true * w.sigma[1] / w.l
@@ -314,7 +250,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
 @kernel
 def elastic_jacobian(p: Props, w: Work) -> None:
     """Set the slider's jacobian as if nothing slipped: a safe direction when Newton's is not."""
-    friction = w.spring * (
+    friction = w.n_hat * (
         w.l * w.l * p.interface_friction / p.interface_yield
         + p.radius[0] ** 2 * w.mu[0] / p.yield_displacement[0]
         + p.radius[1] ** 2 * w.mu[1] / p.yield_displacement[1]

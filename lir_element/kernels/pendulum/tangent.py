@@ -27,8 +27,8 @@ def friction_rate(
 ) -> tuple[float, float]:
     """Return the derivative of the friction force of surface `k`."""
     return (
-        w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2 + w.f_n[k, 0] * axial_rate,
-        w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2 + w.f_n[k, 1] * axial_rate,
+        w.n_hat * (w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2) + w.phi[k, 0] * axial_rate,
+        w.n_hat * (w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2) + w.phi[k, 1] * axial_rate,
     )
 
 
@@ -101,9 +101,8 @@ def direction(
                        + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
     )  # fmt: skip
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
-        fade = d_pos / w.n_hat
-        f_11, f_12 = w.scale * f_11 + w.f[0, 0] * fade, w.scale * f_12 + w.f[0, 1] * fade
-        f_21, f_22 = w.scale * f_21 + w.f[1, 0] * fade, w.scale * f_22 + w.f[1, 1] * fade
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
     # rims
@@ -128,18 +127,17 @@ def direction(
             else:
                 r_2 += p.radius[1] * part
     if p.fixed_load > 0.0 and p.fused:
-        d_n = held_rate_fused(p, w, e_1, e_2, r_1, r_2)
-        f_21, f_22 = f_21 + w.f_n[1, 0] * d_n, f_22 + w.f_n[1, 1] * d_n
-        r_1 -= (p.radius[0] * w.f_n[0, 0] + p.radius[1] * w.f_n[1, 0]) * d_n
-        r_2 -= (p.radius[0] * w.f_n[0, 1] + p.radius[1] * w.f_n[1, 1]) * d_n
+        d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
+        f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
+        r_1, r_2 = r_1 - w.drag[0] * d_n, r_2 - w.drag[1] * d_n
     # interface and string
     g_1, g_2 = w.f_s[0], w.f_s[1]
     if not p.fused:
-        g_1, g_2 = w.g_s[0], w.g_s[1]
+        g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     g_d1, g_d2 = 0.0, 0.0
     if not p.fused:
-        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.g_n[0] * d_hat
-        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.g_n[1] * d_hat
+        g_d1 = w.n_hat * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2) + w.phi_s[0] * d_hat
+        g_d2 = w.n_hat * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2) + w.phi_s[1] * d_hat
     chi = s_2 * g_1 - s_1 * g_2
     d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * chi
     chi *= k
@@ -186,18 +184,17 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
     d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
     d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
     if not p.fused and w.scale < 1.0:  # the forces fade with the axial force
-        fade = d_pos / w.n_hat
-        g_d1 = w.scale * g_d1 + fade * w.g_s[0]
-        g_d2 = w.scale * g_d2 + fade * w.g_s[1]
-        f_1 = w.scale * f_1 + fade * w.f[1, 0]
-        f_2 = w.scale * f_2 + fade * w.f[1, 1]
-        d_rim = w.scale * d_rim + fade * w.rim[1]
+        g_d1 = w.scale * g_d1 + d_pos * w.phi_s[0]
+        g_d2 = w.scale * g_d2 + d_pos * w.phi_s[1]
+        f_1 = w.scale * f_1 + d_pos * w.phi[1, 0]
+        f_2 = w.scale * f_2 + d_pos * w.phi[1, 1]
+        d_rim = w.scale * d_rim + d_pos / w.n_hat * w.rim[1]
         if w.n_true < 0.0:
             pull_1, pull_2 = tension_rates(w, e_1, e_2, spin, d)
             g_d1, g_d2 = g_d1 + pull_1, g_d2 + pull_2
     s_1, s_2 = w.f_s[0], w.f_s[1]
     twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
-    k_1, k_2 = w.scale * w.f[1, 0], w.scale * w.f[1, 1]
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
     x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
     rim = w.rim_scale * w.rim[1]
     m = w.sums  # the top plate's force on the slider and its rate

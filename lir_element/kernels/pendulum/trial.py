@@ -13,7 +13,7 @@ from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
 from lir_element.kernels.pendulum.string import aim_axis, place_plates, set_axis, static_speeds
-from lir_element.kernels.slip import by_spring, return_map
+from lir_element.kernels.slip import return_map
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Words, Work
@@ -31,7 +31,7 @@ SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 @kernel
 def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     """Set the nodes' forces from the evaluated string, surfaces and rims."""
-    k_1, k_2 = w.scale * w.f[1, 0], w.scale * w.f[1, 1]
+    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
     rim = w.rim_scale * w.rim[1]
     t, n, q = w.t, w.n, w.q_i
     for a in range(3):
@@ -62,33 +62,19 @@ def set_forces(w: Work, p: Props, new: State, old: State) -> None:
 def torsion(p: Props, old: State, w: Work, new: State) -> None:
     """Set the friction moment about the vertical: the weakest of the three contacts slips.
 
-    Full circular contacts under uniform pressure; the friction coefficients of its cap are those
-    of the committed state, its stiffness does not depend on them.
+    Full circular contacts under uniform pressure; the friction coefficients are those of the
+    committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    twist = new.twist - old.twist
-    start = w.kept * old.twist_hysteresis
-    torque, _, slope, _, _, _, _, _, _, by_cap, _, _ = return_map(
-        p.bouc_wen, p.exponent, start, 0.0, twist, 0.0, torsion_stiffness(p, w.spring),
-        p.torsion_lever * mu * w.cap,
+    z, _, slope, _, _, _, slip, _, _ = return_map(
+        p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
+        p.torsion_yield,
     )  # fmt: skip
-    w.torque = w.scale * torque
-    w.torque_stiffness = w.scale * slope
-    w.torque_axial = torque / w.n_hat
-    if w.scale == 1.0:
-        w.torque_axial, _, _ = by_spring(
-            w.spring_kind, w.cap, p.torsion_lever * mu * by_cap, 0.0, 0.0, torque, 0.0, slope,
-            0.0, 0.0, 0.0, twist, 0.0, 0.0, 0.0, 0.0,
-        )  # fmt: skip
-    new.twist_hysteresis = torque
+    w.torque_axial = p.torsion_lever * mu * z
+    w.torque = w.torque_axial * w.n_pos
+    w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
+    new.twist_hysteresis, new.slid_twist = z, slip
     new.torque = w.torque
-
-
-@kernel
-def torsion_stiffness(p: Props, spring: float) -> float:
-    """Return the stiffness of torsional friction before slip."""
-    mu = min(p.friction_max[0], p.friction_max[1], p.interface_friction)
-    return p.torsion_lever * mu * spring / p.torsion_yield
 
 
 @kernel
@@ -100,10 +86,6 @@ def keep_works(old: State, new: State) -> None:
         new.travel[k] = old.travel[k]
     new.work_interface = old.work_interface
     new.work_elastic = old.work_elastic
-    for k in range(3):
-        new.work_owed[k] = old.work_owed[k]
-    new.work_step = 0.0
-    new.reference_load = old.reference_load
     new.work_contact = old.work_contact
     new.work_sliders = old.work_sliders
     new.interface_travel = old.interface_travel
@@ -127,14 +109,13 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
     keep_works(old, new)
     new.string = w.l
     new.closure = w.closure
-    if not w.resting or w.n_pos > p.axial_floor:
-        new.reference_load = w.reference
+    new.slid_interface = 0.0 if p.fused else w.slid_s
     new.axial_force = w.n_true
     new.vertical_force = w.vertical
     for k in range(2):
         new.slip[k] = w.sigma[k]
         new.slip_increment[k] = w.sigma[k] - old.slip[k]
-        new.interface_hysteresis[k] = w.q_s[k]
+        new.interface_hysteresis[k] = w.z_s[k]
         new.interface_force[k] = w.f_s[k]
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
@@ -143,8 +124,8 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
         for a in range(2):
-            new.hysteresis[k, a] = w.q[k, a]
-            new.friction_force[k, a] = w.scale * w.f[k, a]
+            new.hysteresis[k, a] = w.z[k, a]
+            new.friction_force[k, a] = w.n_pos * w.phi[k, a]
             new.sliding_increment[k, a] = w.dw[k, a]
 
 
@@ -223,7 +204,6 @@ def trial(
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
-    w.resting = 1 if w.dt == 0.0 and old.time == 0.0 else 0
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.pairs import place_bodies, press, refer, turn_between
+from lir_element.kernels.contact.pairs import place_bodies, press, turn_between
 from lir_element.kernels.contact.state import bodies_status, contact_accumulate, fill_state
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.rigid_body.step import explicit_step, implicit_step, set_accelerations
@@ -103,7 +103,7 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
     e_new.kinetic = kinetic_energy(run, after)
     e_new.input, e_new.gravity = e_old.input + supplied, e_old.gravity + lifted
     gained = e_new.kinetic - e_old.kinetic
-    e_new.numerical = e_old.numerical + supplied - lifted - bearing - gained + new.work_step
+    e_new.numerical = e_old.numerical + supplied - lifted - bearing - gained
     new.status = bodies_status(run.props[0], w, new)
     return new.status
 
@@ -221,12 +221,10 @@ def start(run: RigidRun, given: RigidInput) -> None:
         w.x[0, a] = run.sliders[0].place[0, a]
         for b in range(3):
             w.q[0][a, b] = 1.0 if a == b else 0.0
-    refer(run.props[0], w, run.states[0], 0.0)
     press(
         run.props[0], run.sliders[0], run.points, run.bodies[0], run.bodies[0], run.touches[0],
         run.touches[1], w, 0.0, 0.0, 0.0, False,
     )  # fmt: skip
-    refer(run.props[0], w, run.states[0], math.inf)  # from here on in motion
     set_accelerations(run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground)
     record(run, given, 0)
 
