@@ -634,6 +634,7 @@ def test_tangent_after_a_failed_trial_is_that_of_the_committed_state(lab: Simple
     assert_allclose(element.tangent_stiffness() / scale, expected / scale, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore:rim_stiffness")  # a rim that gives way early, on purpose
 def test_limits_are_reported_at_commit(lab: SimpleNamespace) -> None:
     """Beyond slip_capacity and rim_overrun: a trial passes, the commit raises with the value."""
     for changes, status, words in (
