@@ -15,6 +15,9 @@ from scipy.integrate import solve_ivp
 from frames import GroundMotion, lumped_mass
 from lir_element import CoulombFriction, LIRBearing
 
+# Such bearings are meant here.
+pytestmark = pytest.mark.filterwarnings("ignore:axial_stiffness")
+
 MASS, STIFFNESS, GRAVITY = 50e3, 2e7, 9.80665
 
 

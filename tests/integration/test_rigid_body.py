@@ -17,6 +17,9 @@ from lir_element.bundles.rigid_data import rigid_input, rigid_run, rigid_setup
 from lir_element.device.sliders import slider_record
 from lir_element.kernels.rigid_body.march import march, start
 
+# Such bearings are meant here.
+pytestmark = pytest.mark.filterwarnings("ignore:slider_density")
+
 MASS, G = 15e3, 9.80665
 OPTIONS: dict[str, Any] = {
     "radius": 0.75,

@@ -11,6 +11,9 @@ from scipy import linalg
 from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, shear_building
 from lir_element import CoulombFriction, Element, LIRBearing
 
+# Such bearings are meant here.
+pytestmark = pytest.mark.filterwarnings("ignore:friction of 0.5")
+
 MASS = 204e3
 TERMS = ["kinetic", "elastic", "gravity", "rims", "contact", "friction_elastic"]
 
