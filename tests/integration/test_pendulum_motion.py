@@ -16,7 +16,10 @@ from frames import GroundMotion, lumped_mass
 from lir_element import CoulombFriction, LIRBearing
 
 # Such bearings are meant here.
-pytestmark = pytest.mark.filterwarnings("ignore:axial_stiffness")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:axial_stiffness"),
+    pytest.mark.filterwarnings("ignore:.*settles by"),
+]
 
 MASS, STIFFNESS, GRAVITY = 50e3, 2e7, 9.80665
 
