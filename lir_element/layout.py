@@ -70,11 +70,12 @@ STATE_FIELDS = (
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
     Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
     Field("slid", "m", "", "slipped part of the last step's sliding: bottom, top", (2,)),
-    Field("slid_interface", "m", "", "slipped part of the last step in the interface"),
-    Field("slid_twist", "rad", "", "slipped part of the last step's twist"),
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
     Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
     Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
+    Field("charge", "N", "c", "of the store before slip: bottom, top; negative: landed", (2,)),
+    Field("interface_charge", "N", "c_h", "the same of the interface"),
+    Field("twist_charge", "N", "c_t", "the same of the torsional friction"),
     Field("friction_force", "N", "F", "friction force, tangent plane: bottom, top", (2, 2)),
     Field("interface_force", "N", "F_h", "friction force of the interface, in its plane", (2,)),
     Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
@@ -87,7 +88,9 @@ STATE_FIELDS = (
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("work_friction", "J", "", "dissipated by low friction: bottom, top", (2,)),
     Field("work_interface", "J", "", "dissipated by the high-friction interface"),
-    Field("work_elastic", "J", "", "work of all friction before slip (elastic sliding)"),
+    Field("work_elastic", "J", "", "stored in the elastic sliding before slip, all friction"),
+    Field("work_owed", "J", "", "of friction that turns in a step: bottom, top, interface", (3,)),
+    Field("work_step", "J", "", "what the last step changed of it"),
     Field("work_rim", "J", "", "work done on the rims: bottom, top", (2,)),
     Field("work_contact", "J", "", "work done on the axial contact"),
     Field("work_sliders", "J", "", "taken up by the sliders' own mass: motion, weight"),
@@ -130,15 +133,20 @@ WORK_FIELDS = (
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
     Field("slid", "m", "", "slipped part of it", _W_PAIR),
-    Field("slid_s", "m", "", "slipped part of the interface's increment"),
+    Field("charge", "N", "c", "charge of the store before slip", _W_PAIR),
+    Field("charge_s", "N", "c_h", "the same of the interface"),
+    Field("way", "-", "c / N", "way to slip over yield displacement", _W_PAIR),
+    Field("way_s", "-", "c_h / N", "the same of the interface"),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
     Field("phi", "-", "", "friction force over axial force", (2, 2)),
     Field("h", "1/m", "", "its derivative by the sliding increment", (2, 2, 2)),
+    Field("phi_n", "1/N", "", "its derivative by the axial force", (2, 2)),
     Field("z_s", "-", "z_h", "hysteretic variable of the interface", _W_PAIR),
     Field("f_s", "N", "F_h", "force of the interface", _W_PAIR),
     Field("phi_s", "-", "", "interface force over axial force", _W_PAIR),
     Field("h_s", "1/m", "", "its derivative by the slip", (2, 2)),
+    Field("phi_sn", "1/N", "", "its derivative by the axial force", _W_PAIR),
     Field("n_hor", "-", "", "size of the axis' horizontal part", _W_PAIR),
     Field("unit", "-", "", "its direction, in axes of the plate", (2, 2)),
     Field("r_top", "-", "", "direction of the top rim's contact", _W_VECTOR),
@@ -204,6 +212,7 @@ BODY_FIELDS = (
 TOUCH_FIELDS = (
     Field("spot", "m", "", "place of the contact, axes of what carries it", (3,)),
     Field("hysteresis", "-", "z", "hysteretic variable of its friction", (2,)),
+    Field("charge", "N", "c", "of its store before slip; negative: it was open"),
     Field("gap", "m", "", "penetration, negative when open"),
     Field("closure", "m", "pen", "penetration, zero when open"),
     Field("push", "N", "N", "normal force"),
@@ -294,3 +303,8 @@ Scratch: TypeAlias = Any
 
 Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
+
+Mapped: TypeAlias = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float, float
+]
+"""What the return map of friction gives: see `kernels.slip.friction_map`."""

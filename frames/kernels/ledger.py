@@ -100,6 +100,7 @@ def add_bearing_energy(run: Run) -> None:
         energy.low_friction_top += old.work_friction[1]
         energy.high_friction += old.work_interface
         energy.friction_elastic += old.work_elastic
+        energy.numerical += old.work_step
         energy.rims += old.work_rim[0] + old.work_rim[1]
         energy.contact += old.work_contact
         energy.sliders += old.work_sliders

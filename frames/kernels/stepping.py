@@ -190,6 +190,8 @@ def solve_gravity(
             run.old[k].work_friction[side] = 0.0
             run.old[k].work_rim[side] = 0.0
             run.old[k].travel[side] = 0.0
+        for side in range(3):
+            run.old[k].work_owed[side] = 0.0
         run.old[k].work_interface = 0.0
         run.old[k].work_elastic = 0.0
         run.old[k].work_contact = 0.0

@@ -1,22 +1,79 @@
 """Kernels of friction and contact laws: one return map, one friction law, one contact law.
 
-Both regularisations share one form. With the trial value ``b = z_old + dw / u_y`` the new
-hysteretic variable is ``z = rho(|b|, kappa) b / |b|``, ``kappa = (b / |b|) . dw / u_y``:
+Friction is ``F = mu N z``. Both regularisations share one form. With the trial value
+``b = z_old + dw / u`` the new hysteretic variable is ``z = rho(|b|, kappa) b / |b|``,
+``kappa = (b / |b|) . dw / u``:
 
 - elastic-plastic: ``rho = min(|b|, 1)``;
 - biaxial Bouc-Wen (isotropic, A = 1, beta = gamma = 1/2; Park, Wen and Ang 1986), implicit:
   ``rho + kappa rho^eta = |b|`` while loading (kappa > 0), ``rho = |b|`` while unloading.
 
 The second becomes the first as eta grows without bound. ``|z| <= 1`` holds for both.
+
+The elastic sliding before slip stores ``mu c u_y |z|^2 / 2``. Its charge c [N] is the axial force
+where nothing changes; a rising axial force leaves the store as it is, so that the way to slip
+shortens to ``u = u_y c / N``; a falling one takes from it (c <= N); slip fills it up again. No
+cycle of the axial force then makes energy. docs/theory.md, section 3.
 """
 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 
+if TYPE_CHECKING:
+    from lir_element.layout import Mapped
+
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
+_SHORTEST = 0.1  # of u_y: the way to slip of a contact that lands, and of any
+_LITTLE = 1e-3  # hysteretic variable so small that it may give way to a full charge
+LANDED = -1.0  # charge of a contact that has been open: it lands with nothing stored
+
+
+@kernel
+def charge_at(
+    charge: float, z_1: float, z_2: float, push_old: float, push: float
+) -> tuple[float, float, float, float]:
+    """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
+
+    Four numbers: the way to slip over u_y, its derivative by `push`, the share of z that is left,
+    and that one's derivative. The mean axial force of the step counts: with the trapezoidal rule
+    for works the store then changes by what friction does, whatever the axial force does.
+    """
+    mean = 0.5 * (push_old + push)
+    if charge < 0.0:
+        return _SHORTEST, 0.0, 0.0, 0.0
+    if charge == 0.0 or charge >= mean:
+        return 1.0, 0.0, 1.0, 0.0
+    way = charge / mean
+    if abs(z_1) + abs(z_2) < _LITTLE:
+        left = math.sqrt(way)
+        return 1.0, 0.0, left, -0.25 * left / mean
+    if way >= _SHORTEST:
+        return way, -0.5 * way / mean, 1.0, 0.0
+    left = math.sqrt(way / _SHORTEST)  # as much is stored, under a larger force a unit of z
+    return _SHORTEST, 0.0, left, -0.25 * left / mean
+
+
+@kernel
+def charge_after(
+    way: float, push_old: float, push: float, z_1: float, z_2: float, slip: float, u_y: float,
+    dt: float,
+) -> float:  # fmt: skip
+    """Return the charge at the end of a step: what slip dissipates fills the store first."""
+    if push <= 0.0:
+        return LANDED if dt > 0.0 else 0.0
+    mean = 0.5 * (push_old + push)
+    filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y
+    return min(way * mean + filled, push)
+
+
+@kernel
+def stored(mu: float, charge: float, u_y: float, z_1: float, z_2: float) -> float:
+    """Return the energy [J] in the elastic sliding of a contact."""
+    return 0.5 * mu * max(charge, 0.0) * u_y * (z_1 * z_1 + z_2 * z_2)
 
 
 @kernel
@@ -77,28 +134,71 @@ def return_map(
 
 
 @kernel
+def map_rate(
+    bouc_wen: int, exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
+    by_old_1: float, by_old_2: float, by_d_1: float, by_d_2: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Return the derivative of z (2) and of ``|b| - rho`` in a direction of z_old and dw / u."""
+    b_1, b_2 = old_1 + d_1, old_2 + d_2
+    c_1, c_2 = by_old_1 + by_d_1, by_old_2 + by_d_2
+    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
+    if size == 0.0:
+        return c_1, c_2, 0.0
+    e_1, e_2 = b_1 / size, b_2 / size
+    along = e_1 * c_1 + e_2 * c_2
+    w_1, w_2 = (c_1 - along * e_1) / size, (c_2 - along * e_2) / size  # derivative of e
+    if bouc_wen:
+        kappa = e_1 * d_1 + e_2 * d_2
+        if kappa <= 0.0:
+            return c_1, c_2, 0.0
+        rho, by_size = bouc_wen_radius(size, kappa, exponent)
+        by_kappa = w_1 * d_1 + w_2 * d_2 + e_1 * by_d_1 + e_2 * by_d_2
+        radial = by_size * (along - rho**exponent * by_kappa)
+    elif size <= 1.0:
+        return c_1, c_2, 0.0
+    else:
+        rho, radial = 1.0, 0.0
+    return radial * e_1 + rho * w_1, radial * e_2 + rho * w_2, along - radial
+
+
+@kernel
 def friction_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
-    u_y: float, before_1: float, before_2: float, share: float,
-) -> tuple[float, float, float, float, float, float, float, float, float]:  # fmt: skip
-    """Return what `return_map` does, z turned to where the sliding is bound for at the step's end.
+    u_y: float, charge: float, push_old: float, push: float, before_1: float, before_2: float,
+    share: float,
+) -> Mapped:  # fmt: skip
+    """Return what `return_map` does with the way to slip that the store leaves, and more.
+
+    Thirteen numbers: the nine of `return_map`, the derivatives of z (2) and of the slip by the
+    axial force `push`, and the way to slip over u_y.
 
     The return map leaves z along the mean direction of the step: half a step late where the path
     bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
+    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push)
+    u = way * u_y
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
-        bouc_wen, exponent, old_1, old_2, dw_1, dw_2, u_y
+        bouc_wen, exponent, left * old_1, left * old_2, dw_1, dw_2, u
     )
+    n_1, n_2, s_n = 0.0, 0.0, 0.0
+    if by_way != 0.0 or by_left != 0.0:
+        shrink = -by_way / (way * u)  # derivative of 1 / u
+        n_1, n_2, s_n = map_rate(
+            bouc_wen, exponent, left * old_1, left * old_2, dw_1 / u, dw_2 / u,
+            by_left * old_1, by_left * old_2, shrink * dw_1, shrink * dw_2,
+        )  # fmt: skip
+        s_n = u * s_n + by_way / way * slip
     cross = before_1 * dw_2 - before_2 * dw_1
     dot = before_1 * dw_1 + before_2 * dw_2
+    flat = (z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way)
     if share == 0.0 or slip == 0.0 or not dot > 0.0:
-        return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
+        return flat
     angle = math.atan2(cross, dot)
     q = (angle / _BEND) ** 2
     if not q < 1.0:
-        return z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2
+        return flat
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part
@@ -106,6 +206,7 @@ def friction_map(
     by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2
+    turn_n = by_slip * s_n
     c, s = math.cos(turn), math.sin(turn)
     r_1, r_2 = c * z_1 - s * z_2, s * z_1 + c * z_2
     return (
@@ -118,6 +219,10 @@ def friction_map(
         slip,
         s_1,
         s_2,
+        c * n_1 - s * n_2 - r_2 * turn_n,
+        s * n_1 + c * n_2 + r_1 * turn_n,
+        s_n,
+        way,
     )
 
 

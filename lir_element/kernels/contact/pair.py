@@ -12,7 +12,13 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import friction_coefficient, friction_map, kelvin_voigt, speed_at_end
+from lir_element.kernels.slip import (
+    charge_after,
+    friction_coefficient,
+    friction_map,
+    kelvin_voigt,
+    speed_at_end,
+)
 
 if TYPE_CHECKING:
     from lir_element.layout import Bodies, Props, Scratch, Touch
@@ -57,10 +63,11 @@ def sphere(
     o_2 = s[0] * o[0] + s[1] * o[1] + s[2] * o[2]
     o_n = n_0 * o[0] + n_1 * o[1] + n_2 * o[2]
     dw_1, dw_2 = -radius * o_1, -radius * o_2
-    before = old.increment
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = friction_map(
+    push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
+    before, u_y = old.increment, p.yield_displacement[side]
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, z_n1, z_n2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.yield_displacement[side], before[0], before[1], w.share,
+        u_y, old.charge, old.push, push, before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
@@ -68,9 +75,9 @@ def sphere(
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
-    push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
+    new.charge = charge_after(way, old.push, push, z_1, z_2, slip, u_y, dt)
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = size - radius, closure, push
     new.friction, new.slid, new.speed = mu, slip, speed
@@ -81,7 +88,9 @@ def sphere(
         w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
-    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
+    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
+    f_n1 = f_1 + push * (mu * z_n1 + z_1 * by_n)
+    f_n2 = f_2 + push * (mu * z_n2 + z_2 * by_n)
     g_11, g_12 = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
     g_21, g_22 = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
     k, inv = 1.0 / (1.0 + n_2), 1.0 / size
@@ -92,8 +101,8 @@ def sphere(
         dw_c1 = -radius * (-e_1 * o_n + w_n * o_2)
         dw_c2 = -radius * (-e_2 * o_n - w_n * o_1)
         d_push = stiff * along
-        d_1 = push * (g_11 * dw_c1 + g_12 * dw_c2) + d_push * f_1 - push * f_2 * w_n
-        d_2 = push * (g_21 * dw_c1 + g_22 * dw_c2) + d_push * f_2 + push * f_1 * w_n
+        d_1 = push * (g_11 * dw_c1 + g_12 * dw_c2) + d_push * f_n1 - push * f_2 * w_n
+        d_2 = push * (g_21 * dw_c1 + g_22 * dw_c2) + d_push * f_n2 + push * f_1 * w_n
         d_n = -push * (f_1 * e_1 + f_2 * e_2) * sign + d_push  # along m = sign n
         for a in range(3):
             unit = (1.0 if a == c else 0.0) - m[a] * along
@@ -110,12 +119,13 @@ def plane(
     """
     d, o = w.d, old.spot
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _ = friction_map(
+    push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, z_n1, z_n2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.interface_yield, old.increment[0], old.increment[1], w.share,
+        p.interface_yield, old.charge, old.push, push, old.increment[0], old.increment[1], w.share,
     )  # fmt: skip
     mu = p.interface_friction
-    push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
+    new.charge = charge_after(way, old.push, push, z_1, z_2, slip, p.interface_yield, dt)
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
@@ -125,7 +135,8 @@ def plane(
     w.normal[2] = push
     w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
     w.slope[2, 2] = -stiff
-    w.slope[0, 2], w.slope[1, 2] = stiff * mu * z_1, stiff * mu * z_2
+    w.slope[0, 2] = stiff * mu * (z_1 + push * z_n1)
+    w.slope[1, 2] = stiff * mu * (z_2 + push * z_n2)
     w.slope[0, 0], w.slope[0, 1] = -push * mu * h_11, -push * mu * h_12
     w.slope[1, 0], w.slope[1, 1] = -push * mu * h_21, -push * mu * h_22
 
@@ -145,7 +156,7 @@ def bond(
     new.gap = -w.d[2]  # bonded: it neither opens nor closes
     new.closure = new.gap
     new.push = max(w.normal[2], 0.0)
-    new.hysteresis[0], new.hysteresis[1] = 0.0, 0.0
+    new.hysteresis[0], new.hysteresis[1], new.charge = 0.0, 0.0, 0.0
     new.increment[0], new.increment[1] = 0.0, 0.0
     new.friction, new.slid, new.speed = 0.0, 0.0, 0.0
 

@@ -20,7 +20,8 @@ from lir_element.kernels.contact.pairs import (
     turn_between,
 )
 from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
-from lir_element.kernels.pendulum.work import dissipated
+from lir_element.kernels.pendulum.work import taken
+from lir_element.kernels.slip import stored
 
 if TYPE_CHECKING:
     from lir_element.layout import (
@@ -52,7 +53,7 @@ def fill_state(
     set_averages(points, touch, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
-    new.twist_hysteresis, new.slid_twist = 0.0, 0.0
+    new.twist_hysteresis, new.twist_charge = 0.0, 0.0
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
 
@@ -109,17 +110,18 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
 @kernel
 def set_averages(points: Records, touch: Records, new: State) -> None:
     """Set friction states and forces of the three interfaces from their points."""
-    new.axial_force, new.slid_interface = 0.0, 0.0
+    new.axial_force, new.interface_charge = 0.0, 0.0
     for a in range(2):
         new.slid[a], new.friction_coefficient[a], new.sliding_speed[a] = 0.0, 0.0, 0.0
         new.interface_hysteresis[a], new.interface_force[a] = 0.0, 0.0
+        new.charge[a] = 0.0
         for b in range(2):
             new.hysteresis[a, b], new.friction_force[a, b] = 0.0, 0.0
             new.sliding_increment[a, b] = 0.0
     for j in range(points.shape[0]):
         t, share, pair = touch[j], points[j].share, points[j].pair
         if pair == 1:
-            new.slid_interface += share * t.slid
+            new.interface_charge += t.charge
             for a in range(2):
                 new.interface_hysteresis[a] += share * t.hysteresis[a]
                 new.interface_force[a] += t.push * t.friction * t.hysteresis[a]
@@ -129,6 +131,7 @@ def set_averages(points: Records, touch: Records, new: State) -> None:
         if pair == 2:
             new.axial_force += t.push
         new.slid[side] += share * t.slid
+        new.charge[side] += t.charge
         new.friction_coefficient[side] += share * t.friction
         new.sliding_speed[side] += share * t.speed
         for a in range(2):
@@ -183,6 +186,23 @@ def taken_up(b_old: Bodies, b_new: Bodies, moves: Floats, origin: int) -> float:
 
 
 @kernel
+def springs(p: Props, points: Records, touch: Records, pair: int) -> float:
+    """Return the energy in the elastic sliding of the points of one interface."""
+    mu, u_y = p.interface_friction, p.interface_yield
+    if pair != 1:
+        side = 0 if pair == 0 else 1
+        mu, u_y = p.friction_max[side] - p.friction_drop[side], p.yield_displacement[side]
+    elif p.fused:
+        return 0.0
+    total = 0.0
+    for j in range(points.shape[0]):
+        if points[j].pair == pair:
+            t = touch[j]
+            total += stored(mu, t.charge, u_y, t.hysteresis[0], t.hysteresis[1])
+    return total
+
+
+@kernel
 def contact_accumulate(
     p: Props, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
     touch_old: Records, touch_new: Records, moves: Floats, bodies: int,
@@ -190,25 +210,17 @@ def contact_accumulate(
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
+    What friction takes beyond its elastic energy is dissipated.
     """
     set_moves(old, new, b_old, b_new, bodies, moves)
-    lost, slip_work = 0.0, 0.0
-    for j in range(points.shape[0]):
-        before, after, pair = touch_old[j], touch_new[j], points[j].pair
-        work = dissipated(
-            before.friction * before.push, after.friction * after.push,
-            after.hysteresis[0], after.hysteresis[1], after.slid,
-        )  # fmt: skip
-        if pair == 1:
-            slip_work += work
+    for side, pair, origin in ((0, 0, LOW_BOTTOM), (1, 2, LOW_TOP), (2, 1, HIGH)):
+        spring = springs(p, points, touch_new, pair) - springs(p, points, touch_old, pair)
+        lost = taken(old, new, side, taken_up(b_old, b_new, moves, origin) - spring)
+        new.work_elastic += spring
+        if side < 2:
+            new.work_friction[side] += lost
         else:
-            side = 0 if pair == 0 else 1
-            new.work_friction[side] += work
-            lost += work
-    total = taken_up(b_old, b_new, moves, LOW_BOTTOM) + taken_up(b_old, b_new, moves, LOW_TOP)
-    total += taken_up(b_old, b_new, moves, HIGH)
-    new.work_interface += slip_work
-    new.work_elastic += total - lost - slip_work
+            new.work_interface += lost
     new.work_contact += taken_up(b_old, b_new, moves, NORMAL)
     new.work_rim[0] += taken_up(b_old, b_new, moves, RIM_BOTTOM)
     new.work_rim[1] += taken_up(b_old, b_new, moves, RIM_TOP)

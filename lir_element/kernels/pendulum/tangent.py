@@ -23,13 +23,12 @@ if TYPE_CHECKING:
 
 @kernel
 def friction_rate(
-    w: Work, k: int, axial_rate: float, dw_1: float, dw_2: float
+    w: Work, k: int, d_hat: float, d_pos: float, dw_1: float, dw_2: float
 ) -> tuple[float, float]:
     """Return the derivative of the friction force of surface `k`."""
-    return (
-        w.n_hat * (w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2) + w.phi[k, 0] * axial_rate,
-        w.n_hat * (w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2) + w.phi[k, 1] * axial_rate,
-    )
+    f_1 = w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2 + w.phi_n[k, 0] * d_pos
+    f_2 = w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2 + w.phi_n[k, 1] * d_pos
+    return w.n_hat * f_1 + w.phi[k, 0] * d_hat, w.n_hat * f_2 + w.phi[k, 1] * d_hat
 
 
 @kernel
@@ -86,7 +85,7 @@ def direction(
     d_hat = d_n if w.scale == 1.0 else 0.0
     # surfaces
     f_11, f_12 = friction_rate(
-        w, 0, d_hat,
+        w, 0, d_hat, d_pos,
         p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1]),
         p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0]),
     )  # fmt: skip
@@ -94,7 +93,7 @@ def direction(
     o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
     t = w.t
     f_21, f_22 = friction_rate(
-        w, 1, d_hat,
+        w, 1, d_hat, d_pos,
         p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1]
                        + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3),
         p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
@@ -136,8 +135,10 @@ def direction(
         g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     g_d1, g_d2 = 0.0, 0.0
     if not p.fused:
-        g_d1 = w.n_hat * (w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2) + w.phi_s[0] * d_hat
-        g_d2 = w.n_hat * (w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2) + w.phi_s[1] * d_hat
+        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.phi_sn[0] * d_pos
+        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_pos
+        g_d1 = w.n_hat * g_d1 + w.phi_s[0] * d_hat
+        g_d2 = w.n_hat * g_d2 + w.phi_s[1] * d_hat
     chi = s_2 * g_1 - s_1 * g_2
     d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * chi
     chi *= k

@@ -12,8 +12,14 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
-from lir_element.kernels.pendulum.string import aim_axis, place_plates, set_axis, static_speeds
-from lir_element.kernels.slip import return_map
+from lir_element.kernels.pendulum.string import (
+    aim_axis,
+    place_plates,
+    pressed,
+    set_axis,
+    static_speeds,
+)
+from lir_element.kernels.slip import charge_after, friction_map
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Words, Work
@@ -66,14 +72,18 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    z, _, slope, _, _, _, slip, _, _ = return_map(
+    push_old, push = pressed(p, old, w)
+    z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
-        p.torsion_yield,
+        p.torsion_yield, old.twist_charge, push_old, push, 0.0, 0.0, 0.0,
     )  # fmt: skip
-    w.torque_axial = p.torsion_lever * mu * z
-    w.torque = w.torque_axial * w.n_pos
+    if p.fixed_load > 0.0:
+        by_n = 0.0
+    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * by_n)
+    w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
-    new.twist_hysteresis, new.slid_twist = z, slip
+    new.twist_hysteresis = z
+    new.twist_charge = charge_after(way, push_old, push, z, 0.0, slip, p.torsion_yield, w.dt)
     new.torque = w.torque
 
 
@@ -86,6 +96,9 @@ def keep_works(old: State, new: State) -> None:
         new.travel[k] = old.travel[k]
     new.work_interface = old.work_interface
     new.work_elastic = old.work_elastic
+    for k in range(3):
+        new.work_owed[k] = old.work_owed[k]
+    new.work_step = 0.0
     new.work_contact = old.work_contact
     new.work_sliders = old.work_sliders
     new.interface_travel = old.interface_travel
@@ -109,7 +122,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
     keep_works(old, new)
     new.string = w.l
     new.closure = w.closure
-    new.slid_interface = 0.0 if p.fused else w.slid_s
+    new.interface_charge = 0.0 if p.fused else w.charge_s
     new.axial_force = w.n_true
     new.vertical_force = w.vertical
     for k in range(2):
@@ -120,6 +133,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
         new.slid[k] = w.slid[k]
+        new.charge[k] = w.charge[k]
         new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.kernels.slip import stored
 
 if TYPE_CHECKING:
     from lir_element.layout import Props, State
@@ -67,19 +68,45 @@ def contact_defect(p: Props, old: State, new: State) -> float:
 
 
 @kernel
-def dissipated(cap_old: float, cap: float, z_1: float, z_2: float, slip: float) -> float:
-    """Return the work of friction over the slipped part of a step, which lies along z.
+def taken(old: State, new: State, side: int, work: float) -> float:
+    """Return the dissipated part of the work that friction takes over the slipped part of a step.
 
-    `cap_old` and `cap` are the forces at full slip at both ends: trapezoidal, never negative.
+    Where slip turns round within a step the trapezoidal rule may make that work negative, by about
+    what the friction force does in a fraction of the step. It is owed until the next slip pays it,
+    so that what is dissipated never falls.
     """
-    return 0.5 * (cap_old + cap) * math.sqrt(z_1 * z_1 + z_2 * z_2) * slip
+    due = old.work_owed[side] + work
+    paid = max(due, 0.0)
+    new.work_owed[side] = due - paid
+    new.work_step += new.work_owed[side] - old.work_owed[side]
+    return paid
 
 
 @kernel
-def torsion_cap(p: Props, at: State) -> float:
-    """Return the torque about the vertical at full slip in the state `at`."""
-    mu = min(at.friction_coefficient[0], at.friction_coefficient[1], p.interface_friction)
-    return p.torsion_lever * mu * max(at.axial_force, 0.0)
+def spring_energy(p: Props, at: State, k: int) -> float:
+    """Return the energy in the elastic sliding of surface `k` in the state `at`."""
+    low = p.friction_max[k] - p.friction_drop[k]
+    z = at.hysteresis[k]
+    return stored(low, at.charge[k], p.yield_displacement[k], z[0], z[1])
+
+
+@kernel
+def interface_energy(p: Props, at: State) -> float:
+    """Return the same of the interface."""
+    if p.fused:
+        return 0.0
+    z = at.interface_hysteresis
+    return stored(p.interface_friction, at.interface_charge, p.interface_yield, z[0], z[1])
+
+
+@kernel
+def twist_energy(p: Props, at: State) -> float:
+    """Return the same of the torsional friction, which counts with its least coefficient."""
+    low = p.interface_friction
+    for k in range(2):
+        low = min(low, p.friction_max[k] - p.friction_drop[k])
+    low *= p.torsion_lever
+    return stored(low, at.twist_charge, p.torsion_yield, at.twist_hysteresis, 0.0)
 
 
 @kernel
@@ -87,38 +114,27 @@ def accumulate(p: Props, old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
-    so for the stiff contacts, whose forces jump).
+    so for the stiff contacts, whose forces jump). What friction takes beyond its elastic energy
+    is dissipated.
     """
-    before, after = max(old.axial_force, 0.0), max(new.axial_force, 0.0)
-    total = 0.5 * (old.torque + new.torque) * (new.twist - old.twist)
-    turned = dissipated(
-        torsion_cap(p, old), torsion_cap(p, new), new.twist_hysteresis, 0.0, new.slid_twist
-    )
-    lost = turned
+    gain = twist_energy(p, new) - twist_energy(p, old)
+    turned = 0.5 * (old.torque + new.torque) * (new.twist - old.twist) - gain
     for k in range(2):
         f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
-        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
-        work = dissipated(
-            old.friction_coefficient[k] * before,
-            new.friction_coefficient[k] * after,
-            new.hysteresis[k, 0],
-            new.hysteresis[k, 1],
-            new.slid[k],
-        )
-        lost += work
-        new.work_friction[k] = old.work_friction[k] + work + 0.5 * turned
+        spring = spring_energy(p, new, k) - spring_energy(p, old, k)
+        work = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1]) - spring
+        gain += spring
+        new.work_friction[k] = old.work_friction[k] + taken(old, new, k, work + 0.5 * turned)
         new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
     f, g, d, s = old.interface_force, new.interface_force, new.slip_increment, new.slip
-    work = 0.0
     if not p.fused:
-        total += 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
-        z = new.interface_hysteresis
-        mu = p.interface_friction
-        work = dissipated(mu * before, mu * after, z[0], z[1], new.slid_interface)
-    new.work_interface = old.work_interface + work
-    new.work_elastic = old.work_elastic + total - lost - work
+        spring = interface_energy(p, new) - interface_energy(p, old)
+        work = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1]) - spring
+        gain += spring
+        new.work_interface = old.work_interface + taken(old, new, 2, work)
+    new.work_elastic = old.work_elastic + gain
     new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
     new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
     work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))

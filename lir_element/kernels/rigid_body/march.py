@@ -103,7 +103,7 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
     e_new.kinetic = kinetic_energy(run, after)
     e_new.input, e_new.gravity = e_old.input + supplied, e_old.gravity + lifted
     gained = e_new.kinetic - e_old.kinetic
-    e_new.numerical = e_old.numerical + supplied - lifted - bearing - gained
+    e_new.numerical = e_old.numerical + supplied - lifted - bearing - gained + new.work_step
     new.status = bodies_status(run.props[0], w, new)
     return new.status
 
