@@ -27,24 +27,29 @@ if TYPE_CHECKING:
     from lir_element.layout import Mapped
 
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
-_SHORTEST = 0.1  # of u_y: the way to slip of a contact that lands, and of any
+_SHORTEST = 0.3  # of u_y: the way to slip that a rising axial force leaves at least
 _LITTLE = 1e-3  # hysteretic variable so small that it may give way to a full charge
 LANDED = -1.0  # charge of a contact that has been open: it lands with nothing stored
 
 
 @kernel
 def charge_at(
-    charge: float, z_1: float, z_2: float, push_old: float, push: float
+    charge: float, z_1: float, z_2: float, push_old: float, push: float, floor: float
 ) -> tuple[float, float, float, float]:
     """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
 
     Four numbers: the way to slip over u_y, its derivative by `push`, the share of z that is left,
     and that one's derivative. The mean axial force of the step counts: with the trapezoidal rule
-    for works the store then changes by what friction does, whatever the axial force does.
+    for works the store then changes by what friction does, whatever the axial force does. A
+    contact that was open forgets z as it lands, over the first `floor` of axial force.
     """
     mean = 0.5 * (push_old + push)
     if charge < 0.0:
-        return _SHORTEST, 0.0, 0.0, 0.0
+        if push <= 0.0:
+            return 1.0, 0.0, 1.0, 0.0
+        return (
+            (1.0, 0.0, 1.0 - push / floor, -1.0 / floor) if push < floor else (1.0, 0.0, 0.0, 0.0)
+        )
     if charge == 0.0 or charge >= mean:
         return 1.0, 0.0, 1.0, 0.0
     way = charge / mean
@@ -59,12 +64,17 @@ def charge_at(
 
 @kernel
 def charge_after(
-    way: float, push_old: float, push: float, z_1: float, z_2: float, slip: float, u_y: float,
-    dt: float,
+    charge: float, way: float, push_old: float, push: float, z_1: float, z_2: float,
+    slip: float, u_y: float, dt: float,
 ) -> float:  # fmt: skip
-    """Return the charge at the end of a step: what slip dissipates fills the store first."""
+    """Return the charge at the end of a step: what slip dissipates fills the store first.
+
+    A contact that has never carried a force (`charge` zero) is charged by its first one.
+    """
     if push <= 0.0:
         return LANDED if dt > 0.0 else 0.0
+    if charge == 0.0:
+        return push
     mean = 0.5 * (push_old + push)
     filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y
     return min(way * mean + filled, push)
@@ -164,8 +174,8 @@ def map_rate(
 @kernel
 def friction_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
-    u_y: float, charge: float, push_old: float, push: float, before_1: float, before_2: float,
-    share: float,
+    u_y: float, charge: float, push_old: float, push: float, floor: float, before_1: float,
+    before_2: float, share: float,
 ) -> Mapped:  # fmt: skip
     """Return what `return_map` does with the way to slip that the store leaves, and more.
 
@@ -177,7 +187,7 @@ def friction_map(
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
-    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push)
+    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor)
     u = way * u_y
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
         bouc_wen, exponent, left * old_1, left * old_2, dw_1, dw_2, u

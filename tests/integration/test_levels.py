@@ -77,12 +77,16 @@ def dissipated(data: xr.Dataset) -> np.ndarray:
 
 
 # Slip along a rim depends on how both sliders rock against it: some 10 % of 1 cm on the orbit.
+# Elsewhere by 0.04 mm: as the sliders rock, each point's way to slip follows its own force.
 SLIP = {"orbit": 0.12, "unequal": 0.02}
+# At "rigid_body" the top plate's mass is turned upward at once where the path turns: the axial
+# force falls to two thirds, and friction turns round over a shorter way.
+DISSIPATED = {"contact": 5e-3, "rigid_body": 1e-2}
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_levels_agree_in_the_rig(case: str) -> None:
-    """Force within 0.2 % of its peak (0.8 % along a rim), slip within 0.2 %, dissipation 0.3 %."""
+    """Force within 0.2 % of its peak (0.8 % along a rim), slip 0.5 %, dissipation 0.5 % or 1 %."""
     changes, path = CASES[case]
     b = bearing(**changes)
     one, *others = (
@@ -100,9 +104,9 @@ def test_levels_agree_in_the_rig(case: str) -> None:
         error = np.abs(two["bearing_force"][:, 0, :2].to_numpy() - force).max()
         assert error < (8e-3 if case == "orbit" else 2e-3) * np.abs(force).max()
         error = np.abs(two["interface_slip"][:, 0].to_numpy() - slip).max()
-        assert error < SLIP.get(case, 2e-3) * max(np.abs(slip).max(), 1e-3)
+        assert error < SLIP.get(case, 5e-3) * max(np.abs(slip).max(), 1e-3)
         error = np.abs(dissipated(two) - dissipated(one)).max()
-        assert error < 3e-3 * dissipated(one).max()
+        assert error < DISSIPATED[level] * dissipated(one).max()
         # the actuator holds W on the top plate
         load = -two["bearing_force"][:, 0, 2].to_numpy()
         assert_allclose(load, W, rtol=1e-6 if level == "contact" else 5e-3, atol=0.0)

@@ -14,7 +14,9 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 COUNT = 1000
-WORKS = ("work_friction", "work_interface", "work_elastic", "work_rim", "work_contact")
+WORKS = (
+    "work_friction", "work_interface", "work_elastic", "work_owed", "work_rim", "work_contact",
+)  # fmt: skip
 
 
 def work_of_nodes(u: np.ndarray, force: np.ndarray) -> np.ndarray:

@@ -436,12 +436,19 @@ def test_forces_turn_with_the_bodies(config: str) -> None:
 def test_derivative_of_all_forces(config: str, seed: int) -> None:
     """24 columns: displacements, and spins (finite turns) of each body, against differences."""
     bodies = Bodies(config, 20 + seed)
+    bodies.touch_old["charge"] *= 0.8  # stores that are not full
     bodies.press(derive=True)
     k = bodies.w.k.copy()
     x, q = bodies.x.copy(), bodies.q.copy()
     touching = bodies.touch_new["push"] > 0.0
     slipping = bodies.touch_new["slid"] > 0.0
     assert touching.any()
+
+    def charged() -> np.ndarray:
+        mean = 0.5 * (bodies.touch_old["push"] + bodies.touch_new["push"])
+        return np.sign(bodies.touch_old["charge"] - mean)
+
+    full = charged()
 
     def forces(move: np.ndarray) -> np.ndarray:
         bodies.x = x + move.reshape(4, 6)[:, :3]
@@ -450,6 +457,7 @@ def test_derivative_of_all_forces(config: str, seed: int) -> None:
         out = bodies.press().ravel()
         # no corner within the differences
         assert (touching == (bodies.touch_new["push"] > 0.0)).all()
+        assert (full == charged()).all()
         if bodies.bearing.friction_law != "bouc-wen":
             assert (slipping == (bodies.touch_new["slid"] > 0.0)).all()
         return out

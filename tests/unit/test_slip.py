@@ -19,6 +19,7 @@ from lir_element.kernels.slip import (
 )
 
 U_Y = 0.25e-3
+FULL = (1e5, 1e5, 1e5, 1e2)  # N: charge of the store, axial force before and after, its floor
 STEP = st.floats(-5e-3, 5e-3)
 ANGLE = st.floats(-math.pi, math.pi)
 LAWS = [(0, 2.0), (1, 1.0), (1, 2.0), (1, 5.5), (1, 40.0)]
@@ -271,7 +272,7 @@ def test_derivative_half_a_step_ahead(
     h = 1e-3 * min(U_Y * min(far, 1.0), step)
 
     def at(x: float, y: float) -> np.ndarray:
-        return np.array(friction_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y, *last, share))
+        return np.array(friction_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y, *FULL, *last, share))
 
     columns = []
     for x, y in ((h, 0.0), (0.0, h)):
@@ -298,7 +299,7 @@ def test_direction_on_a_circle(steps: int) -> None:
         z, last = np.zeros(2), np.zeros(2)
         for dw in increments:
             last_share = 0.5 if name == "ahead" and last.any() else 0.0
-            z = np.array(friction_map(0, 2.0, *z, *dw, U_Y, *last, last_share)[:2])
+            z = np.array(friction_map(0, 2.0, *z, *dw, U_Y, *FULL, *last, last_share)[:2])
             last = dw
         direction = math.atan2(z[1], z[0])
         lags[name] = (phase[-1] - direction + np.pi) % (2.0 * np.pi) - np.pi

@@ -67,7 +67,7 @@ def sphere(
     before, u_y = old.increment, p.yield_displacement[side]
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, z_n1, z_n2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        u_y, old.charge, old.push, push, before[0], before[1], w.share,
+        u_y, old.charge, old.push, push, 0.0, before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
@@ -77,7 +77,7 @@ def sphere(
     )
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
-    new.charge = charge_after(way, old.push, push, z_1, z_2, slip, u_y, dt)
+    new.charge = charge_after(old.charge, way, old.push, push, z_1, z_2, slip, u_y, dt)
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = size - radius, closure, push
     new.friction, new.slid, new.speed = mu, slip, speed
@@ -122,10 +122,13 @@ def plane(
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, z_n1, z_n2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.interface_yield, old.charge, old.push, push, old.increment[0], old.increment[1], w.share,
+        p.interface_yield, old.charge, old.push, push, 0.0, old.increment[0], old.increment[1],
+        w.share,
     )  # fmt: skip
     mu = p.interface_friction
-    new.charge = charge_after(way, old.push, push, z_1, z_2, slip, p.interface_yield, dt)
+    new.charge = charge_after(
+        old.charge, way, old.push, push, z_1, z_2, slip, p.interface_yield, dt
+    )
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2

@@ -163,10 +163,13 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     push_old, push = pressed(p, old, w)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], old.charge[k], push_old, push, before[0], before[1], share,
+        p.yield_displacement[k], old.charge[k], push_old, push, p.axial_floor, before[0],
+        before[1], share,
     )  # fmt: skip
     w.slid[k], w.way[k] = slip, way
-    w.charge[k] = charge_after(way, push_old, push, z_1, z_2, slip, p.yield_displacement[k], w.dt)
+    w.charge[k] = charge_after(
+        old.charge[k], way, push_old, push, z_1, z_2, slip, p.yield_displacement[k], w.dt
+    )
     # the speed of slip, not of the elastic part: friction must not grow while it unloads
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
@@ -193,11 +196,14 @@ def interface(p: Props, old: State, w: Work) -> None:
     z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, n_1, n_2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
-        old.interface_charge, push_old, push, before[0], before[1], step_share(w.dt, old.step),
+        old.interface_charge, push_old, push, p.axial_floor, before[0], before[1],
+        step_share(w.dt, old.step),
     )  # fmt: skip
     mu = p.interface_friction
     w.z_s[0], w.z_s[1], w.way_s = z_1, z_2, way
-    w.charge_s = charge_after(way, push_old, push, z_1, z_2, slip, p.interface_yield, w.dt)
+    w.charge_s = charge_after(
+        old.interface_charge, way, push_old, push, z_1, z_2, slip, p.interface_yield, w.dt
+    )
     w.phi_sn[0], w.phi_sn[1] = mu * n_1, mu * n_2
     if p.fixed_load > 0.0:
         w.phi_sn[0], w.phi_sn[1] = 0.0, 0.0

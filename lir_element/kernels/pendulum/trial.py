@@ -75,7 +75,7 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     push_old, push = pressed(p, old, w)
     z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
-        p.torsion_yield, old.twist_charge, push_old, push, 0.0, 0.0, 0.0,
+        p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, 0.0, 0.0, 0.0,
     )  # fmt: skip
     if p.fixed_load > 0.0:
         by_n = 0.0
@@ -83,7 +83,9 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
     new.twist_hysteresis = z
-    new.twist_charge = charge_after(way, push_old, push, z, 0.0, slip, p.torsion_yield, w.dt)
+    new.twist_charge = charge_after(
+        old.twist_charge, way, push_old, push, z, 0.0, slip, p.torsion_yield, w.dt
+    )
     new.torque = w.torque
 
 

@@ -100,6 +100,19 @@ def interface_energy(p: Props, at: State) -> float:
 
 
 @kernel
+def interface_work(p: Props, old: State, new: State) -> float:
+    """Return the work of the interface's friction over the step.
+
+    What the interface holds beyond it, while the bearing is pulled, is the contact's.
+    """
+    before = p.interface_friction * max(old.axial_force, 0.0)
+    after = p.interface_friction * max(new.axial_force, 0.0)
+    y, z, d = old.interface_hysteresis, new.interface_hysteresis, new.slip_increment
+    along = (before * y[0] + after * z[0]) * d[0] + (before * y[1] + after * z[1]) * d[1]
+    return 0.5 * along
+
+
+@kernel
 def twist_energy(p: Props, at: State) -> float:
     """Return the same of the torsional friction, which counts with its least coefficient."""
     low = p.interface_friction
@@ -129,9 +142,12 @@ def accumulate(p: Props, old: State, new: State) -> None:
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
     f, g, d, s = old.interface_force, new.interface_force, new.slip_increment, new.slip
+    held = 0.0
     if not p.fused:
         spring = interface_energy(p, new) - interface_energy(p, old)
-        work = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1]) - spring
+        total = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+        held = total - interface_work(p, old, new)
+        work = total - held - spring
         gain += spring
         new.work_interface = old.work_interface + taken(old, new, 2, work)
     new.work_elastic = old.work_elastic + gain
@@ -141,4 +157,4 @@ def accumulate(p: Props, old: State, new: State) -> None:
     if p.fixed_load > 0.0:  # the load of the string rises; the spring beside it
         work += p.fixed_load * (new.centres[2] - old.centres[2])
         work += 0.5 * (old.vertical_force + new.vertical_force) * (new.closure - old.closure)
-    new.work_contact = old.work_contact + work
+    new.work_contact = old.work_contact + work + held
