@@ -127,7 +127,7 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             each,
             states["work_elastic"].copy(),
             "J",
-            "work of all friction before slip",
+            "stored in the elastic sliding before slip, all friction",
         ),
         "work_rims": labelled(each, states["work_rim"].sum(axis=-1), "J", "work done on the rims"),
         "work_contact": labelled(

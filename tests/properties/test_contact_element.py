@@ -395,7 +395,7 @@ def test_whole_bearing_is_in_equilibrium(name: str, lab: SimpleNamespace) -> Non
     The rate of angular momentum about node i is that of the mass centres and of the spins.
     """
     bearing = lab.make(name)
-    u, time = lab.smooth_path(bearing, 31, 300, tilt=0.02, twist=0.04, swing=1.3)
+    u, time = lab.smooth_path(bearing, 31, 600, tilt=0.02, twist=0.04, swing=1.3)
     record = slider_record(bearing)[0]
     mass, place = record["mass"], record["place"] - record["place"][0]
     element = Element(bearing, "contact")
