@@ -136,8 +136,6 @@ class Run(NamedTuple):
     element_k: Array  # (n_bearings, 12, 12)
     u: Array  # (12,)
     v: Array
-    zero: Array
-    axes: Array
     energy: Array  # (1,) LEDGER
     energy_row: Array  # (n_terms,) the same as numbers
     clock: Array  # (1,) CLOCK
@@ -239,8 +237,8 @@ def run_arrays(model: Model) -> Run:
         b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
         rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),
-        element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12), zero=np.zeros(3),
-        axes=np.eye(3), energy=energy, energy_row=energy.view(np.float64),
+        element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12),
+        energy=energy, energy_row=energy.view(np.float64),
         clock=np.zeros(1, dtype=CLOCK), counts=np.zeros(1, dtype=COUNTS),
     )  # fmt: skip
 

@@ -23,8 +23,6 @@ Level = Literal["pendulum", "contact"]
 AnyLevel = Literal["pendulum", "contact", "rigid_body"]
 LEVELS = ("pendulum", "contact")
 ALL_LEVELS = (*LEVELS, "rigid_body")
-_ZERO = np.zeros(3)
-_AXES = np.eye(3)
 
 
 def initial_state(props: Records) -> Records:
@@ -155,7 +153,7 @@ class Element:
         u, v = _twelve("displacement", displacement), _twelve("velocity", velocity)
         code = levels.bearing_trial(
             self._props, self._committed, self._trial, self._work, self._contacts, 0, u, v,
-            float(time), _ZERO,
+            float(time),
         )  # fmt: skip
         self._has_tangent = False
         self._pending = True
@@ -171,9 +169,8 @@ class Element:
         """Return the consistent tangent (12, 12) of the trial state, unsymmetric as it comes."""
         if not self._has_tangent:
             levels.bearing_tangent(
-                self._props, self._trial, self._work, self._contacts, 0, self._tangent, _ZERO,
-                _AXES,
-            )  # fmt: skip
+                self._props, self._trial, self._work, self._contacts, 0, self._tangent
+            )
             self._has_tangent = True
         return self._tangent.copy()
 

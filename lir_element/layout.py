@@ -170,6 +170,8 @@ WORK_FIELDS = (
     Field("start", "-", "", "axis and basis at which a search begins", _W_MATRIX),
     Field("start_circle", "-", "", "unit radial direction and radius of its parallel", _W_VECTOR),
     Field("inverse", "1/(N m)", "", "inverse of the jacobian, by rows", (4,)),
+    Field("still", "m, rad", "", "no shift of a centre, no spin", _W_VECTOR),
+    Field("along", "m, rad", "", "a unit of one, zero between its uses", _W_VECTOR),
     Field("half", "", "", "spare", _W_MATRIX),
     Field("sums", "", "", "spare", _W_VECTOR),
     Field("spare_u", "", "", "displacements of a caller", (12,)),

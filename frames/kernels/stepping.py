@@ -51,7 +51,7 @@ def bearing_forces(
         gather(model, k, b, run.u)
         gather(model, k, v_b, run.v)
         code = bearing_trial(
-            model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time, run.zero
+            model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time
         )
         if code != _OK:
             worst = code
@@ -70,7 +70,7 @@ def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: 
     """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
-        bearing_tangent(model.props, run.new, run.work, contacts, k, element, run.zero, run.axes)
+        bearing_tangent(model.props, run.new, run.work, contacts, k, element)
         for row in range(12):
             for i in range(model.start[k, row], model.start[k, row + 1]):
                 for col in range(12):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -40,6 +40,22 @@ class Contacts(NamedTuple):
     touch_old_words: Words
     touch_new_words: Words
     scratch: Records  # (n,)
+
+
+class BodyStep(NamedTuple):
+    """One bearing made of bodies, over one step: constants, both of its ends, scratch.
+
+    A view of `Contacts` or of a rigid-body run that kernels hand on; `old` is read, `new` written.
+    """
+
+    props: Any  # record of PROPS
+    sliders: Any  # of SLIDERS
+    points: Records  # (m,)
+    old: Any  # of BODIES
+    new: Any
+    touch_old: Records  # (m,)
+    touch_new: Records
+    scratch: Any  # record of SCRATCH
 
 
 def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float

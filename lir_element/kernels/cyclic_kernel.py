@@ -21,14 +21,14 @@ _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 @kernel
 def hold_load(
     props: Records, old: Records, new: Records, work: Records, contacts: Contacts | None,
-    u: Floats, v: Floats, time: float, load: float, k: Floats, zero: Floats, axes: Floats,
+    u: Floats, v: Floats, time: float, load: float, k: Floats,
 ) -> int:  # fmt: skip
     """Find the vertical displacement ``u[8]`` that carries `load`; return a status code."""
     p = props[0]
     code = _NEWTON_FAILED
     low, high = -math.inf, math.inf  # places that carry too much, too little
     for _ in range(60):
-        code = bearing_trial(props, old, new, work, contacts, 0, u, v, time, zero)
+        code = bearing_trial(props, old, new, work, contacts, 0, u, v, time)
         if has_no_state(code):
             return code
         excess = new[0].force[8] + load
@@ -38,7 +38,7 @@ def hold_load(
             high = min(high, u[8])
         else:
             low = max(low, u[8])
-        bearing_tangent(props, new, work, contacts, 0, k, zero, axes)
+        bearing_tangent(props, new, work, contacts, 0, k)
         if k[8, 8] > 0.0:
             u[8] -= excess / k[8, 8]
         else:  # lifted off: close the gap
@@ -52,7 +52,7 @@ def hold_load(
 def run_path(
     props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
     contacts: Contacts | None, path: Floats, loads: Floats, velocity: float, increment: float,
-    u: Floats, v: Floats, k: Floats, zero: Floats, axes: Floats, out: Words, v_out: Floats,
+    u: Floats, v: Floats, k: Floats, out: Words, v_out: Floats,
     bodies_out: Words,
 ) -> tuple[int, int, float]:  # fmt: skip
     """Go through `path` (n, 2) at `velocity`; fill `out` (n, words) and `v_out` (n, 2).
@@ -61,7 +61,7 @@ def run_path(
     arrays of one; `bodies_out` (n, words) takes the sliders where they are bodies.
     """
     u[8] = -loads[0] / props[0].axial_stiffness
-    code = hold_load(props, old, new, work, contacts, u, v, 0.0, loads[0], k, zero, axes)
+    code = hold_load(props, old, new, work, contacts, u, v, 0.0, loads[0], k)
     if code != _OK:
         return 0, code, 0.0
     bearing_commit(props, old, new, old_words, new_words, contacts, 0)
@@ -78,8 +78,8 @@ def run_path(
             share = part / parts
             u[6], u[7] = x + share * d_x, y + share * d_y
             now = time + share * duration
-            level = load + share * (loads[point] - load)
-            code = hold_load(props, old, new, work, contacts, u, v, now, level, k, zero, axes)
+            load_now = load + share * (loads[point] - load)
+            code = hold_load(props, old, new, work, contacts, u, v, now, load_now, k)
             if code != _OK:
                 return point, code, now
             bearing_commit(props, old, new, old_words, new_words, contacts, 0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.bundles.contact_data import BodyStep
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
 from lir_element.kernels.pendulum.nodes import fill_tangent
@@ -21,37 +22,41 @@ if TYPE_CHECKING:
 
 
 @kernel
+def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
+    """Return the bodies of bearing `k`, which stand at `at` in `contacts`."""
+    return BodyStep(
+        props[k], contacts.sliders[at], contacts.points[at], contacts.bodies_old[at],
+        contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
+        contacts.scratch[at],
+    )  # fmt: skip
+
+
+@kernel
 def bearing_trial(
     props: Records, old: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
-    u: Floats, v: Floats, time: float, zero: Floats,
+    u: Floats, v: Floats, time: float,
 ) -> int:  # fmt: skip
     """Determine the state of bearing `k`; returns a RunStatus code."""
     if contacts is not None:
         at = contacts.place[k]
         if at >= 0:
-            return contact_trial(
-                props[k], contacts.sliders[at], contacts.points[at], old[k], new[k],
-                contacts.bodies_old[at], contacts.bodies_new[at], contacts.touch_old[at],
-                contacts.touch_new[at], work[k], contacts.scratch[at], u, v, time, zero,
-            )  # fmt: skip
-    return trial(props[k], old[k], new[k], work[k], u, v, time, zero)
+            bodies = bodies_of(props, contacts, k, at)
+            return contact_trial(bodies, old[k], new[k], work[k], u, v, time)
+    return trial(props[k], old[k], new[k], work[k], u, v, time)
 
 
 @kernel
 def bearing_tangent(
     props: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
-    tangent: Floats, zero: Floats, axes: Floats,
+    tangent: Floats,
 ) -> None:  # fmt: skip
     """Fill the tangent (12, 12) of bearing `k`'s last trial."""
     if contacts is not None:
         at = contacts.place[k]
         if at >= 0:
-            contact_tangent(
-                contacts.sliders[at], contacts.bodies_old[at], contacts.bodies_new[at],
-                contacts.scratch[at], work[k].dt, tangent,
-            )  # fmt: skip
+            contact_tangent(bodies_of(props, contacts, k, at), work[k].dt, tangent)
             return
-    fill_tangent(props[k], work[k], new[k].force, tangent, zero, axes)
+    fill_tangent(props[k], work[k], new[k].force, tangent)
 
 
 @kernel
@@ -63,11 +68,7 @@ def bearing_commit(
     if contacts is not None:
         at = contacts.place[k]
         if at >= 0:
-            contact_accumulate(
-                props[k], contacts.points[at], old[k], new[k], contacts.bodies_old[at],
-                contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
-                contacts.scratch[at].moves, 2,
-            )  # fmt: skip
+            contact_accumulate(bodies_of(props, contacts, k, at), old[k], new[k], 2)
             copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
             copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
             copy_words(new_words[k], old_words[k])
@@ -84,10 +85,7 @@ def bearing_defect(
     if contacts is not None:
         at = contacts.place[k]
         if at >= 0:
-            return points_defect(
-                props[k], contacts.bodies_old[at], contacts.bodies_new[at],
-                contacts.touch_old[at], contacts.touch_new[at],
-            )  # fmt: skip
+            return points_defect(bodies_of(props, contacts, k, at))
     return contact_defect(props[k], old[k], new[k])
 
 
@@ -98,10 +96,5 @@ def bearing_look(
     """Prepare the static tangent of bearing `k`'s committed state, which has contact points."""
     if contacts is None:
         return
-    at = contacts.place[k]
     work[k].dt = 0.0
-    look_at_committed(
-        props[k], contacts.sliders[at], contacts.points[at], old[k], contacts.bodies_old[at],
-        contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
-        contacts.scratch[at],
-    )  # fmt: skip
+    look_at_committed(bodies_of(props, contacts, k, contacts.place[k]), old[k])

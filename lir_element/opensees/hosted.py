@@ -232,7 +232,6 @@ class Hosted:
             self.block["start"][0, row + 1] = entries
         self.block["dofs"] = self.placement.dofs
         self.block["force_factor"] = self.placement.force_factor
-        self.block["axes"] = np.eye(3)
 
     def _set_records(self) -> None:
         self._keep("props", self._props)

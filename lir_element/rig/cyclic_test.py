@@ -95,7 +95,7 @@ def cyclic_test(
         return run_path(
             props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts,
             points, loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12),
-            np.zeros(12), np.zeros((12, 12)), np.zeros(3), np.eye(3), as_rows(out), v_out,
+            np.zeros(12), np.zeros((12, 12)), as_rows(out), v_out,
             as_rows(bodies),
         )  # fmt: skip
 

@@ -54,7 +54,7 @@ def test_a_search_that_runs_in_circles_begins_anew() -> None:
         u = np.zeros(12)
         u[6:] = PLACE + share * MOVE
         arguments = (element._props, committed, element._trial, element._work, None, 0)
-        codes.append(bearing_trial(*arguments, u, np.zeros(12), 0.005, np.zeros(3)))
+        codes.append(bearing_trial(*arguments, u, np.zeros(12), 0.005))
         forces.append(element.resisting_force()[6:9])
     assert codes == [0] * len(shares)
     # one branch: from step to step the force changes as its own tangent allows

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from lir_element import LIRBearing, VelocityFriction
-from lir_element.bundles.contact_data import contact_arrays
+from lir_element.bundles.contact_data import BodyStep, contact_arrays
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.contact.pairs import locate, matrix_of, press, turn_between, turn_by
 from lir_element.kernels.linear import solve_many
@@ -375,10 +375,10 @@ class Bodies:
 
     def press(self, *, derive: bool = False) -> np.ndarray:
         self.w.x[:], self.w.q[:] = self.x, self.q
-        press(
-            self.p, self.c, self.points, self.old, self.new, self.touch_old, self.touch_new,
-            self.w, self.dt, 0.03, 0.04, derive,
-        )  # fmt: skip
+        bodies = BodyStep(
+            self.p, self.c, self.points, self.old, self.new, self.touch_old, self.touch_new, self.w
+        )
+        press(bodies, self.dt, 0.03, 0.04, derive)
         return self.w.g.copy().reshape(4, 6)
 
 

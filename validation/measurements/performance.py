@@ -50,15 +50,14 @@ HISTORY = START + (
 def repeat_element(
     props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
     contacts: Contacts | None, path: Floats, dt: float, with_tangent: bool, k: Floats,
-    zero: Floats, axes: Floats,
 ) -> int:  # fmt: skip
     """Run trial (, tangent) and commit along `path` (n, 12); returns the iterations inside."""
     v = np.zeros(12)
     total = 0
     for step in range(path.shape[0]):
-        bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt, zero)
+        bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt)
         if with_tangent:
-            bearing_tangent(props, new, work, contacts, 0, k, zero, axes)
+            bearing_tangent(props, new, work, contacts, 0, k)
         bearing_commit(props, old, new, old_words, new_words, contacts, 0)
         total += old[0].iterations
     return total
@@ -92,7 +91,7 @@ def element_microseconds(
         began = time.perf_counter()
         iterations = repeat_element(
             props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
-            0.001, tangent, np.zeros((12, 12)), np.zeros(3), np.eye(3),
+            0.001, tangent, np.zeros((12, 12)),
         )  # fmt: skip
         times.append((time.perf_counter() - began) / len(path) * 1e6)
     return statistics.median(times[1:]), iterations / len(path)

@@ -21,6 +21,7 @@ from lir_element.kernels.pendulum.trial import has_no_state, trial
 from lir_element.kernels.rotation import rotate
 
 if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import BodyStep
     from lir_element.layout import (
         Bodies,
         Floats,
@@ -104,19 +105,17 @@ def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
 
 
 @kernel
-def unbalanced(
-    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
-    touch_new: Records, w: Scratch, dt: float, speeds: Floats,
-) -> float:  # fmt: skip
+def unbalanced(s: BodyStep, dt: float, speeds: Floats) -> float:
     """Set all forces at the sliders' places and ``w.residual``; return its size.
 
     Forces, and moments over the slider's radius, against the largest normal force and weight.
     """
-    place_bodies(c, w, new, 1, 3)
-    press(p, c, points, old, new, touch_old, touch_new, w, dt, speeds[0], speeds[1], True)
-    own_forces(c, old, new, w, dt, 1)
-    own_forces(c, old, new, w, dt, 2)
-    part = new.parts[OWN]
+    c, w = s.sliders, s.scratch
+    place_bodies(c, w, s.new, 1, 3)
+    press(s, dt, speeds[0], speeds[1], True)
+    own_forces(s, dt, 1)
+    own_forces(s, dt, 2)
+    part = s.new.parts[OWN]
     total = 0.0
     for row in range(12):
         w.residual[row] = w.g[6 + row] + part[6 + row]
@@ -142,8 +141,9 @@ def tolerance(p: Props, c: Sliders, touch: Records, dt: float) -> float:
 
 
 @kernel
-def set_system(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float) -> None:
+def set_system(s: BodyStep, dt: float) -> None:
     """Set Newton's matrix (12 x 12): minus the derivative of the residual."""
+    c, w = s.sliders, s.scratch
     for row in range(12):
         for col in range(12):
             w.system[row, col] = -w.k[6 + row, 6 + col]
@@ -155,7 +155,7 @@ def set_system(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float) -> N
         first = 6 * k
         for a in range(3):
             w.system[first + a, first + a] += c.mass[k] / (dt * dt)
-        add_gyration(c, old, new, w, dt, k, first + 3)
+        add_gyration(s, dt, k, first + 3)
 
 
 @kernel
@@ -171,12 +171,10 @@ def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
 
 
 @kernel
-def settle(
-    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
-    touch_new: Records, w: Scratch, dt: float, speeds: Floats,
-) -> int:  # fmt: skip
+def settle(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
-    size = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+    p, c, w, new, touch_new = s.props, s.sliders, s.scratch, s.new, s.touch_new
+    size = unbalanced(s, dt, speeds)
     mark = size
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
@@ -187,7 +185,7 @@ def settle(
             mark = size
         if size <= tolerance(p, c, touch_new, dt):
             return count
-        set_system(c, old, new, w, dt)
+        set_system(s, dt)
         for row in range(12):
             w.right[row, 0] = w.residual[row]
         if not solve_many(w.system, w.right, 12, 1):
@@ -205,7 +203,7 @@ def settle(
         best, kept = math.inf, factor
         for _ in range(5):
             move_sliders(new, w, factor)
-            attempt = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+            attempt = unbalanced(s, dt, speeds)
             if attempt < best:
                 best, kept = attempt, factor
             if attempt < 0.9 * size or attempt <= tolerance(p, c, touch_new, dt):
@@ -213,22 +211,21 @@ def settle(
             factor *= 0.35
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
-            best = unbalanced(p, c, points, old, new, touch_old, touch_new, w, dt, speeds)
+            best = unbalanced(s, dt, speeds)
         size = best
     return -1
 
 
 @kernel
 def contact_trial(
-    p: Props, c: Sliders, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
-    touch_old: Records, touch_new: Records, pen: Work, w: Scratch, u: Floats, v: Floats,
-    time: float, zero: Floats,
-) -> int:  # fmt: skip
+    s: BodyStep, old: State, new: State, pen: Work, u: Floats, v: Floats, time: float
+) -> int:
     """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
 
     Returns a RunStatus code; what is committed is read, never written.
     """
-    code = trial(p, old, new, pen, u, v, time, zero)
+    p, c, w, b_old, b_new = s.props, s.sliders, s.scratch, s.old, s.new
+    code = trial(p, old, new, pen, u, v, time)
     if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
         return code
     dt = pen.dt
@@ -245,8 +242,8 @@ def contact_trial(
             fly_on(b_old, b_new, dt)
         else:
             follow_string(p, c, b_new, w, pen)
-        count = settle(p, c, points, b_old, b_new, touch_old, touch_new, w, dt, pen.static_speed)
-    fill_state(p, c, points, old, new, b_new, touch_new, w, u)
+        count = settle(s, dt, pen.static_speed)
+    fill_state(s, old, new, u)
     new.time, new.step = time, dt
     new.iterations = count
     status = bodies_status(p, w, new)
@@ -257,11 +254,9 @@ def contact_trial(
 
 
 @kernel
-def look_at_committed(
-    p: Props, c: Sliders, points: Records, old: State, b_old: Bodies, b_new: Bodies,
-    touch_old: Records, touch_new: Records, w: Scratch,
-) -> None:  # fmt: skip
+def look_at_committed(s: BodyStep, old: State) -> None:
     """Set forces and derivative at the committed state, as a static one, without moving it."""
+    p, c, w, b_old, b_new = s.props, s.sliders, s.scratch, s.old, s.new
     place_nodes(p, c, w, old.displacement)
     for k in range(2):
         for a in range(3):
@@ -269,18 +264,14 @@ def look_at_committed(
         for a in range(4):
             b_new.turn[k, a] = b_old.turn[k, a]
     place_bodies(c, w, b_new, 1, 3)
-    press(
-        p, c, points, b_old, b_new, touch_old, touch_new, w, 0.0, old.sliding_speed[0],
-        old.sliding_speed[1], True,
-    )  # fmt: skip
+    press(s, 0.0, old.sliding_speed[0], old.sliding_speed[1], True)
 
 
 @kernel
-def contact_tangent(
-    c: Sliders, b_old: Bodies, b_new: Bodies, w: Scratch, dt: float, k: Floats
-) -> None:
-    """Fill the 12 x 12 tangent `k` of the trial that `w` holds, sliders condensed."""
-    set_system(c, b_old, b_new, w, dt)
+def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
+    """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed."""
+    w = s.scratch
+    set_system(s, dt)
     for row in range(12):
         for col in range(12):
             w.right[row, col] = w.k[6 + row, col if col < 6 else col + 12]

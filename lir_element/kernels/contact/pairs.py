@@ -16,7 +16,8 @@ from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, spher
 from lir_element.kernels.slip import step_share
 
 if TYPE_CHECKING:
-    from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders
+    from lir_element.bundles.contact_data import BodyStep
+    from lir_element.layout import Bodies, Floats, Scratch, Sliders
 
 NORMAL, LOW_BOTTOM, HIGH, LOW_TOP, RIM_BOTTOM, RIM_TOP, OWN = 0, 1, 2, 3, 4, 5, 6
 _ORIGINS = 7
@@ -185,16 +186,13 @@ def add_slope(w: Scratch, body: int, carrier: int) -> None:
 
 
 @kernel
-def press(
-    p: Props, c: Sliders, points: Records, old: Bodies, new: Bodies, touch_old: Records,
-    touch_new: Records, w: Scratch, dt: float, speed_bottom: float, speed_top: float,
-    derive: bool,
-) -> None:  # fmt: skip
+def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive: bool) -> None:
     """Set the forces ``w.g`` on all bodies at ``w.x``, ``w.q``, and the new state of contacts.
 
     With `derive`, also ``w.k``. `speed_bottom` and `speed_top` are the sliding speeds of a static
     state (dt = 0).
     """
+    p, c, w, points, old, new = s.props, s.sliders, s.scratch, s.points, s.old, s.new
     new.step = dt
     w.share, w.step_before = step_share(dt, old.step), old.step
     for row in range(24):
@@ -211,19 +209,19 @@ def press(
         if pair == 0:
             body, carrier, friction = 1, 0, LOW_BOTTOM
             locate(w, 1, 0, arm[0], arm[1], arm[2], p.lever[0])
-            sphere(p, 0, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_bottom)
+            sphere(p, 0, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_bottom)
         elif pair == 2:
             body, carrier, friction = 2, 3, LOW_TOP
             locate(w, 2, 3, arm[0], arm[1], arm[2], -p.lever[1])
-            sphere(p, 1, w, touch_old[j], touch_new[j], stiffness, damping, dt, speed_top)
+            sphere(p, 1, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_top)
         else:
             body, carrier, friction = 2, 1, HIGH
             locate(w, 2, 1, arm[0], arm[1], arm[2], c.plane[0])
             if p.fused:
-                bond(w, touch_old[j], touch_new[j], arm[0], arm[1], stiffness, damping, dt)
+                bond(w, s.touch_old[j], s.touch_new[j], arm[0], arm[1], stiffness, damping, dt)
             else:
-                plane(p, w, touch_old[j], touch_new[j], stiffness, damping, dt)
-        if touch_new[j].push == 0.0 and not (pair == 1 and p.fused):
+                plane(p, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt)
+        if s.touch_new[j].push == 0.0 and not (pair == 1 and p.fused):
             continue
         add_pair(w, new.parts, body, carrier, friction, NORMAL)
         if derive:

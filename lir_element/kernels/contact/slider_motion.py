@@ -9,7 +9,8 @@ from lir_element._jit import kernel
 from lir_element.kernels.contact.pairs import OWN, matrix_of, turn_between
 
 if TYPE_CHECKING:
-    from lir_element.layout import Bodies, Floats, Scratch, Sliders
+    from lir_element.bundles.contact_data import BodyStep
+    from lir_element.layout import Floats
 
 
 @kernel
@@ -24,8 +25,9 @@ def momentum(
 
 
 @kernel
-def own_forces(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, b: int) -> None:
-    """Set weight and inertia forces of slider `b` (1, 2) in ``new.parts``, and its velocity."""
+def own_forces(s: BodyStep, dt: float, b: int) -> None:
+    """Set weight and inertia forces of slider `b` (1, 2) in ``s.new.parts``, and its velocity."""
+    c, old, new, w = s.sliders, s.old, s.new, s.scratch
     part = new.parts[OWN]
     first, k = 6 * b, b - 1
     part[first + 2] = -c.mass[k] * c.gravity
@@ -46,11 +48,10 @@ def own_forces(c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, b: i
 
 
 @kernel
-def add_gyration(
-    c: Sliders, old: Bodies, new: Bodies, w: Scratch, dt: float, k: int, first: int
-) -> None:
+def add_gyration(s: BodyStep, dt: float, k: int, first: int) -> None:
     """Add the derivative of slider `k`'s rate of angular momentum by its spin."""
-    q, spin, inertia = w.q[k + 1], new.spin[k], c.inertia[k]
+    w = s.scratch
+    q, spin, inertia = w.q[k + 1], s.new.spin[k], s.sliders.inertia[k]
     for a in range(3):
         for b in range(3):
             w.half[a, b] = 0.0
@@ -85,16 +86,16 @@ def add_gyration(
     h = w.force[0]
     h[0], h[1], h[2] = 0.0, 0.0, 0.0
     momentum(inertia, q, spin, h, 0, 1.0)
-    s = w.system
+    m = w.system
     for a in range(3):
         for b in range(3):
             total = 0.0
             for e in range(3):
                 total += w.half[a, e] * g[e, b]
-            s[first + a, first + b] += total / dt
-    s[first, first + 1] += h[2] / dt
-    s[first, first + 2] -= h[1] / dt
-    s[first + 1, first] -= h[2] / dt
-    s[first + 1, first + 2] += h[0] / dt
-    s[first + 2, first] += h[1] / dt
-    s[first + 2, first + 1] -= h[0] / dt
+            m[first + a, first + b] += total / dt
+    m[first, first + 1] += h[2] / dt
+    m[first, first + 2] -= h[1] / dt
+    m[first + 1, first] -= h[2] / dt
+    m[first + 1, first + 2] += h[0] / dt
+    m[first + 2, first] += h[1] / dt
+    m[first + 2, first + 1] -= h[0] / dt

@@ -24,6 +24,7 @@ from lir_element.kernels.pendulum.work import taken
 from lir_element.kernels.slip import stored
 
 if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import BodyStep
     from lir_element.layout import (
         Bodies,
         Floats,
@@ -39,18 +40,16 @@ _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 
 
 @kernel
-def fill_state(
-    p: Props, c: Sliders, points: Records, old: State, new: State, bodies: Bodies,
-    touch: Records, w: Scratch, u: Floats,
-) -> None:  # fmt: skip
-    """Fill the bearing's record from its bodies at `w` and its contact points."""
+def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
+    """Fill the bearing's record from its bodies in the scratch and its contact points."""
+    p, c, w, bodies = s.props, s.sliders, s.scratch, s.new
     for k in range(12):
         new.displacement[k] = u[k]
         new.force[k] = -w.g[k if k < 6 else k + 12]
     keep_works(old, new)
     set_axes(p, w, new)
     set_slip(c, w, old, new)
-    set_averages(points, touch, new)
+    set_averages(s.points, s.touch_new, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis, new.twist_charge = 0.0, 0.0
@@ -203,18 +202,16 @@ def springs(p: Props, points: Records, touch: Records, pair: int) -> float:
 
 
 @kernel
-def contact_accumulate(
-    p: Props, points: Records, old: State, new: State, b_old: Bodies, b_new: Bodies,
-    touch_old: Records, touch_new: Records, moves: Floats, bodies: int,
-) -> None:  # fmt: skip
+def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
     Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
     What friction takes beyond its elastic energy is dissipated.
     """
+    p, points, b_old, b_new, moves = s.props, s.points, s.old, s.new, s.scratch.moves
     set_moves(old, new, b_old, b_new, bodies, moves)
     for side, pair, origin in ((0, 0, LOW_BOTTOM), (1, 2, LOW_TOP), (2, 1, HIGH)):
-        spring = springs(p, points, touch_new, pair) - springs(p, points, touch_old, pair)
+        spring = springs(p, points, s.touch_new, pair) - springs(p, points, s.touch_old, pair)
         lost = taken(old, new, side, taken_up(b_old, b_new, moves, origin) - spring)
         new.work_elastic += spring
         if side < 2:
@@ -228,22 +225,22 @@ def contact_accumulate(
     for k in range(2):
         d = new.sliding_increment[k]
         new.travel[k] += math.sqrt(d[0] * d[0] + d[1] * d[1])
-    d, s = new.slip_increment, new.slip
+    d, slip = new.slip_increment, new.slip
     new.interface_travel += math.sqrt(d[0] * d[0] + d[1] * d[1])
-    new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
+    size = math.sqrt(slip[0] * slip[0] + slip[1] * slip[1])
+    new.largest_slip = max(old.largest_slip, size)
 
 
 @kernel
-def points_defect(
-    p: Props, b_old: Bodies, b_new: Bodies, touch_old: Records, touch_new: Records
-) -> float:
+def points_defect(s: BodyStep) -> float:
     """Return the energy that contacts make or lose in the step by its size alone.
 
     Force times the part of the approach that no closure took part in, as in `contact_defect`.
     """
+    p, b_old, b_new = s.props, s.old, s.new
     defect = 0.0
-    for j in range(touch_old.shape[0]):
-        before, after = touch_old[j], touch_new[j]
+    for j in range(s.points.shape[0]):
+        before, after = s.touch_old[j], s.touch_new[j]
         travel = abs((after.gap - before.gap) - (after.closure - before.closure))
         defect += 0.5 * (before.push + after.push) * travel
     for k in range(2):

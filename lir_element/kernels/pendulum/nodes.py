@@ -83,12 +83,12 @@ def add_cross(k: Floats, first: int, col: int, x: float, y: float, z: float, sig
 
 
 @kernel
-def fill_tangent(p: Props, w: Work, force: Floats, k: Floats, zero: Floats, axes: Floats) -> None:
+def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial that `w` holds; `force` is its (12,) force.
 
     Unsymmetric. Rows: node i, node j; each forces, then moments.
     """
-    condense(p, w, zero, axes)
+    condense(p, w)
     rotate_to_global(w)
     g_x, g_y, g_z = force[6], force[7], force[8]
     m_x, m_y, m_z = w.tau[0], w.tau[1], w.tau[2]

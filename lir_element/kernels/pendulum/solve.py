@@ -14,7 +14,7 @@ from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 
 if TYPE_CHECKING:
-    from lir_element.layout import Floats, Props, State, Work
+    from lir_element.layout import Props, State, Work
 
 _MAX_ITERATIONS = 60
 _MAX_STEEPEST = 12
@@ -77,10 +77,10 @@ def move(p: Props, old: State, w: Work, e_1: float, e_2: float) -> None:
 
 
 @kernel
-def newton_turn(p: Props, old: State, w: Work, zero: Floats) -> float:
+def newton_turn(p: Props, old: State, w: Work) -> float:
     """Turn the axis along Newton's direction; return the new relative residual, -1 if no gain."""
     size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-    slider_jacobian(p, w, zero)
+    slider_jacobian(p, w)
     j = w.jacobian
     det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
     floor = w.n_hat * w.l * w.l  # of the restoring term, which must not rule
@@ -140,7 +140,7 @@ def steepest_turn(p: Props, old: State, w: Work) -> float:
 
 
 @kernel
-def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
+def solve_axis(p: Props, old: State, w: Work) -> int:
     """Find the axis in equilibrium; return the iterations taken, or -1."""
     evaluate(p, old, w)
     if p.fused:
@@ -151,7 +151,7 @@ def solve_axis(p: Props, old: State, w: Work, zero: Floats) -> int:
         enough = tolerance(p, w)
         if size < enough:
             return count
-        new = newton_turn(p, old, w, zero)
+        new = newton_turn(p, old, w)
         if new < 0.0:
             if size < 10.0 * enough:
                 return count

@@ -150,10 +150,10 @@ def direction(
 
 
 @kernel
-def slider_jacobian(p: Props, w: Work, zero: Floats) -> None:
+def slider_jacobian(p: Props, w: Work) -> None:
     """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
     for a in range(2):
-        r = direction(p, w, 1.0 - a, 0.0 + a, zero, zero)
+        r = direction(p, w, 1.0 - a, 0.0 + a, w.still, w.still)
         for k in range(12):
             w.turns[a, k] = r[k]
         w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
@@ -218,18 +218,17 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
 
 
 @kernel
-def condense(p: Props, w: Work, zero: Floats, axes: Floats) -> None:
-    """Set the condensed 6 x 6 stiffness in axes of the bottom plate.
-
-    `zero` is (3,) of zeros and `axes` the (3, 3) unit matrix.
-    """
+def condense(p: Props, w: Work) -> None:
+    """Set the condensed 6 x 6 stiffness in axes of the bottom plate."""
     inv = w.inverse
     if not p.fused:
-        slider_jacobian(p, w, zero)
+        slider_jacobian(p, w)
         j = w.jacobian
         det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
         inv[0], inv[1] = j[1, 1] / det, -j[0, 1] / det
         inv[2], inv[3] = -j[1, 0] / det, j[0, 0] / det
     for a in range(3):
-        column(p, w, inv, a, axes[a], zero)
-        column(p, w, inv, 3 + a, zero, axes[a])
+        w.along[a] = 1.0
+        column(p, w, inv, a, w.along, w.still)
+        column(p, w, inv, 3 + a, w.still, w.along)
+        w.along[a] = 0.0

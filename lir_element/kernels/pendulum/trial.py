@@ -183,7 +183,7 @@ def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
 
 
 @kernel
-def solve_from_elsewhere(p: Props, old: State, w: Work, zero: Floats) -> int:
+def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
     """Search the axis again from between the committed one and the one that keeps the slip.
 
     Where the slider leaves a rim and slip turns round, the laws of friction make the equilibrium
@@ -199,16 +199,14 @@ def solve_from_elsewhere(p: Props, old: State, w: Work, zero: Floats) -> int:
             n[1] + share * (a[1] - n[1]),
             n[2] + share * (a[2] - n[2]),
         )
-        count = solve_axis(p, old, w, zero)
+        count = solve_axis(p, old, w)
         if count >= 0:
             break
     return count
 
 
 @kernel
-def trial(
-    p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float, zero: Floats
-) -> int:
+def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float) -> int:
     """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
 
     Returns a RunStatus code. A limit of the bearing that is exceeded leaves a valid state:
@@ -233,9 +231,9 @@ def trial(
             w.a[a, 0] * old.axis_top[0] + w.a[a, 1] * old.axis_top[1] + w.a[a, 2] * old.axis_top[2]
         )
     aim_axis(p, old, w)
-    count = solve_axis(p, old, w, zero)
+    count = solve_axis(p, old, w)
     if count < 0:
-        count = solve_from_elsewhere(p, old, w, zero)
+        count = solve_from_elsewhere(p, old, w)
     for k in range(12):
         new.displacement[k] = u[k]
     new.time = time

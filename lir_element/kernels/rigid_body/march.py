@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.bundles.contact_data import BodyStep
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import place_bodies, press, turn_between
 from lir_element.kernels.contact.state import bodies_status, contact_accumulate, fill_state
@@ -72,6 +73,15 @@ def kinetic_energy(run: RigidRun, at: int) -> float:
 
 
 @kernel
+def body_step(run: RigidRun, before: int, after: int) -> BodyStep:
+    """Return the bodies over the step between two of their states."""
+    return BodyStep(
+        run.props[0], run.sliders[0], run.points, run.bodies[before], run.bodies[after],
+        run.touches[before], run.touches[after], run.scratch[0],
+    )  # fmt: skip
+
+
+@kernel
 def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> int:
     """Set the record ``states[s_new]`` and its works for the step between two states of bodies.
 
@@ -81,13 +91,9 @@ def take_up(run: RigidRun, before: int, after: int, s_old: int, s_new: int) -> i
     old, new = run.states[s_old], run.states[s_new]
     b_old, b_new = run.bodies[before], run.bodies[after]
     set_rotation_vector(run, after)
-    fill_state(
-        run.props[0], run.sliders[0], run.points, old, new, b_new, run.touches[after], w, run.u
-    )
-    contact_accumulate(
-        run.props[0], run.points, old, new, b_old, b_new, run.touches[before],
-        run.touches[after], w.moves, 3,
-    )  # fmt: skip
+    bodies = body_step(run, before, after)
+    fill_state(bodies, old, new, run.u)
+    contact_accumulate(bodies, old, new, 3)
     supplied, lifted, bearing = 0.0, 0.0, 0.0
     for a in range(6):
         move = w.moves[18 + a]
@@ -128,11 +134,7 @@ def implicit(
 ) -> bool:  # fmt: skip
     """Take one implicit step from the bodies `start` to `end`, which is reached at `time`."""
     set_instant(run, given, time, dt, place)
-    return implicit_step(
-        run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
-        run.bodies[start], run.bodies[end], run.touches[start], run.touches[end],
-        run.scratch[0], setup, dt, run.ground, run.drive, run.driven,
-    )  # fmt: skip
+    return implicit_step(body_step(run, start, end), run, setup, dt)
 
 
 @kernel
@@ -193,11 +195,7 @@ def explicit_pair(run: RigidRun, given: RigidInput, setup: RigidSetup, place: in
         clock.part += 1
         time = end if clock.part == parts else begin + clock.part * dt
         set_instant(run, given, time, dt, place)
-        explicit_step(
-            run.props[0], run.sliders[0], run.points, run.mass, run.inertia, run.free,
-            run.bodies[now], run.bodies[1 - now], run.touches[now], run.touches[1 - now],
-            run.scratch[0], dt, run.ground, run.drive, run.driven,
-        )  # fmt: skip
+        explicit_step(body_step(run, now, 1 - now), run, dt)
         code = take_up(run, now, 1 - now, now, 1 - now)
         clock.time = time
         counts.tries += 1
@@ -221,11 +219,12 @@ def start(run: RigidRun, given: RigidInput) -> None:
         w.x[0, a] = run.sliders[0].place[0, a]
         for b in range(3):
             w.q[0][a, b] = 1.0 if a == b else 0.0
-    press(
+    begin = BodyStep(
         run.props[0], run.sliders[0], run.points, run.bodies[0], run.bodies[0], run.touches[0],
-        run.touches[1], w, 0.0, 0.0, 0.0, False,
+        run.touches[1], w,
     )  # fmt: skip
-    set_accelerations(run.sliders[0], run.mass, run.inertia, run.free, run.bodies[0], w, run.ground)
+    press(begin, 0.0, 0.0, 0.0, False)
+    set_accelerations(run, run.bodies[0])
     record(run, given, 0)
 
 

@@ -1,7 +1,7 @@
 """Kernels of the level 'rigid_body': the paper's model, 18 degrees of freedom in time.
 
 Three moving bodies (bottom slider, top slider, top plate) of six degrees of freedom each; what
-acts on them are the contact pairs of `contact_pairs`. One step is Bossak's member of the
+acts on them are the contact pairs of `kernels.contact.pairs`. One step is Bossak's member of the
 generalised-alpha family (Wood, Bossak and Zienkiewicz 1981), solved by Newton's method; an
 explicit step is there to check it. docs/theory.md, section 8.
 """
@@ -25,8 +25,9 @@ from lir_element.kernels.contact.slider_motion import momentum
 from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
-    from lir_element.bundles.rigid_data import RigidSetup
-    from lir_element.layout import Bodies, Floats, Props, Records, Scratch, Sliders, Words
+    from lir_element.bundles.contact_data import BodyStep
+    from lir_element.bundles.rigid_data import RigidRun, RigidSetup
+    from lir_element.layout import Bodies, Floats, Scratch
 
 _MAX_ITERATIONS = 25
 
@@ -66,16 +67,13 @@ def set_rates(old: Bodies, new: Bodies, w: Scratch, setup: RigidSetup, dt: float
 
 
 @kernel
-def set_own_forces(
-    c: Sliders, mass: Floats, inertia: Floats, old: Bodies, new: Bodies, w: Scratch,
-    setup: RigidSetup, ground: Floats,
-) -> None:  # fmt: skip
+def set_own_forces(s: BodyStep, run: RigidRun, am: float) -> None:
     """Set weight, ground and inertia forces of the sliders, and the residual of all bodies.
 
-    `mass` (3, 3) and `inertia` (3, 3) are those of the three bodies along and about their axes;
-    ``w.load`` holds the loads on the top plate.
+    `am` is the share of the step's start; ``w.load`` holds the loads on the top plate.
     """
-    am = setup.alpha_m
+    c, old, new, w = s.sliders, s.old, s.new, s.scratch
+    mass, inertia, ground = run.mass, run.inertia, run.ground
     part = new.parts[OWN]
     for k in range(3):
         moment, q = w.force[0], w.spare_matrix
@@ -99,16 +97,13 @@ def set_own_forces(
 
 
 @kernel
-def residual_of(
-    p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
-    old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
-    setup: RigidSetup, dt: float, ground: Floats,
-) -> float:  # fmt: skip
+def residual_of(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> float:
     """Set all forces at the new places and return the size of the residual of the free DOFs."""
-    place_bodies(c, w, new, 1, 4)
-    press(p, c, points, old, new, touch_old, touch_new, w, dt, 0.0, 0.0, True)
-    set_rates(old, new, w, setup, dt)
-    set_own_forces(c, mass, inertia, old, new, w, setup, ground)
+    c, w, free = s.sliders, s.scratch, run.free
+    place_bodies(c, w, s.new, 1, 4)
+    press(s, dt, 0.0, 0.0, True)
+    set_rates(s.old, s.new, w, setup, dt)
+    set_own_forces(s, run, setup.alpha_m)
     total = 0.0
     for row in range(18):
         if free[row] == 0:
@@ -120,10 +115,9 @@ def residual_of(
 
 
 @kernel
-def set_matrix(
-    mass: Floats, inertia: Floats, free: Words, w: Scratch, setup: RigidSetup, dt: float
-) -> None:
+def set_matrix(run: RigidRun, w: Scratch, setup: RigidSetup, dt: float) -> None:
     """Set Newton's matrix (18 x 18): minus the derivative of the residual."""
+    mass, inertia, free = run.mass, run.inertia, run.free
     factor = (1.0 - setup.alpha_m) / (setup.beta * dt * dt)
     for row in range(18):
         for col in range(18):
@@ -157,17 +151,16 @@ def move_bodies(old: Bodies, new: Bodies, w: Scratch, factor: float) -> None:
 
 
 @kernel
-def predict(
-    old: Bodies, new: Bodies, free: Words, w: Scratch, dt: float, drive: Floats, driven: bool
-) -> None:
+def predict(s: BodyStep, run: RigidRun, dt: float) -> None:
     """Start the step where the velocities lead; driven degrees of freedom go to their place."""
+    old, new, w, free = s.old, s.new, s.scratch, run.free
     for k in range(3):
         for a in range(3):
             move = dt * old.velocity[k, a] + 0.5 * dt * dt * old.acceleration[k, a]
             if free[6 * k + a] == 0:
                 move = 0.0
-                if driven and k == 2 and a < 2:
-                    move = drive[a] - old.place[k, a]
+                if run.driven and k == 2 and a < 2:
+                    move = run.drive[a] - old.place[k, a]
             w.shift[3 * k + a] = move
             new.place[k, a] = old.place[k, a] + move
         x, y, z = dt * old.spin[k, 0], dt * old.spin[k, 1], dt * old.spin[k, 2]
@@ -181,34 +174,28 @@ def predict(
 
 
 @kernel
-def small_enough(
-    p: Props, c: Sliders, mass: Floats, inertia: Floats, free: Words, touch: Records, dt: float
-) -> float:
+def small_enough(s: BodyStep, run: RigidRun, dt: float) -> float:
     """Return the residual to reach: that of the contacts, and round-off of the plate's inertia."""
     own = 0.0
     for a in range(3):
-        if free[15 + a] != 0:
-            own = max(own, inertia[2, a] / c.radius)
-    return tolerance(p, c, touch, dt) + ROUND_OFF * (mass[2, 2] + 4.0 * own) / (dt * dt)
+        if run.free[15 + a] != 0:
+            own = max(own, run.inertia[2, a] / s.sliders.radius)
+    stiff = (run.mass[2, 2] + 4.0 * own) / (dt * dt)
+    return tolerance(s.props, s.sliders, s.touch_new, dt) + ROUND_OFF * stiff
 
 
 @kernel
-def implicit_step(
-    p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
-    old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
-    setup: RigidSetup, dt: float, ground: Floats, drive: Floats, driven: bool,
-) -> bool:  # fmt: skip
-    """Take one implicit step from `old` to `new`; return whether Newton's method converged."""
-    predict(old, new, free, w, dt, drive, driven)
-    size = residual_of(
-        p, c, points, mass, inertia, free, old, new, touch_old, touch_new, w, setup, dt, ground,
-    )  # fmt: skip
+def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> bool:
+    """Take one implicit step from `s.old` to `s.new`; return whether Newton's method converged."""
+    old, new, w = s.old, s.new, s.scratch
+    predict(s, run, dt)
+    size = residual_of(s, run, setup, dt)
     for _ in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return False
-        if size <= small_enough(p, c, mass, inertia, free, touch_new, dt):
+        if size <= small_enough(s, run, dt):
             return True
-        set_matrix(mass, inertia, free, w, setup, dt)
+        set_matrix(run, w, setup, dt)
         for row in range(18):
             w.right[row, 0] = w.residual[row]
         if not solve_many(w.system, w.right, 18, 1):
@@ -226,46 +213,39 @@ def implicit_step(
         before = size
         for _attempt in range(4):
             move_bodies(old, new, w, factor)
-            size = residual_of(
-                p, c, points, mass, inertia, free, old, new, touch_old, touch_new, w, setup, dt,
-                ground,
-            )  # fmt: skip
-            if size < before or size <= small_enough(p, c, mass, inertia, free, touch_new, dt):
+            size = residual_of(s, run, setup, dt)
+            if size < before or size <= small_enough(s, run, dt):
                 break
             factor *= 0.35
-    return size <= small_enough(p, c, mass, inertia, free, touch_new, dt)
+    return size <= small_enough(s, run, dt)
 
 
 @kernel
-def explicit_step(
-    p: Props, c: Sliders, points: Records, mass: Floats, inertia: Floats, free: Words,
-    old: Bodies, new: Bodies, touch_old: Records, touch_new: Records, w: Scratch,
-    dt: float, ground: Floats, drive: Floats, driven: bool,
-) -> None:  # fmt: skip
-    """Take one explicit step (semi-implicit Euler) from the forces of `old`.
+def explicit_step(s: BodyStep, run: RigidRun, dt: float) -> None:
+    """Take one explicit step (semi-implicit Euler) from the forces of `s.old`.
 
-    ``old.acceleration`` and ``old.spin_rate`` are those of the forces at `old`.
+    ``old.acceleration`` and ``old.spin_rate`` are those of the forces there.
     """
+    old, new = s.old, s.new
     for k in range(3):
         for a in range(3):
             new.velocity[k, a] = old.velocity[k, a] + dt * old.acceleration[k, a]
             new.spin[k, a] = old.spin[k, a] + dt * old.spin_rate[k, a]
-            if driven and k == 2 and a < 2:
-                new.velocity[k, a] = (drive[a] - old.place[k, a]) / dt
+            if run.driven and k == 2 and a < 2:
+                new.velocity[k, a] = (run.drive[a] - old.place[k, a]) / dt
             new.place[k, a] = old.place[k, a] + dt * new.velocity[k, a]
-        s = new.spin[k]
-        turn_by(old.turn[k], dt * s[0], dt * s[1], dt * s[2], new.turn[k])
-    place_bodies(c, w, new, 1, 4)
-    press(p, c, points, old, new, touch_old, touch_new, w, dt, 0.0, 0.0, False)
-    set_accelerations(c, mass, inertia, free, new, w, ground)
+        spin = new.spin[k]
+        turn_by(old.turn[k], dt * spin[0], dt * spin[1], dt * spin[2], new.turn[k])
+    place_bodies(s.sliders, s.scratch, new, 1, 4)
+    press(s, dt, 0.0, 0.0, False)
+    set_accelerations(run, new)
 
 
 @kernel
-def set_accelerations(
-    c: Sliders, mass: Floats, inertia: Floats, free: Words, new: Bodies, w: Scratch,
-    ground: Floats,
-) -> None:  # fmt: skip
+def set_accelerations(run: RigidRun, new: Bodies) -> None:
     """Set the accelerations of all bodies under the forces ``w.g`` and their loads."""
+    c, w, mass, inertia = run.sliders[0], run.scratch[0], run.mass, run.inertia
+    free, ground = run.free, run.ground
     part = new.parts[OWN]
     for k in range(3):
         q, spin = w.q[k + 1], new.spin[k]

@@ -45,8 +45,6 @@ SHARED_FIELDS = (
     Field("has_tangent", "-", "", "0 to make from the trial, 1 made, 2 from the commit", (), "i8"),
     Field("loaded", "-", "", "1 once a committed state carried axial load", (), "i8"),
     Field("commits", "-", "", "commits since the start", (), "i8"),
-    Field("at", "", "", "spare: zero vector", (3,)),
-    Field("axes", "", "", "unit vectors", (3, 3)),
     Field("u", "m, rad", "", "displacements in bearing axes", (12,)),
     Field("v", "m/s, rad/s", "", "velocities in bearing axes", (12,)),
     Field("element", "N/m", "", "tangent in bearing axes", (12, 12)),

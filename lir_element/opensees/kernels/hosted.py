@@ -134,7 +134,7 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     time = old[0].time + (max(dt, 0.0) if moves else 0.0)
     code = bearing_trial(
         carray(pointer(h.props), 1, PROPS), old, new, carray(pointer(h.work), 1, WORK), contacts,
-        0, h.u, h.v, time, h.at,
+        0, h.u, h.v, time,
     )  # fmt: skip
     if has_no_state(code):
         return refuse(h, code)
@@ -192,7 +192,7 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
     work = carray(pointer(h.work), 1, WORK)
     if h.has_tangent == 2:
         bearing_look(props, carray(pointer(h.old), 1, STATE), work, contacts, 0)
-    bearing_tangent(props, new, work, contacts, 0, h.element, h.at, h.axes)
+    bearing_tangent(props, new, work, contacts, 0, h.element)
     stiffen(h)
     if h.symmetric == 1:
         make_symmetric(h)
