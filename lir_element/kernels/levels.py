@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Records, Words
 
 
-@kernel
+@expanded
 def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
     """Return the bodies of bearing `k`, which stand at `at` in `contacts`."""
     return BodyStep(

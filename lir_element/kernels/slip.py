@@ -34,16 +34,17 @@ LANDED = -1.0  # charge of a contact that has been open: it lands with nothing s
 
 @kernel
 def charge_at(
-    charge: float, z_1: float, z_2: float, push_old: float, push: float, floor: float
+    charge: float, z_1: float, z_2: float, push_old: float, push: float, floor: float, dt: float
 ) -> tuple[float, float, float, float]:
     """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
 
     Four numbers: the way to slip over u_y, its derivative by `push`, the share of z that is left,
     and that one's derivative. The mean axial force of the step counts: with the trapezoidal rule
     for works the store then changes by what friction does, whatever the axial force does. A
-    contact that was open forgets z as it lands, over the first `floor` of axial force.
+    contact that was open forgets z as it lands, over the first `floor` of axial force. In a static
+    step (`dt` zero) z gives way to a full charge: how a load came about leaves no trace.
     """
-    mean = 0.5 * (push_old + push)
+    mean = 0.5 * (push_old + push) if dt > 0.0 else push
     if charge < 0.0:
         if push <= 0.0:
             return 1.0, 0.0, 1.0, 0.0
@@ -53,6 +54,9 @@ def charge_at(
     if charge == 0.0 or charge >= mean:
         return 1.0, 0.0, 1.0, 0.0
     way = charge / mean
+    if dt == 0.0:
+        left = math.sqrt(way)
+        return 1.0, 0.0, left, -0.5 * left / mean
     if abs(z_1) + abs(z_2) < _LITTLE:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.25 * left / mean
@@ -73,7 +77,7 @@ def charge_after(
     """
     if push <= 0.0:
         return LANDED if dt > 0.0 else 0.0
-    if charge == 0.0:
+    if charge == 0.0 or dt == 0.0:
         return push
     mean = 0.5 * (push_old + push)
     filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y
@@ -174,8 +178,8 @@ def map_rate(
 @kernel
 def friction_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
-    u_y: float, charge: float, push_old: float, push: float, floor: float, before_1: float,
-    before_2: float, share: float,
+    u_y: float, charge: float, push_old: float, push: float, floor: float, dt: float,
+    before_1: float, before_2: float, share: float,
 ) -> Mapped:  # fmt: skip
     """Return what `return_map` does with the way to slip that the store leaves, and more.
 
@@ -187,7 +191,7 @@ def friction_map(
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
-    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor)
+    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor, dt)
     u = way * u_y
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
         bouc_wen, exponent, left * old_1, left * old_2, dw_1, dw_2, u

@@ -26,7 +26,7 @@ KERNELS = [path for path in MODULES if "kernels" in path.relative_to(ROOT).parts
 # What makes pointers of addresses: code generators, which kernels call like kernels.
 ADDRESSES = [ROOT / "lir_element/opensees/block/pointers.py"]
 FOREIGN = {"numba.carray"}
-DECORATORS = {"kernel", "inlined", "intrinsic", "entry_point"}
+DECORATORS = {"kernel", "inlined", "expanded", "intrinsic", "entry_point"}
 BUNDLES = {"lir_element.errors.RunStatus", "lir_element.bundles.contact_data.Contacts"}
 
 modules = pytest.mark.parametrize(

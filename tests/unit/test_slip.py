@@ -19,7 +19,7 @@ from lir_element.kernels.slip import (
 )
 
 U_Y = 0.25e-3
-FULL = (1e5, 1e5, 1e5, 1e2)  # N: charge of the store, axial force before and after, its floor
+FULL = (1e5, 1e5, 1e5, 1e2, 0.005)  # N, s: charge, axial force before and after, floor, step
 STEP = st.floats(-5e-3, 5e-3)
 ANGLE = st.floats(-math.pi, math.pi)
 LAWS = [(0, 2.0), (1, 1.0), (1, 2.0), (1, 5.5), (1, 40.0)]

@@ -173,7 +173,8 @@ def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
 @kernel
 def settle(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
-    p, c, w, new, touch_new = s.props, s.sliders, s.scratch, s.new, s.touch_new
+    p, c, w = s.props, s.sliders, s.scratch
+    new, touch_new = s.new, s.touch_new
     size = unbalanced(s, dt, speeds)
     mark = size
     for count in range(_MAX_ITERATIONS):
@@ -224,7 +225,8 @@ def contact_trial(
 
     Returns a RunStatus code; what is committed is read, never written.
     """
-    p, c, w, b_old, b_new = s.props, s.sliders, s.scratch, s.old, s.new
+    p, c, w = s.props, s.sliders, s.scratch
+    b_old, b_new = s.old, s.new
     code = trial(p, old, new, pen, u, v, time)
     if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
         return code
@@ -256,7 +258,8 @@ def contact_trial(
 @kernel
 def look_at_committed(s: BodyStep, old: State) -> None:
     """Set forces and derivative at the committed state, as a static one, without moving it."""
-    p, c, w, b_old, b_new = s.props, s.sliders, s.scratch, s.old, s.new
+    p, c, w = s.props, s.sliders, s.scratch
+    b_old, b_new = s.old, s.new
     place_nodes(p, c, w, old.displacement)
     for k in range(2):
         for a in range(3):

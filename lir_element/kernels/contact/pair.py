@@ -67,7 +67,7 @@ def sphere(
     before, u_y = old.increment, p.yield_displacement[side]
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, z_n1, z_n2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        u_y, old.charge, old.push, push, 0.0, before[0], before[1], w.share,
+        u_y, old.charge, old.push, push, 0.0, dt, before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
@@ -122,7 +122,7 @@ def plane(
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, z_n1, z_n2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.interface_yield, old.charge, old.push, push, 0.0, old.increment[0], old.increment[1],
+        p.interface_yield, old.charge, old.push, push, 0.0, dt, old.increment[0], old.increment[1],
         w.share,
     )  # fmt: skip
     mu = p.interface_friction

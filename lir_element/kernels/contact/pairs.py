@@ -192,7 +192,8 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
     With `derive`, also ``w.k``. `speed_bottom` and `speed_top` are the sliding speeds of a static
     state (dt = 0).
     """
-    p, c, w, points, old, new = s.props, s.sliders, s.scratch, s.points, s.old, s.new
+    p, c, w = s.props, s.sliders, s.scratch
+    points, old, new = s.points, s.old, s.new
     new.step = dt
     w.share, w.step_before = step_share(dt, old.step), old.step
     for row in range(24):

@@ -27,7 +27,8 @@ def momentum(
 @kernel
 def own_forces(s: BodyStep, dt: float, b: int) -> None:
     """Set weight and inertia forces of slider `b` (1, 2) in ``s.new.parts``, and its velocity."""
-    c, old, new, w = s.sliders, s.old, s.new, s.scratch
+    c, old, new = s.sliders, s.old, s.new
+    w = s.scratch
     part = new.parts[OWN]
     first, k = 6 * b, b - 1
     part[first + 2] = -c.mass[k] * c.gravity

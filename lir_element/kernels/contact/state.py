@@ -42,7 +42,8 @@ _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 @kernel
 def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     """Fill the bearing's record from its bodies in the scratch and its contact points."""
-    p, c, w, bodies = s.props, s.sliders, s.scratch, s.new
+    p, c, w = s.props, s.sliders, s.scratch
+    bodies = s.new
     for k in range(12):
         new.displacement[k] = u[k]
         new.force[k] = -w.g[k if k < 6 else k + 12]
@@ -208,7 +209,8 @@ def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None
     Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
     What friction takes beyond its elastic energy is dissipated.
     """
-    p, points, b_old, b_new, moves = s.props, s.points, s.old, s.new, s.scratch.moves
+    p, points, b_old = s.props, s.points, s.old
+    b_new, moves = s.new, s.scratch.moves
     set_moves(old, new, b_old, b_new, bodies, moves)
     for side, pair, origin in ((0, 0, LOW_BOTTOM), (1, 2, LOW_TOP), (2, 1, HIGH)):
         spring = springs(p, points, s.touch_new, pair) - springs(p, points, s.touch_old, pair)

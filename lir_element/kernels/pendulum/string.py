@@ -163,8 +163,8 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     push_old, push = pressed(p, old, w)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], old.charge[k], push_old, push, p.axial_floor, before[0],
-        before[1], share,
+        p.yield_displacement[k], old.charge[k], push_old, push, p.axial_floor, w.dt,
+        before[0], before[1], share,
     )  # fmt: skip
     w.slid[k], w.way[k] = slip, way
     w.charge[k] = charge_after(
@@ -196,7 +196,7 @@ def interface(p: Props, old: State, w: Work) -> None:
     z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, n_1, n_2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
-        old.interface_charge, push_old, push, p.axial_floor, before[0], before[1],
+        old.interface_charge, push_old, push, p.axial_floor, w.dt, before[0], before[1],
         step_share(w.dt, old.step),
     )  # fmt: skip
     mu = p.interface_friction

@@ -75,7 +75,7 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     push_old, push = pressed(p, old, w)
     z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
-        p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, 0.0, 0.0, 0.0,
+        p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, w.dt, 0.0, 0.0, 0.0,
     )  # fmt: skip
     if p.fixed_load > 0.0:
         by_n = 0.0

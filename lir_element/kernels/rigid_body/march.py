@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import place_bodies, press, turn_between
@@ -72,7 +72,7 @@ def kinetic_energy(run: RigidRun, at: int) -> float:
     return total
 
 
-@kernel
+@expanded
 def body_step(run: RigidRun, before: int, after: int) -> BodyStep:
     """Return the bodies over the step between two of their states."""
     return BodyStep(

@@ -72,7 +72,8 @@ def set_own_forces(s: BodyStep, run: RigidRun, am: float) -> None:
 
     `am` is the share of the step's start; ``w.load`` holds the loads on the top plate.
     """
-    c, old, new, w = s.sliders, s.old, s.new, s.scratch
+    c, old, new = s.sliders, s.old, s.new
+    w = s.scratch
     mass, inertia, ground = run.mass, run.inertia, run.ground
     part = new.parts[OWN]
     for k in range(3):
