@@ -83,7 +83,7 @@ def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
 kernel = kernels_of(OWN)
 """The kernel decorator of this package."""
 
-expanded = numba.njit(inline="always")
+expanded: KernelDecorator = numba.njit(inline="always")
 """For kernels that stand for an expression: put in place before types are known.
 
 They may give back what compiled functions cannot return: a bundle of records.

@@ -57,7 +57,9 @@ def test_static_path_is_that_of_the_element(stand: Any, level: str) -> None:
     element.commit()
     # steps that leave the bearing loaded where its path is steep: without load it is singular
     push(stand, round_trip(0.179, 900))
-    assert follow(stand, element, 900, None) < 1e-6 * stand.LOAD
+    # at level contact the steps of gravity leave a trace of some newtons in the points' friction
+    limit, slips = (1e-7, 1e-12) if level == "pendulum" else (1e-5, 1e-9)
+    assert follow(stand, element, 900, None, slips) < limit * stand.LOAD
     assert np.hypot(*bearing_response(1, "slip")) > 1e-3
 
 
@@ -73,6 +75,8 @@ def test_transient_is_that_of_the_element(stand: Any, level: str) -> None:
     stand.shaking(3.6, tolerance=1e-8)
     # in the portable route the length of the first step after `loadConst -time` is not known
     limit, slips = (1e-7, 1e-12) if stand.route == "fast" else (1e-4, 1e-9)
+    if level == "contact":  # a trace of gravity's steps in the points' friction
+        limit, slips = max(limit, 1e-5), max(slips, 1e-9)
     steps = 60 if level == "contact" else 150
     assert follow(stand, element, steps, 0.005, slips) < limit * stand.LOAD
 

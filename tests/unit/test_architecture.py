@@ -27,7 +27,9 @@ KERNELS = [path for path in MODULES if "kernels" in path.relative_to(ROOT).parts
 ADDRESSES = [ROOT / "lir_element/opensees/block/pointers.py"]
 FOREIGN = {"numba.carray"}
 DECORATORS = {"kernel", "inlined", "expanded", "intrinsic", "entry_point"}
-BUNDLES = {"lir_element.errors.RunStatus", "lir_element.bundles.contact_data.Contacts"}
+BUNDLES = {"lir_element.errors.RunStatus"} | {
+    f"lir_element.bundles.contact_data.{name}" for name in ("BodyStep", "Contacts")
+}
 
 modules = pytest.mark.parametrize(
     "path", MODULES, ids=[p.relative_to(ROOT).as_posix() for p in MODULES]
