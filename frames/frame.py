@@ -9,18 +9,11 @@ from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
-from frames._validate import (
-    ModelError,
-    ModelWarning,
-    known_name,
-    new_name,
-    non_negative,
-    of_type,
-    vector,
-)
+from frames._errors import ModelError, ModelWarning
 from frames.model.axes import default_up, local_axes
 from frames.model.contents import STANDARD_GRAVITY, FrameContents, frozen
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
+from frames.model.names import known_name, new_name
 from frames.model.parts import (
     DOFS,
     BearingLink,
@@ -33,6 +26,7 @@ from frames.model.parts import (
 )
 from frames.model.sections import Section
 from frames.model.superelement import superelement
+from lir_element.door import require_non_negative, require_type, require_vector
 from lir_element.units import LENGTHS
 
 if TYPE_CHECKING:
@@ -198,7 +192,7 @@ class Frame(FrameContents):
     def add_node(self, name: str, x: float, y: float, z: float) -> None:
         """Add a node at (x, y, z) [m]; the name must be new."""
         new_name(name, self._nodes, "node")
-        point = vector((x, y, z), 3, f'coordinates [m] of node "{name}"')
+        point = require_vector(f'coordinates [m] of node "{name}"', (x, y, z), 3, error=ModelError)
         self._nodes[name] = Node(name, *point.tolist())
 
     def fix(self, node: str, *dofs: str) -> None:
@@ -245,8 +239,10 @@ class Frame(FrameContents):
             If the node does not exist or a number is negative or not finite.
         """
         known_name(node, self._nodes, "node")
-        number = non_negative(mass, f'mass [kg] at node "{node}"', "masses add up, give kg")
-        rotary = vector(inertia, 3, f'inertia [kg m2] at node "{node}"')
+        number = require_non_negative(
+            f'mass [kg] at node "{node}"', mass, remedy="masses add up, give kg", error=ModelError
+        )
+        rotary = require_vector(f'inertia [kg m2] at node "{node}"', inertia, 3, error=ModelError)
         if (rotary < 0.0).any():
             message = (
                 f'inertia [kg m2] at node "{node}" = {rotary.tolist()} must be 0 or greater: '
@@ -280,7 +276,7 @@ class Frame(FrameContents):
         """
         new_name(name, self._members, "member")
         self._two_nodes(i, j, f'member "{name}"')
-        of_type(section, Section, f'section of member "{name}"', "a Section: Section.box(...)")
+        require_type(f'section of member "{name}"', section, Section, "a Section: Section.box(...)")
         start, end = (np.array([self._nodes[node].position]) for node in (i, j))
         length = float(np.linalg.norm(end - start))
         if length < POSITION_TOLERANCE:
@@ -289,7 +285,11 @@ class Frame(FrameContents):
                 f"than {POSITION_TOLERANCE:g} m: join coincident nodes by add_spring"
             )
             raise ModelError(message)
-        given = None if up is None else vector(up, 3, f'up of member "{name}"')
+        given = (
+            None
+            if up is None
+            else require_vector(f'up of member "{name}"', up, 3, error=ModelError)
+        )
         try:
             local_axes(start, end, default_up(start, end) if given is None else given[None, :])
         except ModelError as cause:
@@ -320,7 +320,7 @@ class Frame(FrameContents):
         """
         new_name(name, self._springs, "spring")
         self._two_nodes(i, j, f'spring "{name}"')
-        values = vector(stiffness, 6, f'stiffness of spring "{name}"')
+        values = require_vector(f'stiffness of spring "{name}"', stiffness, 6, error=ModelError)
         if (values < 0.0).any() or not values.any():
             message = (
                 f'stiffness of spring "{name}" = {values.tolist()} must be 0 or greater and not '
@@ -410,13 +410,13 @@ class Frame(FrameContents):
     def add_load(self, node: str, forces: Sequence[float]) -> None:
         """Add permanent forces (3 x N) and moments (3 x N m), global axes; they carry no mass."""
         known_name(node, self._nodes, "node")
-        values = vector(forces, 6, f'forces [N, N m] at node "{node}"')
+        values = require_vector(f'forces [N, N m] at node "{node}"', forces, 6, error=ModelError)
         self._loads[node] = frozen(self._loads.get(node, np.zeros(6)) + values)
 
     def add_uniform_load(self, member: str, q: Sequence[float]) -> None:
         """Add a permanent load per unit length [N/m], (3,) in global axes; it carries no mass."""
         known_name(member, self._members, "member")
-        values = vector(q, 3, f'uniform load [N/m] on member "{member}"')
+        values = require_vector(f'uniform load [N/m] on member "{member}"', q, 3, error=ModelError)
         self._uniform_loads[member] = frozen(self._uniform_loads.get(member, np.zeros(3)) + values)
 
     def add_bearing(self, name: str, i: str, j: str, bearing: LIRBearing) -> None:
@@ -503,7 +503,7 @@ class Frame(FrameContents):
             "RayleighDamping, ModalDamping or None: "
             "write ModalDamping(0.02) for two per cent in every mode"
         )
-        of_type(damping, kinds, "damping", remedy)
+        require_type("damping", damping, kinds, remedy)
         self._damping = damping
 
     def check(self, motion: GroundMotion | None = None) -> ModelCheck:

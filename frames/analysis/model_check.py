@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError, ModelWarning
+from frames._errors import ModelError, ModelWarning
 from frames.analysis.plausible import (
     BearingLoad,
     bearing_loads,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.outcome import Outcome, judged
 from frames.analysis.size import number_of_steps, require_memory

@@ -12,7 +12,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from frames._validate import ModelError, ModelWarning
+from frames._errors import ModelError, ModelWarning
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.plausible import doubts, held_periods
 from frames.assembly.assemble import (
@@ -26,7 +26,8 @@ from frames.assembly.natural_modes import UnstableError, natural_modes
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import plausible
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
-from lir_element.element import ALL_LEVELS, LEVELS
+from lir_element.door import require_choice, require_type
+from lir_element.element import LEVELS
 from lir_element.tables import html_table
 
 if TYPE_CHECKING:
@@ -191,7 +192,7 @@ def gravity(
     return state
 
 
-def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
+def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
     """Look up the level of each bearing.
 
     Parameters
@@ -213,21 +214,14 @@ def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
     TypeError
         If `level` is neither a name nor a mapping.
     """
-    if isinstance(level, str) and level not in LEVELS:
-        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
-        raise ValueError(msg)
-    if not isinstance(level, (str, Mapping)):
-        msg = f"level = {level!r}: give a level, or a mapping of levels by name of bearing"
-        raise TypeError(msg)
+    require_type("level", level, (str, Mapping), "a level, or levels by name of bearing")
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))
     if unknown:
         msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
         raise ValueError(msg)
     for value in given.values():
-        if value not in LEVELS:
-            msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
-            raise ValueError(msg)
+        require_choice("level of a bearing", value, LEVELS)
     return {name: given.get(name, "pendulum") for name in names}
 
 
@@ -317,9 +311,7 @@ def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sl
     if count < 1:
         message = f"count = {count} must be at least 1"
         raise ModelError(message)
-    if bearings not in {"sliding", "sticking", "fixed"}:
-        message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
-        raise ModelError(message)
+    require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
     state = gravity(frame)
     system = state.system
     k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()

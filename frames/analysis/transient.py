@@ -23,7 +23,7 @@ from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
 from frames.results.auditing import audit_report
 from lir_element.device.features import Features
-from lir_element.door import require_between, require_positive
+from lir_element.door import require_between, require_choice, require_positive
 from lir_element.element import ALL_LEVELS, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.pieces import in_pieces, ready
@@ -249,9 +249,7 @@ def _check_options(
     if isinstance(level, str):
         choices.insert(0, ("level", level, (*ALL_LEVELS, "auto")))
     for name, value, allowed in choices:
-        if value not in allowed:
-            msg = f"{name} = {value!r}: choose one of {allowed}"
-            raise ValueError(msg)
+        require_choice(name, value, allowed)
     if integrator == "explicit" and level != "rigid_body":
         msg = f'integrator = "explicit" belongs to level="rigid_body", not to {level!r}'
         raise ValueError(msg)

@@ -15,16 +15,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames._errors import MotionError, MotionWarning
 from frames._types import FloatArray
-from frames.motion._motion_checks import (
-    MotionError,
-    MotionWarning,
-    checked_component,
-    checked_step,
-    equal_lengths,
-    number,
-)
 from frames.motion.baseline import LARGEST_CHANGE, LARGEST_DRIFT, Drift, corrected, drift_of
+from frames.motion.components import checked_component, checked_step, equal_lengths
 from frames.motion.records import (
     AccelerationTrace,
     ColumnLayout,
@@ -35,6 +29,7 @@ from frames.motion.records import (
     source_file,
 )
 from frames.motion.spectra import response_spectrum
+from lir_element.door import require_finite
 from lir_element.tables import html_table
 from lir_element.units import STANDARD_GRAVITY
 
@@ -311,7 +306,10 @@ class GroundMotion:
         if len(factors) != 3:
             msg = f"factor has {len(factors)} entries: give one number, or three for x, y and z"
             raise MotionError(msg)
-        sizes = [number("factor", value, "a pure number") for value in factors]
+        sizes = [
+            require_finite("factor", value, remedy="give a pure number", error=MotionError)
+            for value in factors
+        ]
         return self._with(
             {axis: sizes[AXES.index(axis)] * values for axis, values in self._given().items()}
         )
@@ -329,7 +327,7 @@ class GroundMotion:
         GroundMotion
             The motion with both horizontal components.
         """
-        turn = number("angle", angle, "rad")
+        turn = require_finite("angle", angle, "rad", error=MotionError)
         cos, sin = math.cos(turn), math.sin(turn)
         east, north, _ = self.components.T
         arrays = {"x": cos * east - sin * north, "y": sin * east + cos * north}
@@ -353,10 +351,12 @@ class GroundMotion:
         MotionError
             If fewer than two samples lie between.
         """
-        last = self.duration if end is None else number("end", end, "s")
+        last = self.duration if end is None else require_finite("end", end, "s", error=MotionError)
         near = 1e-6 * self.dt  # a time that is a multiple of dt up to round-off counts as one
         time = self.time
-        keep = (time >= number("start", start, "s") - near) & (time <= last + near)
+        keep = (time >= require_finite("start", start, "s", error=MotionError) - near) & (
+            time <= last + near
+        )
         if np.count_nonzero(keep) < 2:
             msg = (
                 f"start = {start:g} s, end = {last:g} s keep fewer than 2 samples: give times "
@@ -388,7 +388,7 @@ class GroundMotion:
         MotionError
             If `dt` is not greater than 0 and at most the duration.
         """
-        step = number("dt", dt, "s")
+        step = require_finite("dt", dt, "s", error=MotionError)
         if not 0.0 < step <= self.duration:
             msg = (
                 f"dt = {step:g} s must be greater than 0 and at most {self.duration:g} s, "
@@ -417,7 +417,7 @@ class GroundMotion:
         MotionError
             If the tail is negative.
         """
-        length = number("seconds", seconds, "s")
+        length = require_finite("seconds", seconds, "s", error=MotionError)
         if length < 0.0:
             msg = f"seconds = {length:g} must be at least 0: use trimmed to shorten a motion"
             raise MotionError(msg)

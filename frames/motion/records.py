@@ -14,9 +14,9 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from frames._errors import MotionError
 from frames._types import FloatArray
 from frames.model.contents import STANDARD_GRAVITY
-from frames.motion._motion_checks import MotionError
 
 PathLike: TypeAlias = str | os.PathLike[str]
 

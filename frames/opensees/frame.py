@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError, positive
+from frames._errors import ModelError
 from frames.assembly.assemble import assemble
 from frames.model.parts import DOFS, bearing_height
 from frames.model.superelement import lumped
@@ -23,6 +23,7 @@ from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
 from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
+from lir_element.door import require_choice, require_positive
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
@@ -151,13 +152,18 @@ def _check_options(options: Options) -> None:
     if options.vertical not in {None, "y", "z"}:
         message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
         raise ModelError(message)
-    if options.base_rotations not in BASE_ROTATIONS:
-        message = f"base_rotations = {options.base_rotations!r}: choose one of {BASE_ROTATIONS}"
-        raise ModelError(message)
+    require_choice("base_rotations", options.base_rotations, BASE_ROTATIONS, error=ModelError)
     for word in ("length_unit", "force_unit"):
-        positive(getattr(options, word), word, "give the model's unit in m or N")
+        require_positive(
+            word, getattr(options, word), remedy="give the model's unit in m or N", error=ModelError
+        )
     if options.gravity is not None:
-        positive(options.gravity, "gravity [m/s2]", "9.81, or None where the model is loaded")
+        require_positive(
+            "gravity [m/s2]",
+            options.gravity,
+            remedy="9.81, or None where the model is loaded",
+            error=ModelError,
+        )
     for tag, device in options.bearings.items():
         bearing_height(f"bearing-{tag}", device)
 

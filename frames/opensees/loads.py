@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.model.contents import STANDARD_GRAVITY
 from frames.model.superelement import lumped
 

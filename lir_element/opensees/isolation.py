@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from lir_element.device.bearing import LIRBearing
-from lir_element.door import require_positive
+from lir_element.door import require_choice, require_positive
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.leftovers import leftovers, listed
 from lir_element.opensees.library import opensees
@@ -223,15 +223,10 @@ def isolate(
 
 
 def _check_words(level: str, route: str, vertical: str, base_rotations: str) -> None:
-    for name, value, known in (
-        ("level", level, LEVELS),
-        ("route", route, ROUTES),
-        ("vertical", vertical, tuple(_AXES)),
-        ("base_rotations", base_rotations, _ROTATIONS),
-    ):
-        if value not in known:
-            msg = f"{name} = {value!r}: choose one of {known}"
-            raise ValueError(msg)
+    require_choice("level", level, LEVELS)
+    require_choice("route", route, ROUTES)
+    require_choice("vertical", vertical, tuple(_AXES))
+    require_choice("base_rotations", base_rotations, _ROTATIONS)
 
 
 def _devices(

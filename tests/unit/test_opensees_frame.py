@@ -106,7 +106,7 @@ def test_a_base_without_mass_is_told(ops):
         ({"bearing": {1: BEARING}}, "node 2 is in base_nodes but not in bearing"),
         ({"vertical": "x"}, "vertical = 'x'"),
         ({"base_rotations": "loose"}, "base_rotations = 'loose': choose one of"),
-        ({"length_unit": 0.0}, "length_unit = 0 must be greater than 0"),
+        ({"length_unit": 0.0}, "length_unit = 0 must be positive"),
         ({"gravity": -9.81}, "gravity"),
     ],
 )

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
+from lir_element.door import require_choice
 from lir_element.opensees.compare.builtin_mapping import BuiltinValues, builtin_values
 from lir_element.opensees.library import opensees
 
@@ -138,9 +139,7 @@ def builtin_commands(
     frictionModel Coulomb 4 0.06
     element singleFPBearing 1 10 20 4 1.9 ... -P 1 -T 2 -My 3 -Mz 3 -shearDist 0.5 ...
     """
-    if kind not in BUILTIN_KINDS:
-        msg = f"kind = {kind!r}: choose one of {BUILTIN_KINDS}"
-        raise ValueError(msg)
+    require_choice("kind", kind, BUILTIN_KINDS)
     load = bearing.resolved()["design_load"] if axial_load is None else axial_load
     values = builtin_values(bearing, load)
     _refuse(kind, bearing, values, lift=lift)
