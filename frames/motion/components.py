@@ -13,9 +13,11 @@ from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
+AXES = ("x", "y", "z")
+"""Names of the components; z points up."""
+
 PAD_SAMPLES, PAD_PART = 20, 0.01
 """Largest difference in length of the components that zeros at the end make up for."""
-
 
 STRONGEST = 1000.0
 """Peak acceleration that no ground and no shake table has [m/s2]: 100 g."""

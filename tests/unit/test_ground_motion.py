@@ -227,7 +227,7 @@ class TestChecks:
             GroundMotion(x=[0.0, 1.0], dt=dt)
 
     def test_filling_up(self) -> None:
-        motion = GroundMotion(x=np.ones(100), z=np.ones(80), dt=0.1)
+        motion = GroundMotion(x=np.ones(100), z=np.ones(80), dt=0.01)
         assert motion.n_steps == 100
         assert motion.components.shape == (100, 3)
         assert motion.components.flags.c_contiguous
