@@ -317,6 +317,7 @@ class GroundMotion(MotionContents):
 
         Examples
         --------
+        >>> import numpy as np
         >>> motion = GroundMotion(x=0.01 + np.cos(np.linspace(0.0, 62.8, 2001)), dt=0.01)
         >>> still = motion.corrected()
         >>> round(motion.drift["x"].velocity, 2), abs(still.drift["x"].velocity) < 1e-12

@@ -28,6 +28,7 @@ from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from frames.assembly.system import System
+    from frames.model.builder import FrameBuilder
     from frames.model.contents import FrameContents
     from frames.opensees.model import OpenSeesModel
     from lir_element import LIRBearing
@@ -146,6 +147,24 @@ def bearings_by_tag(
         message = f"node {apart[0]} is in {where}: give one bearing for each base node"
         raise ModelError(message)
     return tags, {int(tag): device for tag, device in bearing.items()}
+
+
+def fill(frame: FrameBuilder, taken: Taken) -> None:
+    """Add everything that was read of an OpenSees model to an empty frame."""
+    for name, point in taken.nodes.items():
+        frame.add_node(name, *point)
+    for name, dofs in taken.fixed.items():
+        frame.fix(name, *dofs)
+    frame.add_superelement(
+        "opensees", taken.members, **taken.matrices,
+        load=taken.load, equations=taken.equations, notes=taken.notes,
+    )  # fmt: skip
+    for name, (i, j, device) in taken.bearings.items():
+        frame.add_bearing(name, i, j, device)
+    for name, nodes in taken.diaphragms.items():
+        frame.add_diaphragm(name, nodes)
+    for name, nodes in taken.levels.items():
+        frame.add_level(name, nodes)
 
 
 def _check_options(options: Options) -> None:
