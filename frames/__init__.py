@@ -5,10 +5,10 @@ from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
 from frames._errors import MotionWarning as MotionWarning
 from frames.analysis.model_check import ModelCheck as ModelCheck
+from frames.analysis.modes import Modes as Modes
+from frames.analysis.modes import modes as modes
 from frames.analysis.static import GravityState as GravityState
-from frames.analysis.static import Modes as Modes
 from frames.analysis.static import gravity as gravity
-from frames.analysis.static import modes as modes
 from frames.analysis.transient import time_history as time_history
 from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, Self
 
-from frames._errors import ModelWarning
+from frames._errors import ModelError, ModelWarning
 from frames.model.builder import FrameBuilder
 from lir_element.units import STANDARD_GRAVITY
 
@@ -123,10 +123,11 @@ class Frame(FrameBuilder):
         """
         from frames.opensees import frame as opensees_frame  # needs the optional openseespy
         from frames.opensees.structure import Options
+        from lir_element.opensees.base_nodes import bearings_by_node
 
-        tags, devices = opensees_frame.bearings_by_tag(base_nodes, bearing)
+        devices = bearings_by_node(base_nodes, bearing, error=ModelError)
         options = Options(
-            base_nodes=tags,
+            base_nodes=tuple(devices),
             bearings=devices,
             vertical=vertical,
             base_rotations=base_rotations,

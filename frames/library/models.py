@@ -13,10 +13,10 @@ from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
 from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.moment_frames import moment_frame as moment_frame
-from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping
 from frames.model.parts import bearing_axial_stiffness
 from lir_element.door import require_positive
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
-from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping, ModalDamping
 from frames.model.sections import Section
 from lir_element.door import require_non_negative, require_positive
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.library.grid import Bearings

@@ -13,7 +13,7 @@ from frames.model.parts import BearingLink, Diaphragm, Level, Member, Node, Spri
 from frames.model.superelement import Superelement
 from lir_element.door import require_non_negative
 from lir_element.tables import html_table
-from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

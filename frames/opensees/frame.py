@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +23,7 @@ from frames.opensees.model import read_model
 from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
 from lir_element.door import require_choice, require_positive
+from lir_element.opensees.base_nodes import BASE_ROTATIONS
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
@@ -31,12 +31,10 @@ if TYPE_CHECKING:
     from frames.model.builder import FrameBuilder
     from frames.model.contents import FrameContents
     from frames.opensees.model import OpenSeesModel
-    from lir_element import LIRBearing
 
 NAME = "opensees"
 """Name of the superelement that holds the model."""
 
-BASE_ROTATIONS = ("kept", "free", "fixed")
 LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
@@ -106,47 +104,6 @@ def refuse_taken(frame: FrameContents, structure: Structure, options: Options) -
     system = assemble(frame)
     _refuse_held_bases(system, structure, options)
     refuse_leaning(system, structure.initial)
-
-
-def bearings_by_tag(
-    base_nodes: Sequence[int],
-    bearing: LIRBearing | Mapping[int, LIRBearing],
-) -> tuple[tuple[int, ...], dict[int, LIRBearing]]:
-    """Check base nodes and bearings against each other.
-
-    Parameters
-    ----------
-    base_nodes : sequence of int
-        Tags.
-    bearing : LIRBearing or mapping
-        One for all, or by tag.
-
-    Returns
-    -------
-    tuple
-        The tags, and bearings by tag.
-
-    Raises
-    ------
-    ModelError
-        If a tag repeats, there is none, or bearings and tags do not match.
-    """
-    tags = tuple(int(tag) for tag in base_nodes)
-    repeated = [tag for tag in tags if tags.count(tag) > 1]
-    if not tags or repeated:
-        what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
-        message = f"base_nodes {what}: give the tag of each node that stands on a bearing once"
-        raise ModelError(message)
-    if not isinstance(bearing, Mapping):
-        return tags, dict.fromkeys(tags, bearing)
-    apart = sorted(set(tags) ^ {int(tag) for tag in bearing})
-    if apart:
-        where = (
-            "base_nodes but not in bearing" if apart[0] in tags else "bearing but not base_nodes"
-        )
-        message = f"node {apart[0]} is in {where}: give one bearing for each base node"
-        raise ModelError(message)
-    return tags, {int(tag): device for tag, device in bearing.items()}
 
 
 def fill(frame: FrameBuilder, taken: Taken) -> None:

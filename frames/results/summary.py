@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.model.contents import STANDARD_GRAVITY
 from frames.results.measures import energy_error, floor_acceleration, storey_drift
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
