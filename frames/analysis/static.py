@@ -140,6 +140,8 @@ def gravity(
         If the model cannot work, or is unstable under its permanent loads.
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
+    KeyboardInterrupt
+        After Ctrl-C: there is no equilibrium yet that could be handed back.
 
     Warns
     -----

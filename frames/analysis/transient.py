@@ -124,7 +124,8 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     lir_element.AnalysisInterrupted
-        After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
+        After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed. A plain
+        KeyboardInterrupt before the first step.
     """
     check_analysis(model, motion)
     _check_options(level, method, integrator, record_every, on_failure, features)
