@@ -113,7 +113,8 @@ def time_history(
     xarray.Dataset
         See docs/results.md. Attributes hold status, message, versions, options, timings and the
         audit: for each feature left out whether it mattered, with a number. A run whose ledger of
-        energy is open by more than 0.1 % of the input has the status "inaccurate" and warns.
+        energy is open by more than 0.1 % of the input has the status "inaccurate" and warns;
+        what "generalised-alpha" takes out may reach 1 %, and is named by a warning from 0.1 % on.
 
     Raises
     ------

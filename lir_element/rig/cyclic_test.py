@@ -119,7 +119,7 @@ def cyclic_test(
         )
     data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
     data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
-    detail = limit_detail(props, new, 0)
+    detail = "" if status is RunStatus.OK else limit_detail(props, new, 0)
     return report(data, status, time, "bearing in the rig", detail, on_failure=on_failure)
 
 
