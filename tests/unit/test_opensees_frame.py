@@ -266,7 +266,7 @@ def leaning(ops, *, tied=False, load=2e5, hinge=1e-3):
     gravity_analysis(ops)
 
 
-@pytest.mark.filterwarnings("ignore:.*may be nonlinear:frames.ModelWarning")
+@pytest.mark.meant("may be nonlinear")
 def test_a_leaning_column_is_told_from_buckling(ops):
     leaning(ops)
     with pytest.raises(ModelError, match=r"node 13 can move along ux .*hinged \(leaning\) column"):
