@@ -19,11 +19,11 @@ settings.load_profile("ci")
 
 
 PLAIN = {
-    "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_features",
+    "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_door", "test_features",
     "test_library", "test_members", "test_model", "test_model_check",
     "test_rotation", "test_shaking", "test_sliders", "test_slip", "test_superelement",
 }  # fmt: skip
-"""Modules of tests that are soon done with the kernels as plain Python, too."""
+"""Modules of tests/unit that are soon done with the kernels as plain Python, too."""
 
 
 DOUBTS = ("lir_element.DesignWarning", "frames.ModelWarning")
@@ -37,7 +37,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     warnings whose text these words (a regular expression) are found in are no errors there.
     """
     for item in items:
-        if item.path.stem in PLAIN:
+        if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
         words = [each for marker in item.iter_markers("meant") for each in marker.args]
         for each, kind in itertools.product(words, DOUBTS):
