@@ -1,12 +1,14 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
-from frames._validate import ModelError as ModelError
-from frames._validate import ModelWarning as ModelWarning
+from frames._errors import ModelError as ModelError
+from frames._errors import ModelWarning as ModelWarning
+from frames._errors import MotionError as MotionError
+from frames._errors import MotionWarning as MotionWarning
 from frames.analysis.model_check import ModelCheck as ModelCheck
+from frames.analysis.modes import Modes as Modes
+from frames.analysis.modes import modes as modes
 from frames.analysis.static import GravityState as GravityState
-from frames.analysis.static import Modes as Modes
 from frames.analysis.static import gravity as gravity
-from frames.analysis.static import modes as modes
 from frames.analysis.transient import time_history as time_history
 from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass
@@ -15,8 +17,6 @@ from frames.library.models import shear_building as shear_building
 from frames.model.damping import ModalDamping as ModalDamping
 from frames.model.damping import RayleighDamping as RayleighDamping
 from frames.model.sections import Section as Section
-from frames.motion._motion_checks import MotionError as MotionError
-from frames.motion._motion_checks import MotionWarning as MotionWarning
 from frames.motion.ground_motion import GroundMotion as GroundMotion
 from frames.results.auditing import Finding as Finding
 from frames.results.auditing import audit as audit

@@ -20,7 +20,6 @@ import numpy as np
 from frames.analysis.static import gravity
 from frames.analysis.transient import time_history
 from frames.library.moment_frames import moment_frame
-from frames.model.contents import STANDARD_GRAVITY
 from frames.motion.ground_motion import GroundMotion
 from frames.plots import (
     bearing_sections,
@@ -34,6 +33,7 @@ from frames.plots import (
 from frames.results.summary import status_of, table_of, write_results
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -1,52 +1,164 @@
-"""Checks at the door: every error names the value, the bound and the remedy."""
+"""Checks at the door: every error names the value, the bound and the remedy.
+
+A value of the wrong kind is a `TypeError`; one out of its bounds a `ValueError`, or the kind of it
+that the caller passes as `error`.
+"""
 
 from __future__ import annotations
 
-from math import inf, isnan
-from typing import TypeVar
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 T = TypeVar("T")
 
 
-def as_number(name: str, value: object, unit: str) -> float:
-    """Return `value` as a float, or raise a TypeError that names it."""
-    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__float__"):
-        msg = f"{name} = {value!r} is not a number: give it in {unit}"
+def as_number(name: str, value: object, unit: str = "") -> float:
+    """Return `value` as a float, infinity and NaN included.
+
+    Parameters
+    ----------
+    name : str
+        What the number is, as the message shall call it; with its unit where none is passed.
+    value : object
+        What the caller gave: one real number of any kind, no bool.
+    unit : str
+        Unit, for the message.
+
+    Returns
+    -------
+    float
+        The number.
+
+    Raises
+    ------
+    TypeError
+        If it is no number.
+    """
+    no_number = isinstance(value, (bool, np.bool_, complex, np.complexfloating))
+    if no_number or not hasattr(value, "__float__") or getattr(value, "ndim", 0) > 0:
+        msg = f"{name} = {value!r} is not a number: give one number in {unit or 'SI units'}"
         raise TypeError(msg)
     return float(value)
 
 
+def require_finite(
+    name: str,
+    value: object,
+    unit: str = "",
+    *,
+    remedy: str = "",
+    error: type[ValueError] = ValueError,
+) -> float:
+    """Return `value` if it is finite, or raise."""
+    number = as_number(name, value, unit)
+    if not math.isfinite(number):
+        raise error(_refusal(name, number, unit, "must be finite", remedy))
+    return number
+
+
+def require_positive(
+    name: str,
+    value: object,
+    unit: str = "",
+    *,
+    infinite: bool = False,
+    remedy: str = "",
+    error: type[ValueError] = ValueError,
+) -> float:
+    """Return `value` if it is above zero (and finite, unless `infinite`), or raise."""
+    number = as_number(name, value, unit)
+    if math.isnan(number) or number <= 0.0 or (number == math.inf and not infinite):
+        bound = "must be positive" if infinite else "must be positive and finite"
+        raise error(_refusal(name, number, unit, bound, remedy))
+    return number
+
+
+def require_non_negative(
+    name: str,
+    value: object,
+    unit: str = "",
+    *,
+    remedy: str = "",
+    error: type[ValueError] = ValueError,
+) -> float:
+    """Return `value` if it is finite and not below zero, or raise."""
+    number = as_number(name, value, unit)
+    if not 0.0 <= number < math.inf:
+        raise error(_refusal(name, number, unit, "must be finite and at least 0", remedy))
+    return number
+
+
 def require_between(
-    name: str, value: object, low: float, high: float, unit: str, remedy: str = ""
+    name: str,
+    value: object,
+    low: float,
+    high: float,
+    unit: str = "",
+    *,
+    remedy: str = "",
+    error: type[ValueError] = ValueError,
 ) -> float:
     """Return `value` if ``low <= value < high``, or raise."""
     number = as_number(name, value, unit)
-    if isnan(number) or not low <= number < high:
-        end = f": {remedy}" if remedy else ""
-        msg = f"{name} = {number:g} [{unit}] must be at least {low:g} and below {high:g}{end}"
-        raise ValueError(msg)
+    if not low <= number < high:
+        bound = f"must be at least {low:g} and below {high:g}"
+        raise error(_refusal(name, number, unit, bound, remedy))
     return number
 
 
-def require_positive(name: str, value: object, unit: str, *, infinite: bool = False) -> float:
-    """Return `value` if it is above zero (and finite, unless `infinite`), or raise."""
-    number = as_number(name, value, unit)
-    if isnan(number) or number <= 0.0 or (number == inf and not infinite):
-        bound = "positive" if infinite else "positive and finite"
-        msg = f"{name} = {number:g} [{unit}] must be {bound}; give it in {unit} (SI)"
-        raise ValueError(msg)
-    return number
+def _refusal(name: str, number: float, unit: str, bound: str, remedy: str) -> str:
+    plain = {"": "give a number in SI units", "-": "give a pure number"}
+    what_to_do = remedy or plain.get(unit, f"give it in {unit} (SI)")
+    return f"{name} = {number:g}{f' [{unit}]' if unit else ''} {bound}: {what_to_do}"
 
 
-def require_non_negative(name: str, value: object, unit: str) -> float:
-    """Return `value` if it is finite and not below zero, or raise."""
-    number = as_number(name, value, unit)
-    if isnan(number) or number < 0.0 or number == inf:
-        msg = f"{name} = {number:g} [{unit}] must be finite and at least 0; give it in {unit} (SI)"
-        raise ValueError(msg)
-    return number
+def require_vector(
+    name: str, values: ArrayLike, size: int, *, error: type[ValueError] = ValueError
+) -> NDArray[np.float64]:
+    """Return a copy of `size` finite numbers (size,), or raise; `name` says their unit."""
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as cause:
+        msg = f"{name} = {values!r} must be {size} real numbers: give them in SI units"
+        raise error(msg) from cause
+    if array.shape != (size,):
+        msg = (
+            f"{name} has shape {array.shape}, it must be ({size},): "
+            f"give {size} numbers, zeros where there is nothing"
+        )
+        raise error(msg)
+    if not np.isfinite(array).all():
+        msg = f"{name} = {array.tolist()} must be finite: give finite numbers in SI units"
+        raise error(msg)
+    return array
+
+
+def require_type(
+    name: str, value: object, kinds: type | tuple[type, ...], what_it_must_be: str
+) -> None:
+    """Raise a TypeError unless `value` is of one of the kinds."""
+    if not isinstance(value, kinds):
+        msg = f"{name} = {value!r} must be {what_it_must_be}"
+        raise TypeError(msg)
+
+
+def require_choice(
+    name: str,
+    value: object,
+    allowed: Sequence[object],
+    *,
+    error: type[ValueError] = ValueError,
+) -> None:
+    """Raise unless `value` is one of those allowed."""
+    if value not in allowed:
+        msg = f"{name} = {value!r}: choose one of {tuple(allowed)}"
+        raise error(msg)
 
 
 def frozen_pair(name: str, value: object) -> object:

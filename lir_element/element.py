@@ -9,6 +9,7 @@ import numpy as np
 from lir_element.bundles.contact_data import as_rows, contact_arrays, detached, reset
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.features import Features, apply
+from lir_element.door import require_choice
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
 from lir_element.kernels.pendulum.trial import has_no_state
@@ -79,9 +80,7 @@ class Element:
     def __init__(
         self, bearing: LIRBearing, level: Level = "pendulum", *, features: Features | None = None
     ) -> None:
-        if level not in LEVELS:
-            msg = f"level = {level!r}: choose one of {LEVELS}"
-            raise ValueError(msg)
+        require_choice("level", level, LEVELS)
         self.bearing = bearing
         self.level = level
         self.features = Features.all() if features is None else features

@@ -12,7 +12,7 @@ from lir_element.errors import RunStatus
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-PIECE = 0.06
+PIECE = 0.03
 """Length of a piece that is aimed at [s]: calling costs some 0.1 ms of it."""
 
 FIRST_WORK = 50

@@ -1,5 +1,6 @@
 """What all tests share: the random-test profile, an empty OpenSees, the folder of records."""
 
+import itertools
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,18 +19,29 @@ settings.load_profile("ci")
 
 
 PLAIN = {
-    "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_features",
-    "test_library", "test_members", "test_model", "test_model_check",
+    "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_door",
+    "test_features", "test_library", "test_members", "test_model", "test_model_check",
     "test_rotation", "test_shaking", "test_sliders", "test_slip", "test_superelement",
 }  # fmt: skip
-"""Modules of tests that are soon done with the kernels as plain Python, too."""
+"""Modules of tests/unit that are soon done with the kernels as plain Python, too."""
+
+
+DOUBTS = ("lir_element.DesignWarning", "frames.ModelWarning")
+"""Warnings of what is strange of a bearing or a model, which a test may mean to be."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what `pytest -m plain tests/unit` runs where NUMBA_DISABLE_JIT=1."""
+    """Mark what runs with the kernels as plain Python; let pass the doubts that a test means.
+
+    ``pytest.mark.meant("settles by")`` says that a bearing or a model is strange on purpose: the
+    warnings whose text these words (a regular expression) are found in are no errors there.
+    """
     for item in items:
-        if item.path.stem in PLAIN:
+        if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
+        words = [each for marker in item.iter_markers("meant") for each in marker.args]
+        for each, kind in itertools.product(words, DOUBTS):
+            item.add_marker(pytest.mark.filterwarnings(f"ignore:.*{each}:{kind}"))
 
 
 @pytest.fixture

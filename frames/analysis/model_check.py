@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError, ModelWarning
+from frames._errors import ModelError, ModelWarning
+from frames.analysis.modes import modes
 from frames.analysis.plausible import (
     BearingLoad,
     bearing_loads,
     isolated_period,
     motion_doubts,
 )
-from frames.analysis.static import gravity, modes
+from frames.analysis.static import gravity
 from frames.assembly.assemble import assemble
 from frames.model import plausible
 from lir_element.device.plausible import doubts as device_doubts

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames._validate import ModelError, ModelWarning
+from frames._errors import ModelError, ModelWarning
 from frames.model.contents import FrameContents
 from frames.motion.ground_motion import GroundMotion
 from lir_element.device.plausible import (

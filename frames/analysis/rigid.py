@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.outcome import Outcome, judged
 from frames.analysis.size import number_of_steps, require_memory
@@ -18,6 +18,7 @@ from frames.results.auditing import audit_report
 from lir_element.bundles.rigid_data import (
     DEFAULT_TOLERANCE,
     FIRST_STEP,
+    RigidOutput,
     rigid_input,
     rigid_run,
     rigid_setup,
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from frames.analysis.static import GravityState
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
-    from lir_element.bundles.rigid_data import RigidInput, RigidOutput, RigidRun, RigidSetup
+    from lir_element.bundles.rigid_data import RigidInput, RigidRun, RigidSetup
 
 LARGEST_STEP = 0.005
 """Largest time between outputs that the program chooses [s]."""
@@ -113,8 +114,9 @@ def rigid_time_history(
     status, seconds = _march(run, given, setup, progress)
     clock, counts = run.clock[0], run.counts[0]
     count = int(counts["outputs"])
-    out = _output(state, given, recorded)
-    peak = peak_velocity(motion, float(out.time[count - 1]))
+    recorded = RigidOutput(*(part[:count] for part in recorded))  # an interrupted run is shorter
+    out = _output(state, given.times[:count], recorded)
+    peak = peak_velocity(motion, float(out.time[-1]))
     states, bodies = recorded.states[:, None], recorded.bodies[:, None]
     ground = Ground(given.motion, given.motion_dt)
     data = build_dataset(model, state, ground, peak, out, states, bodies, count)
@@ -227,15 +229,14 @@ def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -
     return float(explicit)
 
 
-def _output(state: GravityState, given: RigidInput, recorded: RigidOutput) -> Output:
+def _output(state: GravityState, times: FloatArray, recorded: RigidOutput) -> Output:
     states, bodies, energy = recorded
-    count = len(given.times)
-    out, _, _ = output_arrays(state.model, None, count)
+    out, _, _ = output_arrays(state.model, None, len(times))
     rows = bearing_rows(state.system).toarray()[6:]
     dofs = [int(np.flatnonzero(rows[:, k])[0]) for k in state.basis.bearing_dofs]
     plate = np.concatenate([bodies["velocity"][:, 2], bodies["spin"][:, 2]], axis=1)
     rates = np.concatenate([bodies["acceleration"][:, 2], bodies["spin_rate"][:, 2]], axis=1)
-    out.time[:] = given.times
+    out.time[:] = times
     out.b[:] = states["displacement"][:, 6:][:, dofs]
     out.v_b[:], out.a_b[:] = plate[:, dofs], rates[:, dofs]
     for k, term in enumerate(ENERGY_TERMS):

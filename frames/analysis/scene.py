@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from frames.analysis.static import guessed_springs
+from frames.analysis.springs import guessed_springs
 from frames.assembly.assemble import assemble
 from frames.assembly.basis import bearing_rows
 from frames.assembly.constraints import OUT_OF_PLANE

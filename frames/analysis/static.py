@@ -1,4 +1,4 @@
-"""Gravity and modes: the state a time history starts from, and the periods an engineer checks."""
+"""Gravity: the equilibrium under permanent loads, which a time history starts from."""
 
 from __future__ import annotations
 
@@ -6,32 +6,30 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from time import perf_counter
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from frames._validate import ModelError, ModelWarning
+from frames._errors import ModelError, ModelWarning
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.plausible import doubts, held_periods
+from frames.analysis.springs import guessed_springs
 from frames.assembly.assemble import (
     assemble,
     geometric_stiffness,
     member_axial_forces,
     node_geometric_stiffness,
 )
-from frames.assembly.basis import Basis, bearing_rows, build_basis
-from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.assembly.basis import Basis, build_basis
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import plausible
-from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
-from lir_element.element import ALL_LEVELS, LEVELS
+from lir_element.door import require_choice, require_type
+from lir_element.element import LEVELS
 from lir_element.tables import html_table
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
-
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
     from frames.kernel_data import Model, Run
@@ -142,6 +140,8 @@ def gravity(
         If the model cannot work, or is unstable under its permanent loads.
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
+    KeyboardInterrupt
+        After Ctrl-C: there is no equilibrium yet that could be handed back.
 
     Warns
     -----
@@ -191,7 +191,7 @@ def gravity(
     return state
 
 
-def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
+def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
     """Look up the level of each bearing.
 
     Parameters
@@ -213,21 +213,14 @@ def levels_of(names: tuple[str, ...], level: object) -> dict[str, str]:
     TypeError
         If `level` is neither a name nor a mapping.
     """
-    if isinstance(level, str) and level not in LEVELS:
-        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
-        raise ValueError(msg)
-    if not isinstance(level, (str, Mapping)):
-        msg = f"level = {level!r}: give a level, or a mapping of levels by name of bearing"
-        raise TypeError(msg)
+    require_type("level", level, (str, Mapping), "a level, or levels by name of bearing")
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))
     if unknown:
         msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
         raise ValueError(msg)
     for value in given.values():
-        if value not in LEVELS:
-            msg = f"level = {value!r} of a bearing: choose one of {LEVELS}"
-            raise ValueError(msg)
+        require_choice("level of a bearing", value, LEVELS)
     return {name: given.get(name, "pendulum") for name in names}
 
 
@@ -235,128 +228,3 @@ def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -
     """Return displacements q (..., n_free) of the free DOFs from b (..., n_b) and eta."""
     q: FloatArray = b @ basis.expand_b.T + e @ basis.expand_e.T
     return q + basis.offset if offset else q
-
-
-def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
-    """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
-
-    Parameters
-    ----------
-    system : System
-        The frame.
-    with_points : collection of str
-        Bearings with contact points, which resist the rotation of their plates.
-
-    Returns
-    -------
-    csr_array, (n_free, n_free)
-        Their stiffness.
-    """
-    values = np.zeros((len(system.bearings), 6))
-    values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
-    values[:, :2] = 0.01 * values[:, 2:3]
-    for k, (name, _, _, bearing) in enumerate(system.bearings):
-        if name in with_points:
-            values[k, 3:] = bearing_rocking_stiffness(bearing)
-    return _spring_matrix(system, values)
-
-
-def _spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
-    # Springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs.
-    rows = bearing_rows(system)
-    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
-    blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
-    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
-
-
-BearingStiffness = Literal["sliding", "sticking", "fixed"]
-
-
-@dataclass(frozen=True)
-class Modes:
-    """Natural modes of a frame on its bearings.
-
-    Attributes
-    ----------
-    periods : ndarray, (n,)
-        Periods, longest first [s].
-    shapes : ndarray, (n_nodes, 6, n)
-        Nodal displacements of each mode, scaled to a modal mass of 1 kg.
-    mass_ratios : ndarray, (n, 3)
-        Share of the total mass that takes part along x, y, z; 0 where there is none.
-    """
-
-    periods: FloatArray
-    shapes: FloatArray
-    mass_ratios: FloatArray
-
-
-def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
-    """Return the first natural modes under gravity.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    count : int
-        Number of modes, at least 1; at most those that have mass.
-    bearings : {"sliding", "sticking", "fixed"}
-        How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
-        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together).
-
-    Returns
-    -------
-    Modes
-        Periods, shapes and participating masses (dense; frames/assembly/natural_modes.py).
-
-    Raises
-    ------
-    ModelError
-        If `count` or `bearings` is out of bounds, or a mode has no positive stiffness.
-    """
-    if count < 1:
-        message = f"count = {count} must be at least 1"
-        raise ModelError(message)
-    if bearings not in {"sliding", "sticking", "fixed"}:
-        message = f'bearings = "{bearings}": choose "sliding", "sticking" or "fixed"'
-        raise ModelError(message)
-    state = gravity(frame)
-    system = state.system
-    k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
-    m = system.mass.toarray()
-    try:
-        found = natural_modes(k, m, count)
-    except UnstableError as error:
-        label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
-        message = (
-            f'the first mode has no positive stiffness, at "{label}": with '
-            f'bearings="{bearings}" the frame is unstable under its permanent loads'
-        )
-        raise ModelError(message) from error
-    omega2, q = found.omega2, found.shapes
-    shapes = np.asarray(system.transform @ q).reshape(-1, 6, len(omega2))
-    shares = (system.inertia_load.T @ q) ** 2
-    total = system.node_mass[:, :3].sum(axis=0)
-    total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
-    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
-
-
-def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
-    devices = [bearing for _, _, _, bearing in state.system.bearings]
-    values = np.zeros((len(devices), 6))
-    values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
-    if bearings == "sliding":
-        length = np.array([bearing.effective_radius for bearing in devices])
-        values[:, :2] = (state.axial_forces / length)[:, None]
-    elif bearings == "sticking":
-        # the slider turns by 1/L a metre and slides R/L on both surfaces: exact at rest
-        per_load = [
-            sum(f.f_min * r * r for f, r in zip(b.frictions, b.radii, strict=True))
-            / (b.yield_displacement * b.effective_radius**2)
-            + 1.0 / b.effective_radius
-            for b in devices
-        ]
-        values[:, :2] = (state.axial_forces * np.array(per_load))[:, None]
-    else:
-        values[:, :3] = 1e3 * values[:, 2:3]
-    return _spring_matrix(state.system, values)

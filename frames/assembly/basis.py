@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import linalg, sparse
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.assembly.coordinates import Basis as Basis
 from frames.assembly.matrix_damping import with_matrix_damping
 from frames.assembly.natural_modes import UnstableError, natural_modes, weakest

@@ -10,7 +10,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.model.parts import DOFS
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import linalg, sparse
 from scipy.sparse import csgraph
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix

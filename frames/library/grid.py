@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from frames._validate import ModelError, positive
+from frames._errors import ModelError
 from frames.frame import Frame
+from lir_element.door import require_positive
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -99,7 +100,8 @@ def pair(
         message = f"{what} = {value!r} must be one number, or two for x and y"
         raise ModelError(message)
     first, second = (
-        positive(number, what, "give one number, or two for x, y") for number in values
+        require_positive(what, number, remedy="give one number, or two for x, y", error=ModelError)
+        for number in values
     )
     if count and not (first.is_integer() and second.is_integer()):
         message = f"{what} = {value!r} must be whole: give counts of 1 or more"

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from frames._validate import ModelError, positive
+from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
 from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.moment_frames import moment_frame as moment_frame
-from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping
 from frames.model.parts import bearing_axial_stiffness
+from lir_element.door import require_positive
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -69,12 +70,17 @@ def lumped_mass(
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.add_node("mass", 0.0, 0.0, bearing.height)
     frame.fix("ground", "all")
-    checked = positive(mass, "lumped_mass: mass [kg]", "give the isolated mass")
+    checked = require_positive(
+        "lumped_mass: mass [kg]", mass, remedy="give the isolated mass", error=ModelError
+    )
     if inertia is None:
         frame.fix("mass", "rx", "ry", "rz")
         frame.add_mass("mass", checked)
     else:
-        moments = [positive(value, "lumped_mass: inertia [kg m2]") for value in inertia]
+        moments = [
+            require_positive("lumped_mass: inertia [kg m2]", value, error=ModelError)
+            for value in inertia
+        ]
         frame.add_mass("mass", checked, moments)
     frame.add_bearing("bearing", "ground", "mass", bearing)
     return frame
@@ -137,9 +143,14 @@ def shear_building(
     loads. Use `moment_frame` where overturning matters.
     """
     chains = _storeys(storey_mass, storey_stiffness, axial_stiffness, storeys)
-    height = positive(storey_height, "shear_building: storey_height [m]")
+    height = require_positive("shear_building: storey_height [m]", storey_height, error=ModelError)
     base = chains[0][0] if base_mass is None else base_mass
-    base = positive(base, "shear_building: base_mass [kg]", "give the mass of the base slab")
+    base = require_positive(
+        "shear_building: base_mass [kg]",
+        base,
+        remedy="give the mass of the base slab",
+        error=ModelError,
+    )
     frame = Frame(name, gravity)
     if plan is None:
         held: tuple[str, ...] = ("rx", "ry", "rz")
@@ -243,4 +254,7 @@ def _storeys(
 
 def _storey_values(value: Storeys, count: int, what: str) -> list[float]:
     values = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,))
-    return [positive(number, f"shear_building: {what}") for number in values.tolist()]
+    return [
+        require_positive(f"shear_building: {what}", number, error=ModelError)
+        for number in values.tolist()
+    ]

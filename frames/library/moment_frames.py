@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from frames._validate import ModelError, non_negative, positive
+from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
-from frames.model.contents import STANDARD_GRAVITY
 from frames.model.damping import Damping, ModalDamping
 from frames.model.sections import Section
+from lir_element.door import require_non_negative, require_positive
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.library.grid import Bearings
@@ -86,7 +87,7 @@ def moment_frame(
     count = tuple(int(number) for number in pair(bays, "moment_frame: bays", count=True))
     levels = int(pair(storeys, "moment_frame: storeys", count=True)[0])
     width = pair(bay_width, "moment_frame: bay_width [m]")
-    height = positive(storey_height, "moment_frame: storey_height [m]")
+    height = require_positive("moment_frame: storey_height [m]", storey_height, error=ModelError)
     area = count[0] * width[0] * count[1] * width[1]
     per_area = _mass_per_area(floor_mass, floor_load, area)
     frame = Frame(name, gravity)
@@ -137,6 +138,9 @@ def _mass_per_area(floor_mass: float | None, floor_load: float | None, area: flo
         )
         raise ModelError(message)
     if floor_mass is not None:
-        return non_negative(floor_mass, "moment_frame: floor_mass [kg]") / area
+        return (
+            require_non_negative("moment_frame: floor_mass [kg]", floor_mass, error=ModelError)
+            / area
+        )
     chosen = DEFAULT_FLOOR_LOAD if floor_load is None else floor_load
-    return non_negative(chosen, "moment_frame: floor_load [kg/m2]")
+    return require_non_negative("moment_frame: floor_load [kg/m2]", chosen, error=ModelError)

@@ -6,12 +6,14 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from frames._validate import new_name, non_negative
+from frames._errors import ModelError
 from frames.model.damping import Damping
+from frames.model.names import new_name
 from frames.model.parts import BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.superelement import Superelement
+from lir_element.door import require_non_negative
 from lir_element.tables import html_table
-from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -37,7 +39,7 @@ class FrameContents:
     def __init__(self, name: str = "frame", gravity: float = STANDARD_GRAVITY) -> None:
         """Start an empty frame."""
         self._name = new_name(name, (), "frame")
-        self._gravity = non_negative(gravity, "Frame.gravity [m/s2]")
+        self._gravity = require_non_negative("Frame.gravity [m/s2]", gravity, error=ModelError)
         self._nodes: dict[str, Node] = {}
         self._members: dict[str, Member] = {}
         self._springs: dict[str, Spring] = {}

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from frames._validate import ModelError, finite, positive
+from frames._errors import ModelError
+from lir_element.door import require_between, require_positive
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,10 @@ class RayleighDamping:
                 "for instance the first and the third period of the structure"
             )
             raise ModelError(message)
-        first, second = (positive(value, "RayleighDamping.periods", "give s") for value in given)
+        first, second = (
+            require_positive("RayleighDamping.periods", value, remedy="give s", error=ModelError)
+            for value in given
+        )
         if first == second:
             message = (
                 f"RayleighDamping.periods = ({first:g}, {second:g}) s must differ: "
@@ -117,8 +121,6 @@ Damping: TypeAlias = RayleighDamping | ModalDamping
 
 
 def _ratio(value: float, what: str) -> float:
-    number = finite(value, what)
-    if not 0.0 <= number < 1.0:
-        message = f"{what} = {number:g} must lie in [0, 1): give 0.02 for two per cent"
-        raise ModelError(message)
-    return number
+    return require_between(
+        what, value, 0.0, 1.0, remedy="give 0.02 for two per cent", error=ModelError
+    )

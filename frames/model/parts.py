@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frames._validate import non_negative, positive
+from frames._errors import ModelError
 from frames.model.sections import Section
+from lir_element.door import require_non_negative, require_positive
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -130,5 +131,9 @@ def bearing_height(name: str, bearing: LIRBearing) -> float:
             "pass a lir_element.LIRBearing"
         )
         raise TypeError(message)
-    positive(bearing_axial_stiffness(bearing), f'axial_stiffness [N/m] of bearing "{name}"')
-    return non_negative(bearing.height, f'height [m] of bearing "{name}"')
+    require_positive(
+        f'axial_stiffness [N/m] of bearing "{name}"',
+        bearing_axial_stiffness(bearing),
+        error=ModelError,
+    )
+    return require_non_negative(f'height [m] of bearing "{name}"', bearing.height, error=ModelError)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from lir_element.units import ACCELERATIONS, DENSITIES, LENGTHS, MODULI, meant
 
 if TYPE_CHECKING:

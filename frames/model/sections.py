@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
-from frames._validate import ModelError, finite, non_negative, positive, real
+from frames._errors import ModelError
+from lir_element.door import require_finite, require_non_negative, require_positive
 from lir_element.tables import html_table
 from lir_element.units import AREAS, LENGTHS, MODULI, meant
 
@@ -90,17 +91,24 @@ class Section:
             value = getattr(self, field.name)
             what = f"Section.{field.name}"
             if field.name == "density":
-                number = non_negative(value, what, "give kg/m3, or 0 for a member without mass")
+                number = require_non_negative(
+                    what,
+                    value,
+                    remedy="give kg/m3, or 0 for a member without mass",
+                    error=ModelError,
+                )
             elif field.name.startswith("shear_area"):
-                number = real(value, what)
-                if math.isnan(number) or number <= 0.0:
-                    message = (
-                        f"{what} = {number:g} must be greater than 0: give m2, "
-                        "or leave it out (infinity) to neglect the shear deformation"
-                    )
-                    raise ModelError(message)
+                remedy = "give m2, or leave it out (infinity) to neglect the shear deformation"
+                number = require_positive(
+                    what, value, infinite=True, remedy=remedy, error=ModelError
+                )
             else:
-                number = positive(value, what, "a member needs every stiffness; give SI units")
+                number = require_positive(
+                    what,
+                    value,
+                    remedy="a member needs every stiffness; give SI units",
+                    error=ModelError,
+                )
             object.__setattr__(self, field.name, number)
         self._refuse_units()
 
@@ -300,7 +308,10 @@ class Section:
 def _dimensions(where: str, **values: float) -> tuple[float, ...]:
     remedy = "give the outer dimensions in metres"
     for name, value in values.items():
-        if positive(value, f"{where}: {name}", remedy) > LARGEST_SIDE:
+        if (
+            require_positive(f"{where}: {name}", value, remedy=remedy, error=ModelError)
+            > LARGEST_SIDE
+        ):
             message = (
                 f"{where}: {name} = {value:g} m, at most {LARGEST_SIDE:g} m: "
                 f"{meant(value, 'm', LENGTHS, 1e-3, 10.0)}"
@@ -310,8 +321,10 @@ def _dimensions(where: str, **values: float) -> tuple[float, ...]:
 
 
 def _shear_modulus(elastic_modulus: float, poisson_ratio: float) -> float:
-    ratio = finite(poisson_ratio, "poisson_ratio")
+    ratio = require_finite("poisson_ratio", poisson_ratio, error=ModelError)
     if not -1.0 < ratio <= 0.5:
         message = f"poisson_ratio = {ratio:g} must lie in (-1, 0.5]: steel has 0.3, concrete 0.2"
         raise ModelError(message)
-    return positive(elastic_modulus, "elastic_modulus", "give Pa") / (2.0 * (1.0 + ratio))
+    return require_positive(
+        "elastic_modulus", elastic_modulus, remedy="give Pa", error=ModelError
+    ) / (2.0 * (1.0 + ratio))

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError, vector
+from frames._errors import ModelError
+from lir_element.door import require_vector
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -78,7 +79,9 @@ def superelement(
         name=name,
         nodes=nodes,
         **{word: _symmetric(f"{word} of {owner}", a, nodes) for word, a in given.items()},
-        load=vector(np.zeros(size) if load is None else load, size, f"load of {owner}"),
+        load=require_vector(
+            f"load of {owner}", np.zeros(size) if load is None else load, size, error=ModelError
+        ),
         equations=_finite(
             f"equations of {owner}", np.zeros((0, size)) if equations is None else equations, nodes
         ),

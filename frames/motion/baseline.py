@@ -19,10 +19,20 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames._types import FloatArray
 
 LARGEST_DRIFT = 0.15
 """Velocity at the end over the peak velocity above which a record is called not at rest [-]."""
+
+LEAST_RECORD = 8.0
+"""Duration from which a motion is a record, not a pulse, and its end is looked at [s]."""
+
+LAST_PART, QUIET, STEADY = 0.2, 0.3, 0.1
+"""Samples at the end that tell whether a motion has faded [-], and what their mean and their
+scatter are below then, over the peak acceleration [-]. One that ends at full strength was cut, or
+made so: where its velocity stands just then says nothing of a baseline."""
 
 LARGEST_CHANGE = 0.05
 """Change of a peak acceleration by a correction above which it is refused [-]."""
@@ -80,6 +90,44 @@ def drift_of(acceleration: FloatArray, dt: float) -> Drift:
         peak_velocity=float(np.abs(velocity).max()),
         peak_displacement=float(np.abs(displacement).max()),
     )
+
+
+def has_faded(acceleration: FloatArray) -> bool:
+    """Return whether a component (n,) is quiet in its last part, be it about an offset."""
+    last = acceleration[-max(2, int(LAST_PART * len(acceleration))) :]
+    peak = np.abs(acceleration).max()
+    return bool(abs(last.mean()) < QUIET * peak and last.std() < STEADY * peak)
+
+
+def left_at_end(given: Mapping[str, FloatArray], dt: float, *, recorded: bool) -> str:
+    """Say which components of a motion still move at its end, and how.
+
+    Parameters
+    ----------
+    given : mapping of str to ndarray
+        Components (n,) by axis [m/s2].
+    dt : float
+        Time step [s].
+    recorded : bool
+        Whether they are known to be a record. Otherwise one that ends at full strength, as a sine
+        that was cut, is taken to be meant.
+
+    Returns
+    -------
+    str
+        Velocities and displacements; empty where the ground is at rest, or the motion a pulse.
+    """
+    found = []
+    for axis, values in given.items():
+        if (len(values) - 1) * dt < LEAST_RECORD or not (recorded or has_faded(values)):
+            continue
+        left = drift_of(values, dt)
+        if left.share > LARGEST_DRIFT:
+            found.append(
+                f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), "
+                f"displacement {left.displacement:.3g} m"
+            )
+    return "; ".join(found)
 
 
 def corrected(acceleration: FloatArray, dt: float, *, displacement: bool) -> FloatArray:

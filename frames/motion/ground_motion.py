@@ -6,51 +6,34 @@ samples the acceleration is linear; before the first and after the last one it i
 
 from __future__ import annotations
 
-import math
-import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
-import numpy as np
-
-from frames._types import FloatArray
-from frames.motion._motion_checks import (
-    MotionError,
-    MotionWarning,
-    checked_component,
-    checked_step,
-    equal_lengths,
-    number,
-)
-from frames.motion.baseline import LARGEST_CHANGE, LARGEST_DRIFT, Drift, corrected, drift_of
+from frames._errors import MotionError
+from frames.motion import changes
+from frames.motion.components import AXES
+from frames.motion.contents import MotionContents
 from frames.motion.records import (
     AccelerationTrace,
     ColumnLayout,
     PathLike,
     Source,
-    read_at2,
-    read_columns,
-    source_file,
+    at2_traces,
+    column_traces,
+    common_step,
 )
 from frames.motion.spectra import response_spectrum
-from lir_element.tables import html_table
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     import xarray as xr
 
-AXES = ("x", "y", "z")
-"""Names of the components; z points up."""
-
-LEAST_RECORD = 8.0
-"""Duration from which a file holds a record, not a pulse, and its end is looked at [s]."""
+    from frames._types import FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class GroundMotion:
+class GroundMotion(MotionContents):
     """Accelerations of the ground along up to three axes.
 
     Parameters
@@ -69,6 +52,15 @@ class GroundMotion:
     MotionError
         If there is no component, a component is no finite 1-D array of two samples or more, the
         lengths differ by more than the above, or `dt` is not positive.
+    TypeError
+        If `dt` is no number.
+
+    Warns
+    -----
+    MotionWarning
+        If the ground still moves at the end of a component of 8 s or more that has faded by then:
+        its velocity is above 15 % of its peak. What ends at full strength, as a sine that was cut,
+        is taken to be meant; of files every record is looked at.
 
     Examples
     --------
@@ -79,37 +71,6 @@ class GroundMotion:
     >>> pulse.scaled(2.0).peak
     {'x': 6.0}
     """
-
-    x: FloatArray | None = None
-    y: FloatArray | None = None
-    z: FloatArray | None = None
-    dt: float = math.nan
-    name: str = ""
-
-    def __post_init__(self) -> None:
-        """Copy, check and freeze the components.
-
-        Raises
-        ------
-        MotionError
-            If a field is out of its bounds.
-        """
-        object.__setattr__(self, "dt", checked_step(self.dt))
-        given = {
-            axis: checked_component(axis, values)
-            for axis in AXES
-            if (values := getattr(self, axis)) is not None
-        }
-        if not given:
-            msg = "a ground motion needs at least one of x, y and z: give accelerations in m/s2"
-            raise MotionError(msg)
-        for axis, values in equal_lengths(given).items():
-            values.flags.writeable = False
-            object.__setattr__(self, axis, values)
-
-    def __reduce__(self) -> tuple[type[GroundMotion], tuple[object, ...]]:
-        # copies and pickles are made anew: arrays that are copied one by one can be written to
-        return type(self), (self.x, self.y, self.z, self.dt, self.name)
 
     @classmethod
     def from_at2(
@@ -147,10 +108,8 @@ class GroundMotion:
         MotionWarning
             If the ground still moves at the end of a component.
         """
-        files = {axis: path for axis, path in zip(AXES, (x, y, z), strict=True) if path is not None}
-        traces = {axis: read_at2(path) for axis, path in files.items()}
-        label = Path(next(iter(files.values()))).stem if files and name is None else name
-        return cls._from_traces(traces, label or "").scaled(scale)
+        traces, label = at2_traces(x, y, z)
+        return cls._from_traces(traces, label if name is None else name).scaled(scale)
 
     @classmethod
     def from_columns(
@@ -221,73 +180,18 @@ class GroundMotion:
         ...     x="E.ATH", y="N.ATH", z="V.ATH", dt=0.005, unit="g"
         ... )  # doctest: +SKIP
         """
-        sources = {"x": x, "y": y, "z": z}
-        files = {
-            axis: source_file(axis, source, path)
-            for axis, source in sources.items()
-            if source is not None
-        }
         layout = ColumnLayout(unit, time, dt, skip, comments, delimiter)
-        traces = {axis: read_columns(*file, layout) for axis, file in files.items()}
-        label = Path(next(iter(files.values()))[0]).stem if files and name is None else name
-        return cls._from_traces(traces, label or "").scaled(scale)
+        traces, label = column_traces(path, x, y, z, layout)
+        return cls._from_traces(traces, label if name is None else name).scaled(scale)
 
     @classmethod
-    def _from_traces(cls, traces: dict[str, AccelerationTrace], name: str) -> GroundMotion:
+    def _from_traces(cls, traces: dict[str, AccelerationTrace], name: str) -> Self:
         """Join components that share their time step."""
-        steps = {axis: trace.dt for axis, trace in traces.items()}
-        if steps and max(steps.values()) - min(steps.values()) > 1e-6 * max(steps.values()):
-            found = ", ".join(f"{axis} {step:g} s" for axis, step in steps.items())
-            msg = f"the components have unlike time steps ({found}): resample them to one dt first"
-            raise MotionError(msg)
         arrays = {axis: trace.acceleration for axis, trace in traces.items()}
-        motion = cls(**arrays, dt=next(iter(steps.values()), 1.0), name=name)
-        moving = [
-            f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), "
-            f"displacement {left.displacement:.3g} m"
-            for axis, left in motion.drift.items()
-            if left.share > LARGEST_DRIFT and motion.duration >= LEAST_RECORD
-        ]
-        if moving:
-            msg = (
-                f"{name}: the ground is not at rest at the end of the record, {'; '.join(moving)}. "
-                "corrected() takes that out, unless the record was cut"
-            )
-            warnings.warn(msg, MotionWarning, stacklevel=3)
+        x, y, z = (arrays.get(axis) for axis in AXES)
+        motion = cls._made(x, y, z, common_step(traces), name)
+        motion._warn_of_drift(recorded=True)
         return motion
-
-    @property
-    def n_steps(self) -> int:
-        """Number of samples."""
-        return len(next(iter(self._given().values())))
-
-    @property
-    def duration(self) -> float:
-        """Time from the first to the last sample [s]."""
-        return (self.n_steps - 1) * self.dt
-
-    @property
-    def time(self) -> FloatArray:
-        """Times of the samples from 0 on [s], shape (n_steps,)."""
-        return np.arange(self.n_steps, dtype=np.float64) * self.dt
-
-    @property
-    def peak(self) -> dict[str, float]:
-        """Peak ground acceleration of each component that is given [m/s2]."""
-        return {axis: float(np.abs(values).max()) for axis, values in self._given().items()}
-
-    @property
-    def drift(self) -> dict[str, Drift]:
-        """Velocity [m/s] and displacement [m] of the ground at its end, and peaks, by component."""
-        return {axis: drift_of(values, self.dt) for axis, values in self._given().items()}
-
-    @property
-    def components(self) -> FloatArray:
-        """Accelerations along x, y, z [m/s2], shape (n_steps, 3), contiguous; zeros where none."""
-        columns = np.zeros((self.n_steps, 3))
-        for axis, values in self._given().items():
-            columns[:, AXES.index(axis)] = values
-        return columns
 
     def scaled(self, factor: float | Sequence[float]) -> GroundMotion:
         """Return the motion times a factor, or times one factor for each of x, y and z.
@@ -307,14 +211,7 @@ class GroundMotion:
         MotionError
             If there are not one or three finite factors.
         """
-        factors = [factor] * 3 if np.ndim(factor) == 0 else list(np.ravel(factor))
-        if len(factors) != 3:
-            msg = f"factor has {len(factors)} entries: give one number, or three for x, y and z"
-            raise MotionError(msg)
-        sizes = [number("factor", value, "a pure number") for value in factors]
-        return self._with(
-            {axis: sizes[AXES.index(axis)] * values for axis, values in self._given().items()}
-        )
+        return self._with(changes.scaled(self._given(), factor))
 
     def rotated(self, angle: float) -> GroundMotion:
         """Return the motion turned about z.
@@ -329,11 +226,7 @@ class GroundMotion:
         GroundMotion
             The motion with both horizontal components.
         """
-        turn = number("angle", angle, "rad")
-        cos, sin = math.cos(turn), math.sin(turn)
-        east, north, _ = self.components.T
-        arrays = {"x": cos * east - sin * north, "y": sin * east + cos * north}
-        return self._with(arrays if self.z is None else {**arrays, "z": self.z})
+        return self._with(changes.rotated(self._given(), angle))
 
     def trimmed(self, start: float = 0.0, end: float | None = None) -> GroundMotion:
         """Return the samples from `start` to `end`; the time starts at 0 again.
@@ -353,17 +246,7 @@ class GroundMotion:
         MotionError
             If fewer than two samples lie between.
         """
-        last = self.duration if end is None else number("end", end, "s")
-        near = 1e-6 * self.dt  # a time that is a multiple of dt up to round-off counts as one
-        time = self.time
-        keep = (time >= number("start", start, "s") - near) & (time <= last + near)
-        if np.count_nonzero(keep) < 2:
-            msg = (
-                f"start = {start:g} s, end = {last:g} s keep fewer than 2 samples: give times "
-                f"between 0 and {self.duration:g} s, at least {self.dt:g} s apart"
-            )
-            raise MotionError(msg)
-        return self._with({axis: values[keep] for axis, values in self._given().items()})
+        return self._with(changes.trimmed(self._given(), self.dt, start, end))
 
     def resampled(self, dt: float) -> GroundMotion:
         """Return the motion at another time step, by linear interpolation.
@@ -388,16 +271,7 @@ class GroundMotion:
         MotionError
             If `dt` is not greater than 0 and at most the duration.
         """
-        step = number("dt", dt, "s")
-        if not 0.0 < step <= self.duration:
-            msg = (
-                f"dt = {step:g} s must be greater than 0 and at most {self.duration:g} s, "
-                "the duration: give a time step in s"
-            )
-            raise MotionError(msg)
-        time = np.arange(math.floor(self.duration / step + 1e-6) + 1) * step
-        arrays = {axis: np.interp(time, self.time, a) for axis, a in self._given().items()}
-        return self._with(arrays, step)
+        return self._with(*changes.resampled(self._given(), self.dt, dt))
 
     def with_tail(self, seconds: float) -> GroundMotion:
         """Return the motion with zeros after it, for the free vibration.
@@ -417,12 +291,7 @@ class GroundMotion:
         MotionError
             If the tail is negative.
         """
-        length = number("seconds", seconds, "s")
-        if length < 0.0:
-            msg = f"seconds = {length:g} must be at least 0: use trimmed to shorten a motion"
-            raise MotionError(msg)
-        tail = (0, math.ceil(length / self.dt - 1e-6))
-        return self._with({axis: np.pad(a, tail) for axis, a in self._given().items()})
+        return self._with(changes.with_tail(self._given(), self.dt, seconds))
 
     def corrected(self, *, displacement: bool = True) -> GroundMotion:
         """Return the motion with its baseline corrected: the ground is at rest at its end.
@@ -448,28 +317,17 @@ class GroundMotion:
 
         Examples
         --------
+        >>> import numpy as np
         >>> motion = GroundMotion(x=0.01 + np.cos(np.linspace(0.0, 62.8, 2001)), dt=0.01)
         >>> still = motion.corrected()
         >>> round(motion.drift["x"].velocity, 2), abs(still.drift["x"].velocity) < 1e-12
         (0.19, True)
         """
-        arrays, largest = {}, 0.0
-        for axis, values in self._given().items():
-            arrays[axis] = corrected(values, self.dt, displacement=displacement)
-            before, after = float(np.abs(values).max()), float(np.abs(arrays[axis]).max())
-            change = after / before - 1.0 if before > 0.0 else 0.0
-            if abs(change) > LARGEST_CHANGE:
-                left = self.drift[axis]
-                msg = (
-                    f"the correction would change the peak of {axis} by {change:.1%}, at most "
-                    f"{LARGEST_CHANGE:.0%}: velocity {left.velocity:.3g} m/s and displacement "
-                    f"{left.displacement:.3g} m at the end are no matter of a baseline; use the "
-                    "whole record, or corrected(displacement=False)"
-                )
-                raise MotionError(msg)
-            largest = max(largest, change, -change)
-        label = f"{self.name or 'motion'} (baseline corrected, peaks within {100 * largest:.2g} %)"
-        return GroundMotion(**arrays, dt=self.dt, name=label)
+        arrays, change = changes.baseline_corrected(
+            self._given(), self.dt, displacement=displacement
+        )
+        label = f"{self.name or 'motion'} (baseline corrected, peaks within {100 * change:.2g} %)"
+        return self._with(arrays, name=label)
 
     def response_spectrum(
         self, periods: npt.ArrayLike, damping: float = 0.05, component: str = "x"
@@ -510,46 +368,10 @@ class GroundMotion:
         data = response_spectrum(given[component], self.dt, periods, damping)
         return data.assign_attrs(motion=self.name, component=component)
 
-    def summary(self) -> str:
-        """Return a few lines about the motion, for people.
-
-        Returns
-        -------
-        str
-            Name, samples, peaks of each component, and what is left at its end.
-        """
-        lines = [self.name or "ground motion"]
-        return "\n".join(lines + [f"  {what}: {value}" for what, value in self.facts().items()])
-
-    def facts(self) -> dict[str, str]:
-        """Return size, peaks and what is left at the end, in words by name."""
-        size = f"{self.n_steps} samples, dt = {self.dt:g} s, duration {self.duration:g} s"
-        found = {"motion": size}
-        for axis, left in self.drift.items():
-            peak = self.peak[axis]
-            found[axis] = (
-                f"peak {peak:.3f} m/s2 ({peak / STANDARD_GRAVITY:.3f} g), "
-                f"{left.peak_velocity:.3f} m/s, {left.peak_displacement:.3f} m; at its end "
-                f"{round(left.velocity, 3) + 0.0:.3f} m/s, "
-                f"{round(left.displacement, 3) + 0.0:.3f} m"
-            )
-        return found
-
-    def _repr_html_(self) -> str:
-        return html_table(self.name or "ground motion", list(self.facts().items()))
-
-    def __repr__(self) -> str:
-        """Name, size and peaks on one line."""
-        peaks = ", ".join(f"{axis} {peak:.3f}" for axis, peak in self.peak.items())
-        label = f" {self.name!r}" if self.name else ""
-        size = f"{self.n_steps} samples, dt = {self.dt:g} s, {self.duration:g} s"
-        return f"GroundMotion{label}: {size}, peak {peaks} m/s2"
-
-    def _given(self) -> dict[str, FloatArray]:
-        """Return the components that are given, in the order x, y, z."""
-        pairs = zip(AXES, (self.x, self.y, self.z), strict=True)
-        return {axis: values for axis, values in pairs if values is not None}
-
-    def _with(self, arrays: dict[str, FloatArray], dt: float | None = None) -> GroundMotion:
-        """Return a motion of the same name with other components."""
-        return GroundMotion(**arrays, dt=self.dt if dt is None else dt, name=self.name)
+    def _with(
+        self, arrays: Mapping[str, FloatArray], dt: float | None = None, name: str | None = None
+    ) -> GroundMotion:
+        """Return a motion with other components, and the same step and name where none is given."""
+        x, y, z = (arrays.get(axis) for axis in AXES)
+        step = self.dt if dt is None else dt
+        return self._made(x, y, z, step, self.name if name is None else name)

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from frames._errors import MotionError
 from frames._types import FloatArray
-from frames.model.contents import STANDARD_GRAVITY
-from frames.motion._motion_checks import MotionError
+from frames.motion.components import AXES
+from lir_element.units import STANDARD_GRAVITY
 
 PathLike: TypeAlias = str | os.PathLike[str]
 
@@ -107,6 +109,15 @@ def read_at2(path: PathLike) -> AccelerationTrace:
         )
         raise MotionError(msg)
     return AccelerationTrace(values * _at2_unit(name, lines[2]), step)
+
+
+def at2_traces(
+    x: PathLike | None, y: PathLike | None, z: PathLike | None
+) -> tuple[dict[str, AccelerationTrace], str]:
+    """Read AT2 files, one a component, and name them after the first."""
+    files = {axis: path for axis, path in zip(AXES, (x, y, z), strict=True) if path is not None}
+    label = Path(next(iter(files.values()))).stem if files else ""
+    return {axis: read_at2(path) for axis, path in files.items()}, label
 
 
 def _at2_unit(name: str, line: str) -> float:
@@ -224,6 +235,30 @@ def source_file(axis: str, source: Source, common: PathLike | None) -> tuple[Pat
         msg = f"{axis} = {source} is a column of no file: give the file as path"
         raise MotionError(msg)
     return common, source
+
+
+def column_traces(
+    common: PathLike | None,
+    x: Source | None,
+    y: Source | None,
+    z: Source | None,
+    layout: ColumnLayout,
+) -> tuple[dict[str, AccelerationTrace], str]:
+    """Read columns of text files, one a component, and name them after the first file."""
+    sources = zip(AXES, (x, y, z), strict=True)
+    files = {axis: source_file(axis, at, common) for axis, at in sources if at is not None}
+    label = Path(next(iter(files.values()))[0]).stem if files else ""
+    return {axis: read_columns(*file, layout) for axis, file in files.items()}, label
+
+
+def common_step(traces: Mapping[str, AccelerationTrace]) -> float:
+    """Return the time step that all traces share [s], or raise a MotionError; 1 of none."""
+    steps = {axis: trace.dt for axis, trace in traces.items()}
+    if steps and max(steps.values()) - min(steps.values()) > 1e-6 * max(steps.values()):
+        found = ", ".join(f"{axis} {step:g} s" for axis, step in steps.items())
+        msg = f"the components have unlike time steps ({found}): resample them to one dt first"
+        raise MotionError(msg)
+    return next(iter(steps.values()), 1.0)
 
 
 def _table(name: str, path: Path, layout: ColumnLayout) -> FloatArray:

@@ -28,7 +28,8 @@ import numpy as np
 import xarray as xr
 from scipy.signal import lfilter
 
-from frames.motion._motion_checks import MotionError, number
+from frames._errors import MotionError
+from lir_element.door import require_between
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -70,10 +71,7 @@ def response_spectrum(
     MotionError
         If a period or the damping is out of its bounds.
     """
-    ratio = number("damping", damping, "parts of the critical damping")
-    if not 0.0 <= ratio < 1.0:
-        msg = f"damping = {ratio:g} must be at least 0 and below 1: 5 % is 0.05"
-        raise MotionError(msg)
+    ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
     period = np.atleast_1d(np.asarray(periods, dtype=np.float64))
     bad = period[~(np.isfinite(period) & (period >= 0.0))]
     if period.ndim != 1 or bad.size:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
 from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry

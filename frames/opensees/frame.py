@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError, positive
+from frames._errors import ModelError
 from frames.assembly.assemble import assemble
 from frames.model.parts import DOFS, bearing_height
 from frames.model.superelement import lumped
@@ -23,18 +22,19 @@ from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
 from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
+from lir_element.door import require_choice, require_positive
+from lir_element.opensees.base_nodes import BASE_ROTATIONS
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
     from frames.assembly.system import System
+    from frames.model.builder import FrameBuilder
     from frames.model.contents import FrameContents
     from frames.opensees.model import OpenSeesModel
-    from lir_element import LIRBearing
 
 NAME = "opensees"
 """Name of the superelement that holds the model."""
 
-BASE_ROTATIONS = ("kept", "free", "fixed")
 LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
@@ -106,58 +106,40 @@ def refuse_taken(frame: FrameContents, structure: Structure, options: Options) -
     refuse_leaning(system, structure.initial)
 
 
-def bearings_by_tag(
-    base_nodes: Sequence[int],
-    bearing: LIRBearing | Mapping[int, LIRBearing],
-) -> tuple[tuple[int, ...], dict[int, LIRBearing]]:
-    """Check base nodes and bearings against each other.
-
-    Parameters
-    ----------
-    base_nodes : sequence of int
-        Tags.
-    bearing : LIRBearing or mapping
-        One for all, or by tag.
-
-    Returns
-    -------
-    tuple
-        The tags, and bearings by tag.
-
-    Raises
-    ------
-    ModelError
-        If a tag repeats, there is none, or bearings and tags do not match.
-    """
-    tags = tuple(int(tag) for tag in base_nodes)
-    repeated = [tag for tag in tags if tags.count(tag) > 1]
-    if not tags or repeated:
-        what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
-        message = f"base_nodes {what}: give the tag of each node that stands on a bearing once"
-        raise ModelError(message)
-    if not isinstance(bearing, Mapping):
-        return tags, dict.fromkeys(tags, bearing)
-    apart = sorted(set(tags) ^ {int(tag) for tag in bearing})
-    if apart:
-        where = (
-            "base_nodes but not in bearing" if apart[0] in tags else "bearing but not base_nodes"
-        )
-        message = f"node {apart[0]} is in {where}: give one bearing for each base node"
-        raise ModelError(message)
-    return tags, {int(tag): device for tag, device in bearing.items()}
+def fill(frame: FrameBuilder, taken: Taken) -> None:
+    """Add everything that was read of an OpenSees model to an empty frame."""
+    for name, point in taken.nodes.items():
+        frame.add_node(name, *point)
+    for name, dofs in taken.fixed.items():
+        frame.fix(name, *dofs)
+    frame.add_superelement(
+        "opensees", taken.members, **taken.matrices,
+        load=taken.load, equations=taken.equations, notes=taken.notes,
+    )  # fmt: skip
+    for name, (i, j, device) in taken.bearings.items():
+        frame.add_bearing(name, i, j, device)
+    for name, nodes in taken.diaphragms.items():
+        frame.add_diaphragm(name, nodes)
+    for name, nodes in taken.levels.items():
+        frame.add_level(name, nodes)
 
 
 def _check_options(options: Options) -> None:
     if options.vertical not in {None, "y", "z"}:
         message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
         raise ModelError(message)
-    if options.base_rotations not in BASE_ROTATIONS:
-        message = f"base_rotations = {options.base_rotations!r}: choose one of {BASE_ROTATIONS}"
-        raise ModelError(message)
+    require_choice("base_rotations", options.base_rotations, BASE_ROTATIONS, error=ModelError)
     for word in ("length_unit", "force_unit"):
-        positive(getattr(options, word), word, "give the model's unit in m or N")
+        require_positive(
+            word, getattr(options, word), remedy="give the model's unit in m or N", error=ModelError
+        )
     if options.gravity is not None:
-        positive(options.gravity, "gravity [m/s2]", "9.81, or None where the model is loaded")
+        require_positive(
+            "gravity [m/s2]",
+            options.gravity,
+            remedy="9.81, or None where the model is loaded",
+            error=ModelError,
+        )
     for tag, device in options.bearings.items():
         bearing_height(f"bearing-{tag}", device)
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._validate import ModelError
-from frames.model.contents import STANDARD_GRAVITY
+from frames._errors import ModelError
 from frames.model.superelement import lumped
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

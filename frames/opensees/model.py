@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from lir_element.opensees import opensees
 from lir_element.opensees.leftovers import leftovers
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
-from frames._validate import ModelError, non_negative
+from frames._errors import ModelError
 from frames.model.superelement import lumped
+from lir_element.door import require_non_negative
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
@@ -84,7 +85,9 @@ def with_vertical_mass(
 def _given(structure: Structure, given: Mapping[int, float], rises: BoolArray) -> FloatArray:
     more = np.zeros(len(structure.tags))
     for tag, value in given.items():
-        number = non_negative(value, f"vertical_mass [kg] of node {tag}", "give kg")
+        number = require_non_negative(
+            f"vertical_mass [kg] of node {tag}", value, remedy="give kg", error=ModelError
+        )
         if tag not in structure.tags or not rises[structure.tags.index(tag)]:
             able = [node for node, free in zip(structure.tags, rises, strict=True) if free]
             message = (

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.lines import Line2D
 
-from frames._validate import likely
+from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
 
 if TYPE_CHECKING:

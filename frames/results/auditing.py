@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.model.contents import STANDARD_GRAVITY
 from lir_element.device.features import Features
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable

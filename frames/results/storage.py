@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import shutil
 import uuid
+from collections.abc import Mapping
 from pathlib import Path
 
+import h5netcdf
 import xarray as xr
+from xarray.backends import H5NetCDFStore
 
 
 def save(data: xr.Dataset, path: str | Path) -> None:
@@ -30,6 +34,34 @@ def save(data: xr.Dataset, path: str | Path) -> None:
     """
     # HDF5 does not survive a write that fails (the process dies at its end): it works in memory
     write_whole(path, data.to_netcdf(None, engine="h5netcdf"))
+
+
+def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
+    """Write Datasets to one netCDF file, a group each; histories compressed, in single precision.
+
+    Parameters
+    ----------
+    results : mapping of str to xarray.Dataset
+        Results by name of group.
+    path : str or path
+        The file. An existing one is replaced once all groups are complete.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; the message names it.
+    """
+    whole = io.BytesIO()
+    with h5netcdf.File(whole, "w") as file:
+        for name, data in results.items():
+            packed = {
+                key: {"dtype": "float32", "zlib": True, "complevel": 2, "shuffle": True}
+                for key, variable in data.data_vars.items()
+                if "time" in variable.dims
+            }
+            store = H5NetCDFStore(file.create_group(name), mode="a")
+            data.dump_to_store(store, encoding=packed)
+    write_whole(path, whole.getbuffer())
 
 
 def write_whole(path: str | Path, content: bytes | memoryview) -> None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.model.contents import STANDARD_GRAVITY
 from frames.results.measures import energy_error, floor_acceleration, storey_drift
+from frames.results.storage import save_groups, write_whole
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -88,27 +90,31 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
 def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
     """Write `results.nc`, a group for each system in single precision, and `summary.csv` (SI).
 
-    What stood in `results.nc` before is replaced once all systems are written.
+    What stood in either before is replaced once all of it is written.
+
+    Parameters
+    ----------
+    results : mapping of str to xarray.Dataset
+        Results by name of system.
+    folder : Path
+        Where to.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; the message names it.
     """
-    beside = folder / ".results.nc.part"
-    beside.unlink(missing_ok=True)  # of a run that was ended
+    save_groups({group_of(name): data for name, data in results.items()}, folder / "results.nc")
+    table = io.StringIO(newline="")
+    writer = csv.writer(table)
+    names = [row.name for row in ROWS if row.name]
+    writer.writerow(["system", "status", "failed_at_s", *names])
     for name, data in results.items():
-        packed = {
-            key: {"dtype": "float32", "zlib": True, "complevel": 2, "shuffle": True}
-            for key, variable in data.data_vars.items()
-            if "time" in variable.dims
-        }
-        data.to_netcdf(beside, mode="a", engine="h5netcdf", group=group_of(name), encoding=packed)
-    beside.replace(folder / "results.nc")
-    with (folder / "summary.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        names = [row.name for row in ROWS if row.name]
-        writer.writerow(["system", "status", "failed_at_s", *names])
-        for name, data in results.items():
-            values = summary_of(data)
-            failed_at = data.attrs.get("failed_at", "")
-            cells = [f"{values[key]:.6g}" for key in names]
-            writer.writerow([name, data.attrs["status"], failed_at, *cells])
+        values = summary_of(data)
+        failed_at = data.attrs.get("failed_at", "")
+        cells = [f"{values[key]:.6g}" for key in names]
+        writer.writerow([name, data.attrs["status"], failed_at, *cells])
+    write_whole(folder / "summary.csv", table.getvalue().encode())
 
 
 def group_of(name: str) -> str:

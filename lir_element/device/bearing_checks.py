@@ -10,7 +10,13 @@ import numpy as np
 
 from lir_element.device.friction import CoulombFriction, VelocityFriction
 from lir_element.device.plausible import doubts, refuse_forces, refuse_sizes
-from lir_element.door import as_pair, require_non_negative, require_positive
+from lir_element.door import (
+    as_pair,
+    require_between,
+    require_choice,
+    require_non_negative,
+    require_positive,
+)
 from lir_element.units import LENGTHS, meant, per_cent
 
 if TYPE_CHECKING:
@@ -59,12 +65,8 @@ def check_bearing(bearing: Specification) -> None:
         if not isinstance(getattr(bearing, name), bool):
             msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
             raise TypeError(msg)
-    if bearing.friction_law not in ("elastic-plastic", "bouc-wen"):
-        msg = f"friction_law = {bearing.friction_law!r}: choose 'elastic-plastic' or 'bouc-wen'"
-        raise ValueError(msg)
-    if require_positive("bouc_wen_exponent", bearing.bouc_wen_exponent, "-") < 1.0:
-        msg = f"bouc_wen_exponent = {bearing.bouc_wen_exponent:g} must be at least 1"
-        raise ValueError(msg)
+    require_choice("friction_law", bearing.friction_law, ("elastic-plastic", "bouc-wen"))
+    require_between("bouc_wen_exponent", bearing.bouc_wen_exponent, 1.0, math.inf, "-")
     refuse_forces(bearing)
     for doubt in doubts(bearing):
         warnings.warn(doubt, DesignWarning, stacklevel=4)

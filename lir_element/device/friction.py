@@ -27,7 +27,9 @@ class CoulombFriction:
     coefficient: float
 
     def __post_init__(self) -> None:
-        require_between("coefficient", self.coefficient, 0.0, 1.0, "-", per_cent(self.coefficient))
+        require_between(
+            "coefficient", self.coefficient, 0.0, 1.0, "-", remedy=per_cent(self.coefficient)
+        )
 
     @property
     def f_max(self) -> float:
@@ -77,8 +79,8 @@ class VelocityFriction:
     rate: float
 
     def __post_init__(self) -> None:
-        require_between("f_max", self.f_max, 0.0, 1.0, "-", per_cent(self.f_max))
-        require_between("f_min", self.f_min, 0.0, 1.0, "-", per_cent(self.f_min))
+        require_between("f_max", self.f_max, 0.0, 1.0, "-", remedy=per_cent(self.f_max))
+        require_between("f_min", self.f_min, 0.0, 1.0, "-", remedy=per_cent(self.f_min))
         require_non_negative("rate", self.rate, "s/m")
         if self.f_min > self.f_max:
             msg = (

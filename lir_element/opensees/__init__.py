@@ -1,10 +1,10 @@
 """The bearing inside OpenSeesPy models."""
 
-from lir_element.opensees.compare.builtin import BUILTIN_KINDS as BUILTIN_KINDS
 from lir_element.opensees.compare.builtin import builtin_commands as builtin_commands
 from lir_element.opensees.compare.builtin import builtin_element as builtin_element
 from lir_element.opensees.compare.builtin_mapping import BuiltinValues as BuiltinValues
 from lir_element.opensees.compare.builtin_mapping import builtin_values as builtin_values
+from lir_element.opensees.compare.builtin_writing import BUILTIN_KINDS as BUILTIN_KINDS
 from lir_element.opensees.compare.macro_model import MacroModel as MacroModel
 from lir_element.opensees.compare.macro_model import macro_model as macro_model
 from lir_element.opensees.isolation import Isolation as Isolation

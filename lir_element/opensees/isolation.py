@@ -5,21 +5,34 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from lir_element.device.bearing import LIRBearing
-from lir_element.door import require_positive
+from lir_element.door import require_choice, require_positive
 from lir_element.element import LEVELS, Level
-from lir_element.opensees.leftovers import leftovers, listed
+from lir_element.opensees.base_nodes import (
+    BASE_ROTATIONS,
+    bearings_by_node,
+    by_elevation,
+    check_base,
+    check_ties,
+    doubts,
+    new_tags,
+    release,
+)
+from lir_element.opensees.leftovers import listed
 from lir_element.opensees.library import opensees
-from lir_element.opensees.plugin import ROUTES, Route, bearing_element, element_tags
+from lir_element.opensees.plugin import (
+    ROUTES,
+    TANGENTS,
+    Route,
+    Tangent,
+    bearing_element,
+    element_tags,
+)
 
 BaseRotations = Literal["kept", "free", "fixed"]
-_ROTATIONS = ("kept", "free", "fixed")
 _AXES = {"y": 1, "z": 2}
-_AT_REST = 1e-3  # m, which a base node may have moved before
-_ONE_LEVEL = 1e-3  # m, within which base nodes are at one elevation
-_NO_MASS = 1e-6  # of all nodal masses, below which the base counts as without mass
 
 
 class IsolationWarning(UserWarning):
@@ -44,6 +57,8 @@ class Isolation:
         Degrees of freedom of the base nodes that are fixed now.
     tied : tuple of tuple of int
         Base nodes that move in plan as one rigid body.
+    tangent : str
+        Tangent of the bearings, "consistent" or "symmetric".
     notes : tuple of str
         What should be known; each was a warning, too.
     """
@@ -54,6 +69,7 @@ class Isolation:
     released: dict[int, tuple[int, ...]]
     held: dict[int, tuple[int, ...]]
     tied: tuple[tuple[int, ...], ...]
+    tangent: str
     notes: tuple[str, ...]
 
     def __str__(self) -> str:
@@ -69,10 +85,10 @@ class Isolation:
         ]
         if self.tied:
             lines.append(f"{len(self.tied)} rigid diaphragm(s) over the base nodes")
-        lines.append(
-            "find equilibrium next; constraints('Transformation') and an unsymmetric system, "
-            "as system('UmfPack'), are needed"
-        )
+        system = "an unsymmetric system, as system('UmfPack')"
+        if self.tangent == "symmetric":
+            system = "any system, as system('BandSPD')"
+        lines.append(f"find equilibrium next; constraints('Transformation') and {system}")
         return "\n".join([*lines, *self.notes])
 
 
@@ -89,6 +105,7 @@ def isolate(
     ground_tags: Sequence[int] | None = None,
     length_unit: float = 1.0,
     force_unit: float = 1.0,
+    tangent: Tangent = "consistent",
 ) -> Isolation:
     """Put bearings under the current OpenSeesPy model, which stands on supports.
 
@@ -117,6 +134,8 @@ def isolate(
         the largest are taken if None.
     length_unit, force_unit : float
         The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
+    tangent : {"consistent", "symmetric"}
+        As for `bearing_element`: the second one lets `system` be one for symmetric matrices.
 
     Returns
     -------
@@ -173,16 +192,20 @@ def isolate(
     ops = opensees()
     metre = require_positive("length_unit", length_unit, "m")
     require_positive("force_unit", force_unit, "N")
-    _check_words(level, route, vertical, base_rotations)
-    devices = _devices(base_nodes, bearing)
+    require_choice("level", level, LEVELS)
+    require_choice("route", route, ROUTES)
+    require_choice("tangent", tangent, TANGENTS)
+    require_choice("vertical", vertical, tuple(_AXES))
+    require_choice("base_rotations", base_rotations, BASE_ROTATIONS)
+    devices = bearings_by_node(base_nodes, bearing)
     bases = list(devices)
     up = _AXES[vertical]
-    _check_model(ops, bases, metre)
-    grounds = _new_tags(ops.getNodeTags(), ground_tags, bases, "ground_tags", "node")
-    elements = _new_tags(element_tags(), tags, bases, "tags", "element")
-    groups = _groups(ops, bases, up, metre) if base_diaphragm else []
-    _check_ties(ops, bases, groups)
-    notes = _notes(ops, bases)
+    check_base(ops, bases, metre)
+    grounds = new_tags(ops.getNodeTags(), ground_tags, bases, "ground_tags", "node")
+    elements = new_tags(element_tags(), tags, bases, "tags", "element")
+    groups = by_elevation(ops, bases, up, metre) if base_diaphragm else []
+    check_ties(ops, bases, groups)
+    notes = doubts(ops, bases)
     routes: dict[int, str] = {}
     made: list[int] = []
     axis = [float(k == up) for k in range(3)]
@@ -194,7 +217,7 @@ def isolate(
             made.append(grounds[tag])
             routes[tag] = bearing_element(
                 elements[tag], grounds[tag], tag, device, level, axis, route,
-                length_unit=length_unit, force_unit=force_unit,
+                length_unit=length_unit, force_unit=force_unit, tangent=tangent,
             )  # fmt: skip
     except (ValueError, TypeError, RuntimeError):
         for tag in routes:
@@ -206,7 +229,7 @@ def isolate(
     ops.model("basic", "-ndm", 3, "-ndf", 6)  # what fix counts by
     for tag in bases:
         ops.fix(grounds[tag], 1, 1, 1, 1, 1, 1)
-        released[tag], held[tag] = _release(ops, tag, up, base_rotations)
+        released[tag], held[tag] = release(ops, tag, up, base_rotations)
     for group in groups:
         ops.rigidDiaphragm(up + 1, *group)
     for note in notes:
@@ -218,164 +241,6 @@ def isolate(
         released=released,
         held=held,
         tied=tuple(tuple(group) for group in groups),
+        tangent=tangent,
         notes=tuple(notes),
     )
-
-
-def _check_words(level: str, route: str, vertical: str, base_rotations: str) -> None:
-    for name, value, known in (
-        ("level", level, LEVELS),
-        ("route", route, ROUTES),
-        ("vertical", vertical, tuple(_AXES)),
-        ("base_rotations", base_rotations, _ROTATIONS),
-    ):
-        if value not in known:
-            msg = f"{name} = {value!r}: choose one of {known}"
-            raise ValueError(msg)
-
-
-def _devices(
-    base_nodes: Sequence[int], bearing: LIRBearing | Mapping[int, LIRBearing]
-) -> dict[int, LIRBearing]:
-    # Bearings by base node, in the order of those.
-    bases = [int(tag) for tag in base_nodes]
-    repeated = [tag for tag in bases if bases.count(tag) > 1]
-    if not bases or repeated:
-        what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
-        msg = f"base_nodes {what}: give the tag of each node that shall stand on a bearing once"
-        raise ValueError(msg)
-    given = bearing if isinstance(bearing, Mapping) else dict.fromkeys(bases, bearing)
-    apart = sorted(set(bases) ^ {int(tag) for tag in given})
-    if apart:
-        where = "base_nodes but not in bearing" if apart[0] in bases else "bearing but no base node"
-        msg = f"node {apart[0]} is in {where}: give one bearing for each base node"
-        raise ValueError(msg)
-    for tag in bases:
-        if not isinstance(given[tag], LIRBearing):
-            msg = f"the bearing of node {tag} is {given[tag]!r}: describe it by a LIRBearing"
-            raise TypeError(msg)
-    return {tag: given[tag] for tag in bases}
-
-
-def _check_model(ops: Any, bases: list[int], metre: float) -> None:
-    present = set(ops.getNodeTags() or ())
-    left = leftovers(ops)
-    if left:
-        msg = f"the OpenSees model cannot be analysed: {left}"
-        raise ValueError(msg)
-    for tag in bases:
-        if tag not in present:
-            msg = f"the OpenSees model has no node {tag}: base_nodes are tags of its nodes"
-            raise ValueError(msg)
-        shape = len(ops.nodeCoord(tag)), len(ops.nodeDisp(tag))
-        if shape != (3, 6):
-            msg = (
-                f"node {tag} has {shape[0]} coordinates and {shape[1]} degrees of freedom: isolate "
-                "needs 3 and 6; in the plane put the bearings by bearing_element, one by one"
-            )
-            raise ValueError(msg)
-        moved = metre * max(abs(value) for value in ops.nodeDisp(tag)[:3])
-        if moved > _AT_REST:
-            msg = (
-                f"base node {tag} has moved by {moved:.3g} m, at most {_AT_REST:g} m is allowed, "
-                "for its bearing would start displaced: call isolate on the model as it was built "
-                "(ops.reset() takes it back), or while its supports hold it"
-            )
-            raise ValueError(msg)
-
-
-def _new_tags(
-    present: Any, given: Sequence[int] | None, bases: list[int], word: str, kind: str
-) -> dict[int, int]:
-    known = {int(tag) for tag in present or ()}
-    if given is None:
-        first = max([*known, 0]) + 1
-        return {tag: first + place for place, tag in enumerate(bases)}
-    new = [int(tag) for tag in given]
-    if len(new) != len(bases) or len(set(new)) != len(new):
-        msg = f"{word} has {len(set(new))} different tags: give one for each of {len(bases)} nodes"
-        raise ValueError(msg)
-    taken = sorted(known.intersection(new))
-    if taken:
-        msg = f"{word}: {kind} {taken[0]} is in the model already, choose another tag"
-        raise ValueError(msg)
-    return dict(zip(bases, new, strict=True))
-
-
-def _groups(ops: Any, bases: list[int], up: int, metre: float) -> list[list[int]]:
-    # Base nodes by elevation, those that are not alone.
-    at = {tag: metre * ops.nodeCoord(tag)[up] for tag in bases}
-    groups: list[list[int]] = []
-    for tag in sorted(bases, key=lambda tag: at[tag]):
-        if not groups or at[tag] - at[groups[-1][0]] > _ONE_LEVEL:
-            groups.append([])
-        groups[-1].append(tag)
-    return [sorted(group, key=bases.index) for group in groups if len(group) > 1]
-
-
-def _check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
-    # A base node that follows another one has no place in a new diaphragm, nor on a bearing if
-    # that other one is fixed.
-    fixed = set(ops.getFixedNodes() or ()) - set(bases)
-    for tag in set(ops.getConstrainedNodes() or ()).intersection(bases):
-        leaders = [int(other) for other in ops.getRetainedNodes(tag)]
-        grounded = [
-            other
-            for other in leaders
-            if other in fixed and {1, 2, 3}.intersection(ops.getFixedDOFs(other))
-        ]
-        if grounded:
-            msg = (
-                f"a multi-point constraint ties base node {tag} to the fixed node {grounded[0]}: "
-                f"its bearing could not move; remove it by ops.remove('mp', {tag})"
-            )
-            raise ValueError(msg)
-        if any(tag in group for group in groups):
-            msg = (
-                f"base node {tag} follows node {leaders[0]} by a multi-point constraint: pass "
-                "base_diaphragm=False and keep the model's own, or remove that one by "
-                f"ops.remove('mp', {tag})"
-            )
-            raise ValueError(msg)
-
-
-def _notes(ops: Any, bases: list[int]) -> list[str]:
-    notes = []
-    held = {
-        int(tag)
-        for tag in ops.getFixedNodes() or ()
-        if {1, 2, 3}.intersection(ops.getFixedDOFs(tag))
-    } - set(bases)
-    beside = []
-    for element in ops.getEleTags() or ():
-        nodes = {int(tag) for tag in ops.eleNodes(element)}
-        if nodes.intersection(bases) and nodes.intersection(held):
-            beside.append(int(element))
-    if beside:
-        notes.append(
-            f"elements {listed(beside)} join base nodes to supports beside their bearings: what "
-            "resists the rise of a pendulum draws load to itself; remove what stood for the old "
-            f"isolators or foundations, ops.remove('element', {beside[0]}) and so on"
-        )
-    every = sum(max(ops.nodeMass(tag)[:3]) for tag in ops.getNodeTags())
-    if sum(max(ops.nodeMass(tag)[:3]) for tag in bases) <= _NO_MASS * every:
-        notes.append(
-            "the base nodes have no mass: friction acts on nothing that has inertia, and steps "
-            "have to be small; give them that of the slab above the bearings, ops.mass(tag, ...)"
-        )
-    return notes
-
-
-def _release(
-    ops: Any, tag: int, up: int, base_rotations: str
-) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    # Release a base node; returns the degrees of freedom released, and those that are held.
-    before = {int(dof) for dof in ops.getFixedDOFs(tag) or ()}
-    tilts = {4, 5, 6} - {4 + up}
-    after = {"kept": before & tilts, "free": set[int](), "fixed": tilts}[base_rotations]
-    for dof in sorted(before - after):
-        ops.remove("sp", tag, dof)
-    new = after - before
-    if new:
-        ops.fix(tag, *(int(dof in new) for dof in range(1, 7)))
-    return tuple(sorted(before - after)), tuple(sorted(after))

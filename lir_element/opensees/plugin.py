@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 from lir_element.device.bearing import LIRBearing
+from lir_element.door import require_choice
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.fast.grafted import Grafted
@@ -184,9 +185,7 @@ def bearing_element(
     >>> ops.wipe()
     """
     _check(tag, bearing, level, route)
-    if tangent not in TANGENTS:
-        msg = f"tangent = {tangent!r}: choose one of {TANGENTS}"
-        raise ValueError(msg)
+    require_choice("tangent", tangent, TANGENTS)
     ops = opensees()
     if tag in element_tags():
         msg = f"element {tag} is in the model already: choose another tag"
@@ -270,12 +269,8 @@ def _check(tag: object, bearing: object, level: str, route: str) -> None:
     if not isinstance(bearing, LIRBearing):
         msg = f"bearing = {bearing!r} is no LIRBearing: describe the device by one"
         raise TypeError(msg)
-    if level not in LEVELS:
-        msg = f"level = {level!r}: choose one of {LEVELS}"
-        raise ValueError(msg)
-    if route not in ROUTES:
-        msg = f"route = {route!r}: choose one of {ROUTES}"
-        raise ValueError(msg)
+    require_choice("level", level, LEVELS)
+    require_choice("route", route, ROUTES)
 
 
 def _choose(route: str) -> str:

@@ -232,11 +232,14 @@ def package_version() -> str:
 def report(
     data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str, *, on_failure: str
 ) -> xr.Dataset:
-    """Write the outcome into the attributes; on failure warn or raise, keeping the data."""
+    """Write the outcome into the attributes; warn or raise on failure, warn of a given detail."""
     data.attrs["status"] = status.name.lower()
     data.attrs["lir_dcfp_version"] = package_version()
     data.attrs["message"] = "completed"
     if status is RunStatus.OK:
+        if detail:
+            data.attrs["message"] += f": {detail}"
+            warnings.warn(detail, AnalysisWarning, stacklevel=3)
         return data
     if status is RunStatus.INTERRUPTED:  # whatever `on_failure`: loops and scripts must stop
         stop = AnalysisInterrupted(time, data)

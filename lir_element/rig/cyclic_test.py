@@ -9,7 +9,7 @@ import xarray as xr
 
 from lir_element.bundles.contact_data import as_rows, contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.door import require_positive
+from lir_element.door import require_choice, require_positive
 from lir_element.element import ALL_LEVELS, AnyLevel, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.kernels.cyclic_kernel import run_path
@@ -79,9 +79,7 @@ def cyclic_test(
     >>> round(float(data.interface_slip.sel(axis="x")[-1, 0]), 3)
     0.01
     """
-    if level not in ALL_LEVELS:
-        msg = f"level = {level!r}: choose one of {ALL_LEVELS}"
-        raise ValueError(msg)
+    require_choice("level", level, ALL_LEVELS)
     require_on_failure(on_failure)
     path, loads = _path(displacement), _loads(axial_load, displacement)
     speed = require_positive("velocity", velocity, "m/s")
@@ -121,7 +119,7 @@ def cyclic_test(
         )
     data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
     data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
-    detail = limit_detail(props, new, 0)
+    detail = "" if status is RunStatus.OK else limit_detail(props, new, 0)
     return report(data, status, time, "bearing in the rig", detail, on_failure=on_failure)
 
 

@@ -19,8 +19,7 @@ from lir_element import CoulombFriction, LIRBearing
 
 # Friction that holds whatever comes, on purpose.
 pytestmark = [
-    pytest.mark.filterwarnings("ignore:friction of 0.9"),
-    pytest.mark.filterwarnings("ignore:.*the bearings hardly slide"),
+    pytest.mark.meant("friction of 0.9", "the bearings hardly slide"),
 ]
 
 MASS = 1e5

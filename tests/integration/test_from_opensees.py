@@ -106,7 +106,7 @@ KINDS = ("none", "mass and initial stiffness", "present stiffness", "by regions"
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+@pytest.mark.meant("the damping of the OpenSees model")
 def test_the_same_building_wholly_in_opensees(ops, run, monkeypatch, kind):
     """P-Delta, diaphragms and every kind of damping; the isolators are linear in both programs."""
     monkeypatch.setattr(transient, "_FORCE_TOLERANCE", 1e-12)
@@ -196,7 +196,7 @@ def test_the_model_stays_as_it_was(ops, tmp_path):
     assert_allclose(ops.eigen(4), eigenvalues, rtol=1e-12)
 
 
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+@pytest.mark.meant("Frame.from_opensees")  # of every strangeness that can be taken over
 def test_fixed_interface_modes_are_those_of_the_fixed_base(ops):
     """Rigid links with masses at their ends, equal displacements, consistent masses, torsion."""
     device = lir()
@@ -289,7 +289,7 @@ def space_frame(ops, up):
     ops.rayleigh(0.05, 0.0, 0.001, 0.0)
 
 
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
+@pytest.mark.meant("along the vertical", "the damping of the OpenSees model")
 def test_plane_and_space_y_up_and_other_units(ops, run):
     """One frame four times: in the plane, in space with z and y up, and in kN and mm."""
     device = lir()

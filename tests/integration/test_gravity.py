@@ -258,7 +258,7 @@ def test_bearing_that_fails_under_permanent_loads_is_refused():
     assert caught.value.status is RunStatus.RIM_OVERRUN
 
 
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")  # heavy on purpose
+@pytest.mark.meant("the sliders carry", "times their design_load", "buildings have")
 @pytest.mark.parametrize(("elastic", "load"), [(1e-6, 1e6), (3e-7, 5e6), (1e-7, 2e7)])
 def test_heavy_load_on_stiff_friction(elastic, load):
     """Newton's method alone does not get there: friction holds within parts of a micrometre."""

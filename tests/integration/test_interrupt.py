@@ -1,6 +1,7 @@
 """Ctrl-C, sent for real: answered at once at every level, and what was computed is kept."""
 
 import signal
+import statistics
 import subprocess  # runs this interpreter on the lines below  # noqa: S404
 import sys
 import threading
@@ -11,6 +12,8 @@ import pytest
 from lir_element import AnalysisInterrupted
 
 LONGEST = 300.0  # s, kernels may have to be compiled first
+TIMES = 5
+PROMPT = 0.2  # s; a piece of the loop and the Dataset take 0.05 s on a free machine
 SCRIPT = """
 import signal, sys
 import numpy as np
@@ -20,7 +23,7 @@ bearing = LIRBearing(
     radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
     friction=CoulombFriction(0.05), interface_friction=0.1,
 )
-wave = 0.7 * np.sin(3.0 * np.arange(0.0, 40000.0, 0.02))
+wave = 0.7 * np.sin(3.0 * np.arange(0.0, 4000.0, 0.02))
 motion = GroundMotion(x=wave, y=0.5 * wave, dt=0.02)
 options = dict({options})
 
@@ -32,18 +35,19 @@ def analyse(duration):
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may start tests without it
 analyse(0.1)
-print("begin", flush=True)
-try:
-    for turn in range(1000):
-        try:
-            analyse(40000.0)
-        except Exception:
-            print("swallowed", flush=True)
-except KeyboardInterrupt as stop:
-    data = stop.data
-    step = data["time"].to_numpy()
-    print(type(stop).__name__, data.attrs["status"], len(step), float(step[-1]), stop.time,
-          bool(np.isfinite(data["bearing_force"]).all()), turn, flush=True)
+for time in range({times}):
+    print("begin", flush=True)
+    try:
+        for turn in range(1000):
+            try:
+                analyse(4000.0)
+            except Exception:
+                print("swallowed", flush=True)
+    except KeyboardInterrupt as stop:
+        data = stop.data
+        step = data["time"].to_numpy()
+        print(type(stop).__name__, data.attrs["status"], len(step), float(step[-1]), stop.time,
+              bool(np.isfinite(data["bearing_force"]).all()), turn, flush=True)
 """
 
 
@@ -54,34 +58,42 @@ except KeyboardInterrupt as stop:
         ("pendulum", "record_every=1000, progress=lambda share: None"),
         ("contact", "record_every=100"),
         ("rigid_body", "record_every=10"),
-        ("rigid_body", "record_every=10, integrator='explicit'"),
+        ("rigid_body", "record_every=2, integrator='explicit'"),
         ("auto", "record_every=1000"),
         ("cyclic_test", ""),
     ],
 )
 def test_answered_and_kept(level: str, options: str) -> None:
     script = SCRIPT.replace("{level}", level).replace("{options}", options)
-    command = [sys.executable, "-c", script]
+    command = [sys.executable, "-c", script.replace("{times}", str(TIMES))]
+    waited = []
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:  # noqa: S603
         watch = threading.Timer(LONGEST, child.kill)
         watch.start()
         try:
             assert child.stdout is not None
-            assert child.stdout.readline() == "begin\n"
-            time.sleep(1.0)
-            child.send_signal(signal.SIGINT)
-            sent = time.perf_counter()
-            words = child.stdout.readline().split()
-            waited = time.perf_counter() - sent
+            for turn in range(TIMES):
+                assert child.stdout.readline() == "begin\n"
+                time.sleep(0.7 + 0.037 * turn)
+                child.send_signal(signal.SIGINT)
+                sent = time.perf_counter()
+                words = child.stdout.readline().split()
+                waited.append(time.perf_counter() - sent)
+                check(*words)
             assert child.wait(20.0) == 0
         finally:
             watch.cancel()
             child.kill()
-    kind, status, count, end, stopped, finite, turn = words
+    assert statistics.median(waited) < PROMPT, waited
+
+
+def check(
+    kind: str, status: str, count: str, end: str, stopped: str, finite: str, turn: str
+) -> None:
+    """Check what the child says of one interrupted run."""
     assert (kind, status, finite, turn) == ("AnalysisInterrupted", "interrupted", "True", "0")
     assert int(count) > 1
     assert 0.0 < float(end) <= float(stopped)
-    assert waited < 1.0  # 0.1 s on a free machine: a piece of the loop, and the Dataset
 
 
 def test_stops_what_catches_exceptions() -> None:

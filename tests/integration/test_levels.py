@@ -307,9 +307,9 @@ def test_levels_by_name_in_a_building(pulse: Callable[..., np.ndarray], tmp_path
 REST = GroundMotion(x=np.zeros(5), dt=0.005)
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"level": "atomic"}, r"level = 'atomic': choose one of"),
-    ({"level": {"bearing": "atomic"}}, r"level = 'atomic' of a bearing: choose one of"),
+    ({"level": {"bearing": "atomic"}}, r"level of a bearing = 'atomic': choose one of"),
     ({"level": {"other": "contact"}}, 'level names "other": the model has the bearings bearing'),
-    ({"level": {"bearing": "rigid_body"}}, r"level = 'rigid_body' of a bearing: choose one of"),
+    ({"level": {"bearing": "rigid_body"}}, r"level of a bearing = 'rigid_body': choose one of"),
     ({"integrator": "explicit"}, 'integrator = "explicit" belongs to level="rigid_body"'),
     ({"integrator": "explicit", "level": "contact"}, "belongs to level=.*not to 'contact'"),
     ({"integrator": "newmark", "level": "rigid_body"}, "integrator = 'newmark'.*explicit"),

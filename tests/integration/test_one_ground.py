@@ -70,6 +70,31 @@ def test_doubtful_run_says_so():
         assert time_history(model, shocks(), dt=0.02).attrs["status"] == "ok"
 
 
+@pytest.mark.parametrize(("radius", "said"), [(0.0, True), (0.8, False)])
+def test_numerical_damping_that_was_asked_for_is_named(radius, said):
+    model = shear_building(device(), [4e4, 3e4], [5e7, 4e7], base_mass=3e4)
+    t = np.arange(0.0, 2.0, 0.01)
+    motion = GroundMotion(x=3.0 * np.sin(2.0 * np.pi * t) * np.sin(0.5 * np.pi * t) ** 2, dt=0.01)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", AnalysisWarning)
+        data = time_history(
+            model, motion, dt=0.01, integrator="generalised-alpha", spectral_radius=radius
+        )
+    share = data.attrs["numerical_share"]
+    words = [str(entry.message) for entry in caught]
+    assert data.attrs["status"] == "ok"
+    assert (1e-3 < share < 1e-2) is said
+    if said:
+        assert len(words) == 1
+        assert f"took out {100.0 * share:.3g} % of the energy" in words[0]
+        assert caught[0].filename == __file__
+        assert data.attrs["message"] == f"completed: {words[0]}"
+        assert words[0] in data.attrs["audit"]
+    else:
+        assert words == []
+        assert data.attrs["message"] == "completed"
+
+
 def test_nothing_moves_and_nothing_warns():
     motion = GroundMotion(x=np.zeros(100), dt=0.005)
     with warnings.catch_warnings():

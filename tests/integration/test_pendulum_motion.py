@@ -17,8 +17,7 @@ from lir_element import CoulombFriction, LIRBearing
 
 # Such bearings are meant here.
 pytestmark = [
-    pytest.mark.filterwarnings("ignore:axial_stiffness"),
-    pytest.mark.filterwarnings("ignore:.*settles by"),
+    pytest.mark.meant("axial_stiffness", "settles by"),
 ]
 
 MASS, STIFFNESS, GRAVITY = 50e3, 2e7, 9.80665

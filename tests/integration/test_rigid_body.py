@@ -18,7 +18,7 @@ from lir_element.device.sliders import slider_record
 from lir_element.kernels.rigid_body.march import march, start
 
 # Such bearings are meant here.
-pytestmark = pytest.mark.filterwarnings("ignore:slider_density")
+pytestmark = pytest.mark.meant("slider_density")
 
 MASS, G = 15e3, 9.80665
 OPTIONS: dict[str, Any] = {

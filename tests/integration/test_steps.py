@@ -13,8 +13,7 @@ from lir_element import CoulombFriction, Element, LIRBearing
 
 # Such bearings are meant here.
 pytestmark = [
-    pytest.mark.filterwarnings("ignore:friction of 0.5"),
-    pytest.mark.filterwarnings("ignore:.*the bearings hardly slide"),
+    pytest.mark.meant("friction of 0.5", "the bearings hardly slide"),
 ]
 
 MASS = 204e3

@@ -79,7 +79,6 @@ def test_a_history_does_not_see_them(run, share):
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
 )
 @pytest.mark.parametrize("share", SHARES)
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
 def test_a_model_of_opensees_keeps_its_periods(ops, share):
     frame, expected = taken(ops, share)
     state = gravity(frame)
@@ -91,7 +90,6 @@ def test_a_model_of_opensees_keeps_its_periods(ops, share):
 @pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
 )
-@pytest.mark.filterwarnings("ignore::frames.ModelWarning")
 def test_a_model_of_opensees_moves_alike(ops, run):
     motion = waves(0.6, 2.0)
     kept, expected = (

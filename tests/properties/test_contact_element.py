@@ -29,7 +29,7 @@ NAMES = (
 )  # fmt: skip
 EACH = pytest.mark.parametrize("name", NAMES)
 UPSIDE = 4e-4  # of N
-pytestmark = pytest.mark.filterwarnings("ignore:slider_density")
+pytestmark = pytest.mark.meant("slider_density")
 WEIGHTLESS = {"slider_density": 1e-3}  # 8 micrograms a slider
 # Newton's method stops at 1e-10 of the normal forces; carried along some hundred steps.
 HISTORY = {"rtol": 0.0, "atol": 2e-8}

@@ -128,7 +128,7 @@ REGIMES = {
 @pytest.mark.parametrize("law", ["elastic-plastic", "bouc-wen"])
 @pytest.mark.parametrize("mu_h", [0.13, math.inf])
 @pytest.mark.parametrize("regime", REGIMES)
-@pytest.mark.filterwarnings("ignore:design_load")  # far beyond the slider's, on purpose
+@pytest.mark.meant("design_load")  # far beyond the slider's, on purpose
 def test_tangent_in_each_regime(
     regime: str, mu_h: float, law: str, sign: float, lab: SimpleNamespace
 ) -> None:
@@ -636,7 +636,7 @@ def test_tangent_after_a_failed_trial_is_that_of_the_committed_state(lab: Simple
     assert_allclose(element.tangent_stiffness() / scale, expected / scale, rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.filterwarnings("ignore:rim_stiffness")  # a rim that gives way early, on purpose
+@pytest.mark.meant("rim_stiffness")  # a rim that gives way early, on purpose
 def test_limits_are_reported_at_commit(lab: SimpleNamespace) -> None:
     """Beyond slip_capacity and rim_overrun: a trial passes, the commit raises with the value."""
     for changes, status, words in (

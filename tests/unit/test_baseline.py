@@ -1,5 +1,8 @@
 """What is left of a motion at its end, and the smallest baseline that takes it out."""
 
+import copy
+import pickle  # noqa: S403
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -87,6 +90,47 @@ def test_reading_a_record_that_still_moves(tmp_path: Path, offset: float) -> Non
         motion = GroundMotion.from_columns(path, x=1, time=0, unit="m/s2")
     assert_allclose(motion.drift["x"].velocity, offset * 20.0, atol=1e-9)
     assert f"{offset * 20.0:.3f} m/s" in motion.summary()
+
+
+def faded(seed: int, offset: float) -> np.ndarray:
+    """A record as they are: strong in the middle, and quiet at its end but for an offset."""
+    wave = noise(seed)
+    wave *= np.exp(-((np.linspace(-3.0, 3.0, len(wave))) ** 2))
+    return corrected(wave, DT, displacement=True) + offset
+
+
+@pytest.mark.parametrize("offset", [0.05, -0.1])
+def test_arrays_of_a_record_that_still_moves(offset: float) -> None:
+    with pytest.warns(MotionWarning, match=r"rec: .* not at rest .*x: velocity .* corr") as said:
+        motion = GroundMotion(x=faded(4, offset), dt=DT, name="rec")
+    assert said[0].filename == __file__
+    # said once: not again by what is made of it
+    copies = [copy.deepcopy(motion), pickle.loads(pickle.dumps(motion)), motion.scaled(2.0)]  # noqa: S301
+    assert all(other.drift["x"].share > 0.15 for other in copies)
+    GroundMotion(x=faded(4, 0.0), dt=DT)
+    GroundMotion(x=motion.corrected().x, dt=DT)
+
+
+@pytest.mark.parametrize(
+    "wave",
+    [
+        lambda t: np.ones(len(t)),
+        lambda t: t,
+        *(lambda t, period=period: np.sin(2.0 * np.pi / period * t) for period in (0.5, 3.0, 7.0)),
+        *(lambda t, period=period: np.cos(2.0 * np.pi / period * t) for period in (0.3, 5.0)),
+    ],
+)
+@pytest.mark.parametrize("duration", [8.0, 9.1, 11.3, 20.0])
+def test_what_ends_at_full_strength_is_meant(
+    wave: Callable[[np.ndarray], np.ndarray], duration: float
+) -> None:
+    motion = GroundMotion(x=wave(np.arange(0.0, duration, DT)), dt=DT)
+    assert motion.n_steps > 2
+
+
+def test_a_pulse_is_meant() -> None:
+    pulse = np.pad(np.sin(np.linspace(0.0, np.pi, 101)), (0, 400))
+    assert GroundMotion(x=pulse, dt=DT).drift["x"].share == 1.0
 
 
 def test_a_motion_of_rest() -> None:

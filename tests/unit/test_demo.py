@@ -103,22 +103,33 @@ def test_earlier_results_stay_until_all_are_written(
 ) -> None:
     write_results({"A": small_result}, tmp_path)
     before = (tmp_path / "results.nc").read_bytes()
-    write = xr.Dataset.to_netcdf
+    write, written = xr.Dataset.dump_to_store, []
 
-    def interrupted(data: xr.Dataset, *args: object, group: str, **options: object) -> None:
-        if group == "b":
+    def interrupted(data: xr.Dataset, *args: object, **options: object) -> None:
+        if written:
             raise KeyboardInterrupt
-        write(data, *args, group=group, **options)
+        written.append(data)
+        write(data, *args, **options)
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", interrupted)
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_results({"A": small_result, "B": small_result}, tmp_path)
     monkeypatch.undo()
     assert (tmp_path / "results.nc").read_bytes() == before
-    write_results({"B": small_result}, tmp_path)  # beside what was left lying
+    write_results({"B": small_result}, tmp_path)
     with xr.open_dataset(tmp_path / "results.nc", group="b", engine="h5netcdf") as data:
         assert data.sizes["time"] == small_result.sizes["time"]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["results.nc", "summary.csv"]
+
+
+@pytest.mark.parametrize("name", ["results.nc", "summary.csv"])
+def test_a_file_that_cannot_be_written_is_named(
+    small_result: xr.Dataset, tmp_path: Path, name: str
+) -> None:
+    (tmp_path / name).mkdir()
+    with pytest.raises(OSError, match=f"{name} could not be written"):
+        write_results({"A": small_result}, tmp_path)
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ import pytest
 import scipy.linalg
 from numpy.testing import assert_allclose
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.assembly.assemble import System, assemble, member_axial_forces
 from frames.frame import Frame
 from frames.library.models import lumped_mass, moment_frame, shear_building
@@ -180,7 +180,7 @@ def test_moment_frame_takes_a_bearing_for_each_place() -> None:
 
 
 REFUSALS: list[tuple[Callable[[], Frame], str]] = [
-    (lambda: lumped_mass(bearing(), -1.0), r"mass \[kg\] = -1 must be greater than 0"),
+    (lambda: lumped_mass(bearing(), -1.0), r"mass \[kg\] = -1 must be positive"),
     (
         lambda: moment_frame((1, 1), 1, bearing={(0, 0): bearing(), (1, 1): bearing()}),
         r"without a bearing: \[\(0, 1\), \(1, 0\)\]",
@@ -189,7 +189,7 @@ REFUSALS: list[tuple[Callable[[], Frame], str]] = [
         lambda: moment_frame(bearing=bearing(), floor_mass=1e5, floor_load=1e3),
         r"floor_mass = 100000.0 kg and floor_load = 1000.0 kg/m2 both",
     ),
-    (lambda: moment_frame((0, 2), bearing=bearing()), r"bays = 0 must be greater than 0"),
+    (lambda: moment_frame((0, 2), bearing=bearing()), r"bays = 0 must be"),
     (
         lambda: moment_frame((1, 1), cast("int", 2.5), bearing=bearing()),
         r"storeys = 2.5 must be whole",

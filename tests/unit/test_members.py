@@ -12,7 +12,7 @@ import scipy.linalg
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
-from frames._validate import ModelError
+from frames._errors import ModelError
 from frames.assembly.members import (
     MemberArrays,
     fixed_end_forces,
@@ -330,11 +330,14 @@ def test_box_and_i_shape_and_rectangle() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"area": 0.0}, r"Section.area = 0 must be greater than 0"),
-        ({"inertia_y": -1e-4}, r"Section.inertia_y = -0.0001 must be greater than 0"),
-        ({"elastic_modulus": math.inf}, r"Section.elastic_modulus = inf must be finite"),
-        ({"density": -1.0}, r"Section.density = -1 must be 0 or greater"),
-        ({"shear_area_z": math.nan}, r"Section.shear_area_z = nan must be greater than 0"),
+        ({"area": 0.0}, r"Section.area = 0 must be positive"),
+        ({"inertia_y": -1e-4}, r"Section.inertia_y = -0.0001 must be positive"),
+        (
+            {"elastic_modulus": math.inf},
+            r"Section.elastic_modulus = inf must be positive and finite",
+        ),
+        ({"density": -1.0}, r"Section.density = -1 must be finite and at least 0"),
+        ({"shear_area_z": math.nan}, r"Section.shear_area_z = nan must be positive"),
     ],
 )
 def test_section_refuses(changes: dict[str, float], words: str) -> None:

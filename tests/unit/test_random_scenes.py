@@ -119,6 +119,16 @@ def test_a_run_that_calls_itself_inaccurate_may_have_an_open_ledger(result):
     assert "numerical" not in kinds(result, data)
 
 
+def test_a_run_may_say_what_its_damping_took_out(result):
+    data = result[2].copy(deep=True)
+    shifted("numerical", "kinetic", 2e-3)(data)
+    share = float(np.abs(data["energy"].sel(term="numerical")).max())
+    share /= float(np.abs(data["energy"].sel(term="input")).max())
+    data.attrs["message"] = f"completed: it took out {100.0 * share:.3g} % of the energy"
+    assert "numerical" not in kinds(result, data)
+    assert "end" in kinds(result, data)  # for it did not warn
+
+
 def test_a_bit_makes_a_difference(result):
     data = result[2]
     other = data.copy(deep=True)

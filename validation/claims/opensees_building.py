@@ -32,7 +32,7 @@ from validation.opensees.frames import frame_history
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from lir_element.opensees.compare.builtin import BuiltinKind
+    from lir_element.opensees.compare.builtin_writing import BuiltinKind
 
 LOAD = 550e3  # N, about that of each bearing
 RATIO = 0.02  # of damping, in the first mode

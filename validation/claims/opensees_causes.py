@@ -22,7 +22,7 @@ from validation.opensees.runs import Track, lumped
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from lir_element.opensees.compare.builtin import BuiltinKind
+    from lir_element.opensees.compare.builtin_writing import BuiltinKind
 
 Gap: TypeAlias = dict[str, float]
 """Differences of OpenSees from the bearing by what they are differences of, as shares.

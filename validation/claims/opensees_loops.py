@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from frames._types import FloatArray
-    from lir_element.opensees.compare.builtin import BuiltinKind
+    from lir_element.opensees.compare.builtin_writing import BuiltinKind
 
 LOAD = 150e3  # N
 AMPLITUDE = 0.17  # m, below the rims of the bearing of the static test

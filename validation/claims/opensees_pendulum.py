@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from lir_element.opensees.compare.builtin import BuiltinKind
+    from lir_element.opensees.compare.builtin_writing import BuiltinKind
 
 CLAIM = Claim(
     "opensees_pendulum",

@@ -105,9 +105,11 @@ def _end(scene: Scene, data: xr.Dataset, warned: Sequence[str]) -> Iterator[tupl
         yield "end", 1.0, f"unknown status {status!r}"
     if status in {"ok", INACCURATE} and last < scene.options["duration"] - 1e-9:
         yield "end", last, f"{status}, but ended at {last:g} s"
-    if status == "ok":
-        return
     message = data.attrs["message"]
+    if status == "ok":
+        if message != "completed" and message.removeprefix("completed: ") not in warned:
+            yield "end", last, f"no warning of what the message says: {message}"
+        return
     if "What to try" not in message:
         yield "end", last, f"a message without a remedy: {message}"
     if message not in warned:
@@ -163,9 +165,9 @@ def _ledger(report: Report, data: xr.Dataset) -> Iterator[tuple[str, float, str]
     status = data.attrs["status"]
     if report.ledger > LEDGER and status != INACCURATE:
         yield "ledger", report.ledger, f"gap of {100.0 * report.ledger:.3g} % of the input"
-    if report.numerical > LEDGER and status == "ok":
-        share = 100.0 * report.numerical
-        yield "numerical", report.numerical, f"numerical term of {share:.3g} % of the input"
+    share = f"{100.0 * report.numerical:.3g} %"
+    if report.numerical > LEDGER and status == "ok" and share not in data.attrs["message"]:
+        yield "numerical", report.numerical, f"numerical term of {share} of the input, and no word"
 
 
 def _friction(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from lir_element import LIRBearing
-    from lir_element.opensees.compare.builtin import BuiltinKind
+    from lir_element.opensees.compare.builtin_writing import BuiltinKind
 
 _TFP_DISHES = slice(10, 12)
 """Places of the diameters of the two outer dishes in the command of a TFP."""

@@ -1,7 +1,7 @@
-"""The plain bearing as elements of OpenSees: the mapping, for comparison and for reuse.
+"""The plain bearing as elements of OpenSees, for comparison and for reuse.
 
 `builtin_commands` returns the commands for one of them, `builtin_element` runs these in the model
-at hand; what all of them share is in `builtin_mapping`.
+at hand; what all of them share is in `builtin_mapping`, and each one's own in `builtin_writing`.
 
 Sources: the OpenSees documentation and the public sources of these elements; for the triple bearing
 as a series of three Fenz and Constantinou (2008), Earthq. Eng. Struct. Dyn. 37, 163, and Dao et al.
@@ -11,37 +11,29 @@ as a series of three Fenz and Constantinou (2008), Earthq. Eng. Struct. Dyn. 37,
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any
 
-from lir_element.opensees.compare.builtin_mapping import BuiltinValues, builtin_values
+from lir_element.door import require_choice
+from lir_element.opensees.compare.builtin_mapping import builtin_values
+from lir_element.opensees.compare.builtin_writing import (
+    BUILTIN_KINDS,
+    BuiltinKind,
+    Command,
+    friction_law,
+    materials,
+    ptv,
+    refuse,
+    single,
+    tfp,
+    triple,
+)
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
 
-BuiltinKind = Literal["singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"]
-Command = tuple[Any, ...]
-
-BUILTIN_KINDS: tuple[BuiltinKind, ...] = get_args(BuiltinKind)
-"""The elements of OpenSees that a plain bearing can be written as."""
-
-_CONSTANT = {
-    "TripleFrictionPendulum": "TripleFrictionPendulum takes friction from the velocity of the "
-    "iteration before and does not settle",
-    "TFP": "TFP has constant friction",
-}
 _TAGS = 10  # kept free for each element: materials and friction models
 _FIRST_TAG = 1_000_000
-_WITH_RIMS = ("TripleFrictionPendulum",)
-_SAME = 1e-9  # relative difference up to which two numbers count as equal
-_ITERATIONS = 50  # of the shear force inside an element
-_FORCE_TOLERANCE = 1e-9  # of these, over the axial load
-_INNER_SHARE = 0.2  # of the smaller outer length: the inner slider of a triple bearing
-_LOCKED = 10.0  # friction coefficient that holds an inner slider
-_FAR = 2.0  # of the effective radius: where no rim is met
-_TENSION = 1e-6  # of the axial stiffness: what a lifted TripleFrictionPendulum keeps
-_LEAST_LOAD = 1e-3  # of the axial load: what it keeps for its lateral force
-_SAME_SUM = 1e-5  # of an increment: how far its three parts may miss it
 _POSITION = 1e-3  # m, how far nodes may be from where the bearing needs them
 
 
@@ -138,24 +130,22 @@ def builtin_commands(
     frictionModel Coulomb 4 0.06
     element singleFPBearing 1 10 20 4 1.9 ... -P 1 -T 2 -My 3 -Mz 3 -shearDist 0.5 ...
     """
-    if kind not in BUILTIN_KINDS:
-        msg = f"kind = {kind!r}: choose one of {BUILTIN_KINDS}"
-        raise ValueError(msg)
+    require_choice("kind", kind, BUILTIN_KINDS)
     load = bearing.resolved()["design_load"] if axial_load is None else axial_load
     values = builtin_values(bearing, load)
-    _refuse(kind, bearing, values, lift=lift)
+    refuse(kind, bearing, values, lift=lift)
     start = _FIRST_TAG + _TAGS * tag if first_tag is None else first_tag
     head = (tag, i, j)
     if kind == "TFP":
-        return (_tfp(head, bearing, values, load),)
-    materials = _materials(values, start)
+        return (tfp(head, bearing, values, load),)
+    made = materials(values, start)
     tags = (start, start + 1, start + 2, start + 2)
     if kind == "FPBearingPTV":
-        return (*materials, _ptv(head, bearing, values, load, tags))
+        return (*made, ptv(head, bearing, values, load, tags))
     if kind == "singleFPBearing":
-        law = _law(start + 3, values.friction_min, values.friction_max, values.rate)
-        return (*materials, law, _single(head, values, load, tags, lift=lift, apart=apart))
-    return (*materials, *_triple(head, bearing, values, load, start))
+        law = friction_law(start + 3, values.friction_min, values.friction_max, values.rate)
+        return (*made, law, single(head, values, load, tags, lift=lift, apart=apart))
+    return (*made, *triple(head, bearing, values, load, start))
 
 
 def builtin_element(
@@ -219,135 +209,6 @@ def builtin_element(
         msg = f"OpenSees made no element {tag} of {commands[-1]}: see its output above"
         raise ValueError(msg)
     return commands
-
-
-def _refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool) -> None:
-    capacity, varies = bearing.lateral_capacity, values.friction_max > values.friction_min
-    if kind not in _WITH_RIMS and math.isfinite(capacity):
-        msg = (
-            f"capacity = {capacity:g} m: {kind} has no rims that work; give "
-            f"bearing.as_dcfp(rims=False), or choose {_WITH_RIMS[0]}"
-        )
-        raise ValueError(msg)
-    if lift and kind != "singleFPBearing":
-        msg = f'lift = True: {kind} has no such option; choose "singleFPBearing", or lift=False'
-        raise ValueError(msg)
-    if kind in _CONSTANT and varies:
-        msg = (
-            f"friction between {values.friction_min:.4g} and {values.friction_max:.4g}: "
-            f"{_CONSTANT[kind]}; give CoulombFriction, or choose another element"
-        )
-        raise ValueError(msg)
-    half = 0.5 * values.friction_max
-    if kind == "FPBearingPTV" and varies and abs(values.friction_min - half) > _SAME * half:
-        msg = (
-            f"f_min / f_max = {values.friction_min / values.friction_max:.4g}: FPBearingPTV has "
-            "one half built in; give f_min = f_max / 2 or CoulombFriction, or choose another "
-            "element"
-        )
-        raise ValueError(msg)
-    limit = 0.1 * values.friction_max * values.length
-    if values.yield_displacement > limit:
-        msg = (
-            f"yield displacement over the bearing {values.yield_displacement:.4g} m must be below "
-            f"{limit:.4g} m (a tenth of strength over post-sliding stiffness): reduce "
-            "yield_displacement"
-        )
-        raise ValueError(msg)
-
-
-def _materials(values: BuiltinValues, start: int) -> tuple[Command, ...]:
-    # Vertical, torsion, rocking. Torsion yields where the contact would turn.
-    torsion: Command = ("uniaxialMaterial", "Elastic", start + 1, 0.0)
-    if values.torque > 0.0:
-        stiffness = values.torque / values.torsion_yield
-        torsion = ("uniaxialMaterial", "ElasticPP", start + 1, stiffness, values.torsion_yield)
-    return (
-        ("uniaxialMaterial", "Elastic", start, values.axial_stiffness, values.axial_damping),
-        torsion,
-        ("uniaxialMaterial", "Elastic", start + 2, 0.0),
-    )
-
-
-def _law(tag: int, low: float, high: float, rate: float) -> Command:
-    if low == high:
-        return ("frictionModel", "Coulomb", tag, high)
-    return ("frictionModel", "VelDependent", tag, low, high, rate)
-
-
-def _single(
-    head: tuple[int, int, int],
-    values: BuiltinValues,
-    load: float,
-    tags: tuple[int, ...],
-    *,
-    lift: bool,
-    apart: bool,
-) -> Command:
-    axial, torsion, rocking, _ = tags
-    orientation = (1, 0, 0) if apart else (0, 0, 1, 1, 0, 0)  # local y; or x and y
-    return (
-        "element", "singleFPBearing", *head, axial + 3, values.length, values.initial_stiffness,
-        "-P", axial, "-T", torsion, "-My", rocking, "-Mz", rocking,
-        "-shearDist", 0.5, *(("-inclVertdisp",) if lift else ()),
-        "-iter", _ITERATIONS, _FORCE_TOLERANCE * load,
-        "-orient", *orientation,  # last, for it swallows the word after a single vector
-    )  # fmt: skip
-
-
-def _ptv(
-    head: tuple[int, int, int],
-    bearing: LIRBearing,
-    values: BuiltinValues,
-    load: float,
-    tags: tuple[int, ...],
-) -> Command:
-    speed = int(values.friction_max > values.friction_min)
-    pressure = load / (math.pi * bearing.slider_radius**2)
-    steel = (4.4e-6, 18.0)  # thermal diffusivity [m2/s] and conductivity [W/(m K)]: not used
-    return (
-        "element", "FPBearingPTV", *head, values.friction_max, 0, pressure, 0, *steel, speed,
-        values.rate, values.length, bearing.slider_radius, values.initial_stiffness, *tags,
-        0, 0, 1, 1, 0, 0, 0.5, 0, 0.0, _ITERATIONS, _FORCE_TOLERANCE * load, 1,
-    )  # fmt: skip
-
-
-def _triple(
-    head: tuple[int, int, int],
-    bearing: LIRBearing,
-    values: BuiltinValues,
-    load: float,
-    start: int,
-) -> tuple[Command, ...]:
-    length, (first, second) = values.length, bearing.radii
-    outer = tuple(length * r / (first + second) for r in (first, second))
-    lengths = (_INNER_SHARE * min(outer), *outer)
-    reach = min(bearing.lateral_capacity, _FAR * length)
-    rims = (0.0, *(reach * part / length for part in outer))
-    mu = values.friction_max + values.yield_displacement / length
-    element = (
-        "element", "TripleFrictionPendulum", *head, start + 3, start + 3, start + 3,
-        start, start + 1, start + 2, start + 2, *lengths, *rims, load,
-        values.yield_displacement, _TENSION * values.axial_stiffness, _LEAST_LOAD * load, _SAME_SUM,
-    )  # fmt: skip
-    return (_law(start + 3, mu, mu, 0.0), element)
-
-
-def _tfp(
-    head: tuple[int, int, int], bearing: LIRBearing, values: BuiltinValues, load: float
-) -> Command:
-    half = 0.5 * bearing.slider_height
-    arms = [r - half for r in bearing.radii]
-    frictions = [
-        law.f_min * r / arm for law, r, arm in zip(bearing.frictions, bearing.radii, arms,
-                                                   strict=True)
-    ]  # fmt: skip
-    far = [2.0 * _FAR * values.length] * 4  # diameters
-    return (
-        "element", "TFP", *head, *arms, *bearing.radii, *far, 0.0, 0.0, 0.0, 0.0,
-        _LOCKED, _LOCKED, *frictions, 0.0, 0.0, half, half, bearing.height, load,
-        0.5 * values.yield_displacement, values.axial_stiffness,
-    )  # fmt: skip
 
 
 def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> bool:

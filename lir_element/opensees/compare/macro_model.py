@@ -14,7 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.door import require_non_negative, require_positive
+from lir_element.door import require_choice, require_non_negative, require_positive
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
@@ -282,9 +282,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
     if not isinstance(directions, int) or directions < _FEWEST or directions % _FEWEST:
         msg = f"directions = {directions!r}: give 4, 8, 12, ...; the gaps stand crosswise"
         raise ValueError(msg)
-    if restoring not in {"series", "across"}:
-        msg = f"restoring = {restoring!r}: choose 'series' or 'across'"
-        raise ValueError(msg)
+    require_choice("restoring", restoring, ("series", "across"))
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (
             f"interface_friction = {bearing.interface_friction:g} does not exceed the surfaces' "

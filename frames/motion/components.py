@@ -1,46 +1,29 @@
-"""Checks of ground motions at the door: every error names the value, the bound and the remedy."""
+"""Components of a ground motion: what each must be, their time step, and their common length."""
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames._errors import MotionError
+from lir_element.door import require_positive
 from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
+AXES = ("x", "y", "z")
+"""Names of the components; z points up."""
+
 PAD_SAMPLES, PAD_PART = 20, 0.01
 """Largest difference in length of the components that zeros at the end make up for."""
-
 
 STRONGEST = 1000.0
 """Peak acceleration that no ground and no shake table has [m/s2]: 100 g."""
 
 LONGEST_STEP = 2.0
 """Time step that no motion has [s]."""
-
-
-class MotionError(ValueError):
-    """A ground motion, or a file of one, that cannot be used; the message names the culprit."""
-
-
-class MotionWarning(UserWarning):
-    """A ground motion that can be used, with something that its user should know."""
-
-
-def number(name: str, value: object, meaning: str) -> float:
-    """Return a finite number, or raise."""
-    if isinstance(value, bool) or not isinstance(value, SupportsFloat):
-        msg = f"{name} = {value!r} must be a number: give {meaning}"
-        raise MotionError(msg)
-    result = float(value)
-    if not math.isfinite(result):
-        msg = f"{name} = {result:g} must be finite: give {meaning}"
-        raise MotionError(msg)
-    return result
 
 
 def checked_component(axis: str, values: object) -> FloatArray:
@@ -72,10 +55,7 @@ def checked_component(axis: str, values: object) -> FloatArray:
 
 def checked_step(value: object) -> float:
     """Return a time step [s] that a motion can have, or raise."""
-    step = number("dt", value, "s, the time step")
-    if step <= 0.0:
-        msg = f"dt = {step:g} s must be greater than 0: give the time step in s"
-        raise MotionError(msg)
+    step = require_positive("dt", value, "s", remedy="give the time step in s", error=MotionError)
     if step > LONGEST_STEP:
         hint = meant(step, "s", TIMES, 1e-4, 0.1)
         msg = f"dt = {step:g} s is longer than any record's, at most {LONGEST_STEP:g} s: {hint}"

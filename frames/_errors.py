@@ -1,0 +1,19 @@
+"""Errors and warnings of structural models and of ground motions."""
+
+from __future__ import annotations
+
+
+class ModelError(ValueError):
+    """A structural model, or a number of it, that cannot be used; the message names the culprit."""
+
+
+class ModelWarning(UserWarning):
+    """A structural model that can be used, with something that its user should know."""
+
+
+class MotionError(ValueError):
+    """A ground motion, or a file of one, that cannot be used; the message names the culprit."""
+
+
+class MotionWarning(UserWarning):
+    """A ground motion that can be used, with something that its user should know."""

@@ -1,0 +1,49 @@
+"""Bearings as linear springs between their nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from frames.assembly.basis import bearing_rows
+from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.system import System
+
+
+def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
+    """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    with_points : collection of str
+        Bearings with contact points, which resist the rotation of their plates.
+
+    Returns
+    -------
+    csr_array, (n_free, n_free)
+        Their stiffness.
+    """
+    values = np.zeros((len(system.bearings), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
+    values[:, :2] = 0.01 * values[:, 2:3]
+    for k, (name, _, _, bearing) in enumerate(system.bearings):
+        if name in with_points:
+            values[k, 3:] = bearing_rocking_stiffness(bearing)
+    return spring_matrix(system, values)
+
+
+def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
+    """Return springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs."""
+    rows = bearing_rows(system)
+    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
+    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)

@@ -1,0 +1,303 @@
+"""Building a frame: one verb for each kind of part, checked before anything is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.model.contents import FrameContents, frozen
+from frames.model.damping import Damping, ModalDamping, RayleighDamping
+from frames.model.names import known_name, new_name
+from frames.model.parts import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
+from frames.model.placing import (
+    member_up,
+    node_list,
+    one_elevation,
+    refuse_shared,
+    require_above,
+    require_bearing_place,
+    require_two_nodes,
+)
+from frames.model.sections import Section
+from frames.model.superelement import superelement
+from lir_element.door import require_non_negative, require_type, require_vector
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, MatrixLike
+    from lir_element import LIRBearing
+
+
+class FrameBuilder(FrameContents):
+    """The verbs of `Frame` that add parts; each leaves it as it was when it refuses."""
+
+    def add_node(self, name: str, x: float, y: float, z: float) -> None:
+        """Add a node at (x, y, z) [m]; the name must be new."""
+        new_name(name, self._nodes, "node")
+        point = require_vector(f'coordinates [m] of node "{name}"', (x, y, z), 3, error=ModelError)
+        self._nodes[name] = Node(name, *point.tolist())
+
+    def fix(self, node: str, *dofs: str) -> None:
+        """Fix degrees of freedom of a node to the ground.
+
+        Parameters
+        ----------
+        node : str
+            Name of the node.
+        *dofs : str
+            Any of "ux", "uy", "uz", "rx", "ry", "rz", or "all"; added to those fixed before.
+
+        Raises
+        ------
+        ModelError
+            If the node or a degree of freedom does not exist, or none is named.
+        """
+        known_name(node, self._nodes, "node")
+        if not dofs:
+            message = f'fix("{node}") names no degree of freedom: add "all" or some of {DOFS}'
+            raise ModelError(message)
+        for dof in dofs:
+            if dof != "all" and dof not in DOFS:
+                message = f'fix("{node}", {dof!r}): a degree of freedom is "all" or one of {DOFS}'
+                raise ModelError(message)
+        chosen = frozenset(DOFS) if "all" in dofs else frozenset(dofs)
+        self._fixed[node] = self._fixed.get(node, frozenset()) | chosen
+
+    def add_mass(self, node: str, mass: float, inertia: Sequence[float] = (0.0, 0.0, 0.0)) -> None:
+        """Add a lumped mass to a node; repeated calls accumulate.
+
+        Parameters
+        ----------
+        node : str
+            Name of the node.
+        mass : float
+            Mass in all three directions [kg], >= 0. It also weighs, mass * gravity along -z.
+        inertia : sequence of 3 floats
+            Rotary inertia about global x, y, z through the node [kg m2], each >= 0.
+
+        Raises
+        ------
+        ModelError
+            If the node does not exist or a number is negative or not finite.
+        """
+        known_name(node, self._nodes, "node")
+        number = require_non_negative(
+            f'mass [kg] at node "{node}"', mass, remedy="masses add up, give kg", error=ModelError
+        )
+        rotary = require_vector(f'inertia [kg m2] at node "{node}"', inertia, 3, error=ModelError)
+        if (rotary < 0.0).any():
+            message = (
+                f'inertia [kg m2] at node "{node}" = {rotary.tolist()} must be 0 or greater: '
+                "give the moments of inertia about global x, y, z"
+            )
+            raise ModelError(message)
+        total = self._masses.get(node, np.zeros(6))
+        self._masses[node] = frozen(total + np.concatenate([np.full(3, number), rotary]))
+
+    def add_member(
+        self, name: str, i: str, j: str, section: Section, up: Sequence[float] | None = None
+    ) -> None:
+        """Add an elastic beam-column, rigidly joined to its nodes.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        i, j : str
+            Nodes at its ends; local x runs from i to j.
+        section : Section
+            Section; density * area * length is its mass, lumped half to each end.
+        up : sequence of 3 floats, optional
+            Vector that fixes the local x-z plane; default global Z, and global X for vertical
+            members.
+
+        Raises
+        ------
+        ModelError
+            If a name is unknown or taken, the length is zero or `up` is parallel to the member.
+        """
+        new_name(name, self._members, "member")
+        require_two_nodes(self._nodes, i, j, f'member "{name}"')
+        require_type(f'section of member "{name}"', section, Section, "a Section: Section.box(...)")
+        fixed_up = member_up(self._nodes, name, i, j, up)
+        self._members[name] = Member(name, i, j, section, fixed_up)
+
+    def add_spring(self, name: str, i: str, j: str, stiffness: Sequence[float]) -> None:
+        """Add a linear 6-component spring between two nodes, in global axes.
+
+        The spring sits at the position of node j; where the nodes are apart, a rigid lever joins
+        it to node i, so that rigid motions of both nodes are free of force.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        i, j : str
+            Its nodes, coincident or apart.
+        stiffness : sequence of 6 floats
+            Stiffness along x, y, z [N/m] and about x, y, z [N m/rad], each >= 0, not all 0.
+
+        Raises
+        ------
+        ModelError
+            If a name is unknown or taken, or a stiffness is negative or none is positive.
+        """
+        new_name(name, self._springs, "spring")
+        require_two_nodes(self._nodes, i, j, f'spring "{name}"')
+        values = require_vector(f'stiffness of spring "{name}"', stiffness, 6, error=ModelError)
+        if (values < 0.0).any() or not values.any():
+            message = (
+                f'stiffness of spring "{name}" = {values.tolist()} must be 0 or greater and not '
+                "all 0: give N/m along x, y, z and N m/rad about x, y, z"
+            )
+            raise ModelError(message)
+        self._springs[name] = Spring(name, i, j, tuple(values.tolist()))
+
+    def add_superelement(
+        self,
+        name: str,
+        nodes: Sequence[str],
+        stiffness: MatrixLike,
+        mass: MatrixLike,
+        *,
+        damping: MatrixLike | None = None,
+        load: Sequence[float] | FloatArray | None = None,
+        equations: MatrixLike | None = None,
+        notes: Sequence[str] = (),
+    ) -> None:
+        """Add a linear part given by its matrices: of another program, or condensed.
+
+        Its displacements u are ux, uy, uz, rx, ry, rz of its first node, then of the second, and
+        so on, in global axes; they count from the state that matrices and loads belong to.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        nodes : sequence of str, (n,)
+            Its nodes.
+        stiffness, mass : array_like or sparse, (6 n, 6 n)
+            Symmetric matrices [N/m, N, N m] and [kg, kg m, kg m2]; the geometric stiffness
+            included.
+        damping : array_like or sparse, (6 n, 6 n), optional
+            Symmetric damping [N s/m, N s, N m s] of the motion relative to the ground. What
+            `set_damping` asks for acts besides.
+        load : array_like, (6 n,), optional
+            Permanent forces and moments [N, N m], its weight among them: its mass does not weigh
+            by itself.
+        equations : array_like or sparse, (m, 6 n), optional
+            Ties of its displacements, ``equations @ u = 0``.
+        notes : sequence of str
+            What whoever reads the results should know of where it came from.
+
+        Raises
+        ------
+        ModelError
+            If the name is taken, a node unknown or listed twice, or an array has the wrong shape,
+            is not finite or not symmetric.
+        """
+        new_name(name, self._superelements, "superelement")
+        chosen = node_list(self._nodes, nodes, f'superelement "{name}"', least=1)
+        self._superelements[name] = superelement(
+            name, chosen, stiffness, mass,
+            damping=damping, load=load, equations=equations, notes=notes,
+        )  # fmt: skip
+
+    def add_diaphragm(self, name: str, nodes: Sequence[str]) -> None:
+        """Make nodes move in their horizontal plane as one rigid body.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        nodes : sequence of str
+            Two nodes or more at one elevation within 1 mm, in no other diaphragm.
+
+        Raises
+        ------
+        ModelError
+            If a node is unknown, repeated or taken, or the nodes are not at one elevation.
+        """
+        new_name(name, self._diaphragms, "diaphragm")
+        chosen = node_list(self._nodes, nodes, f'diaphragm "{name}"', least=2)
+        refuse_shared(name, chosen, self._diaphragms)
+        one_elevation(self._nodes, chosen, f'diaphragm "{name}"')
+        self._diaphragms[name] = Diaphragm(name, chosen)
+
+    def add_load(self, node: str, forces: Sequence[float]) -> None:
+        """Add permanent forces (3 x N) and moments (3 x N m), global axes; they carry no mass."""
+        known_name(node, self._nodes, "node")
+        values = require_vector(f'forces [N, N m] at node "{node}"', forces, 6, error=ModelError)
+        self._loads[node] = frozen(self._loads.get(node, np.zeros(6)) + values)
+
+    def add_uniform_load(self, member: str, q: Sequence[float]) -> None:
+        """Add a permanent load per unit length [N/m], (3,) in global axes; it carries no mass."""
+        known_name(member, self._members, "member")
+        values = require_vector(f'uniform load [N/m] on member "{member}"', q, 3, error=ModelError)
+        self._uniform_loads[member] = frozen(self._uniform_loads.get(member, np.zeros(3)) + values)
+
+    def add_bearing(self, name: str, i: str, j: str, bearing: LIRBearing) -> None:
+        """Put a bearing between two nodes of one vertical.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        i, j : str
+            Node below and node above, at distance 0 or `bearing.height`, within 1 mm. Node i is
+            a fixed node of the ground or a node of the structure below.
+        bearing : LIRBearing
+            The device.
+
+        Raises
+        ------
+        ModelError
+            If a name is unknown or taken, or the nodes are not where the bearing needs them.
+        """
+        new_name(name, self._bearings, "bearing")
+        require_two_nodes(self._nodes, i, j, f'bearing "{name}"')
+        require_bearing_place(self._nodes, name, i, j, bearing)
+        self._bearings[name] = BearingLink(name, i, j, bearing)
+
+    def add_level(self, name: str, nodes: Sequence[str]) -> None:
+        """Name a storey level, from below to above, for storey drifts.
+
+        Parameters
+        ----------
+        name : str
+            New name.
+        nodes : sequence of str
+            One node or more at one elevation within 1 mm.
+
+        Raises
+        ------
+        ModelError
+            If the level does not lie above the one added before.
+        """
+        new_name(name, self._levels, "level")
+        chosen = node_list(self._nodes, nodes, f'level "{name}"', least=1)
+        z = one_elevation(self._nodes, chosen, f'level "{name}"')
+        require_above(name, z, next(reversed(self._levels.values()), None))
+        self._levels[name] = Level(name, z, chosen)
+
+    def set_damping(self, damping: Damping | None) -> None:
+        """Set the damping of the structure: RayleighDamping, ModalDamping or None.
+
+        Parameters
+        ----------
+        damping : RayleighDamping, ModalDamping or None
+            Damping of members and springs; the bearings dissipate by themselves.
+
+        Notes
+        -----
+        Anything else is refused with a `TypeError`, a bare number among them.
+        """
+        kinds = (RayleighDamping, ModalDamping, type(None))
+        remedy = (
+            "RayleighDamping, ModalDamping or None: "
+            "write ModalDamping(0.02) for two per cent in every mode"
+        )
+        require_type("damping", damping, kinds, remedy)
+        self._damping = damping

@@ -1,0 +1,136 @@
+"""Where the parts of a frame may be: nodes that exist and differ, planes, bearings, members."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.model.axes import default_up, local_axes
+from frames.model.names import known_name
+from frames.model.parts import Diaphragm, Level, Node, bearing_height
+from lir_element.door import require_vector
+from lir_element.units import LENGTHS
+
+if TYPE_CHECKING:
+    from lir_element import LIRBearing
+
+POSITION_TOLERANCE = 1e-3
+"""How far positions that should agree may differ: diaphragm planes, bearing ends [m]."""
+
+Nodes = Mapping[str, Node]
+
+
+def require_two_nodes(nodes: Nodes, i: str, j: str, owner: str) -> None:
+    """Raise unless both nodes exist and differ."""
+    for node in (i, j):
+        known_name(node, nodes, "node")
+    if i == j:
+        message = f'{owner} starts and ends at node "{i}": give two different nodes'
+        raise ModelError(message)
+
+
+def node_list(nodes: Nodes, given: Sequence[str], owner: str, least: int) -> tuple[str, ...]:
+    """Return names of nodes that exist, each once and `least` at least, or raise."""
+    if isinstance(given, str):
+        message = f'nodes of {owner} = "{given}" must be a list of names: write ["{given}"]'
+        raise TypeError(message)
+    chosen = tuple(known_name(node, nodes, "node") for node in given)
+    repeated = sorted({node for node in chosen if chosen.count(node) > 1})
+    if repeated:
+        message = f'{owner} lists node "{repeated[0]}" more than once: list each node once'
+        raise ModelError(message)
+    if len(chosen) < least:
+        message = f"{owner} has {len(chosen)} nodes, it needs {least} or more: name them"
+        raise ModelError(message)
+    return chosen
+
+
+def one_elevation(nodes: Nodes, chosen: tuple[str, ...], owner: str) -> float:
+    """Return the elevation that nodes share [m], or raise."""
+    low = min((nodes[node] for node in chosen), key=lambda node: node.z)
+    high = max((nodes[node] for node in chosen), key=lambda node: node.z)
+    if high.z - low.z > POSITION_TOLERANCE:
+        message = (
+            f'{owner} is not horizontal: node "{low.name}" is at z = {low.z:g} m, node '
+            f'"{high.name}" at z = {high.z:g} m, they may differ by {POSITION_TOLERANCE:g} m: '
+            "split it, or put its nodes at one elevation"
+        )
+        raise ModelError(message)
+    return low.z
+
+
+def member_up(
+    nodes: Nodes, name: str, i: str, j: str, up: Sequence[float] | None
+) -> tuple[float, float, float] | None:
+    """Return `up` as a member keeps it, or raise where it has no length or no local axes."""
+    start, end = (np.array([nodes[node].position]) for node in (i, j))
+    length = float(np.linalg.norm(end - start))
+    if length < POSITION_TOLERANCE:
+        message = (
+            f'member "{name}" from "{i}" to "{j}" is {length:g} m long, it must be longer '
+            f"than {POSITION_TOLERANCE:g} m: join coincident nodes by add_spring"
+        )
+        raise ModelError(message)
+    given = None
+    if up is not None:
+        given = require_vector(f'up of member "{name}"', up, 3, error=ModelError)
+    try:
+        local_axes(start, end, default_up(start, end) if given is None else given[None, :])
+    except ModelError as cause:
+        message = f'member "{name}" has no local axes: {cause}'
+        raise ModelError(message) from cause
+    return None if given is None else (float(given[0]), float(given[1]), float(given[2]))
+
+
+def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphragm]) -> None:
+    """Raise where a node of a new diaphragm belongs to another one."""
+    for other in others.values():
+        shared = sorted(set(nodes) & set(other.nodes))
+        if shared:
+            message = (
+                f'node "{shared[0]}" of diaphragm "{name}" belongs to diaphragm '
+                f'"{other.name}" already: a node may be in one only, merge the two'
+            )
+            raise ModelError(message)
+
+
+def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRBearing) -> None:
+    """Raise unless node j is on the vertical through node i, at distance 0 or the height."""
+    height = bearing_height(name, bearing)
+    below, above = nodes[i], nodes[j]
+    offset = math.hypot(above.x - below.x, above.y - below.y)
+    rise = above.z - below.z
+    if offset > POSITION_TOLERANCE:
+        message = (
+            f'bearing "{name}": node "{j}" stands {offset:g} m beside the vertical through '
+            f'node "{i}", at most {POSITION_TOLERANCE:g} m is allowed: give both one x and y'
+        )
+        raise ModelError(message)
+    if min(abs(rise), abs(rise - height)) > POSITION_TOLERANCE:
+        message = (
+            f'bearing "{name}": node "{j}" is {rise:g} m above node "{i}", it must be 0 m or '
+            f"the bearing's height {height:g} m within {POSITION_TOLERANCE:g} m: "
+            f"place node j at z of node i plus bearing.height{_in_mm(rise, height)}"
+        )
+        raise ModelError(message)
+
+
+def require_above(name: str, z: float, below: Level | None) -> None:
+    """Raise unless a new level is above the one added before."""
+    if below is not None and z <= below.z + POSITION_TOLERANCE:
+        message = (
+            f'level "{name}" at z = {z:g} m must lie above level "{below.name}" at '
+            f"{below.z:g} m: add levels from below to above, one for each elevation"
+        )
+        raise ModelError(message)
+
+
+def _in_mm(rise: float, height: float) -> str:
+    for name, factor in LENGTHS:
+        if abs(rise * factor - height) <= max(POSITION_TOLERANCE * factor, 1e-3 * height):
+            return f"; coordinates are in m ({rise:g} {name} are {rise * factor:.4g} m)"
+    return ""

@@ -1,0 +1,143 @@
+"""What a ground motion holds, checked and read-only; `GroundMotion` adds the verbs."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from frames._errors import MotionError, MotionWarning
+from frames._types import FloatArray
+from frames.motion.baseline import Drift, drift_of, left_at_end
+from frames.motion.components import AXES, checked_component, checked_step, equal_lengths
+from frames.motion.description import facts_of
+from lir_element.tables import html_table
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MotionContents:
+    """Accelerations of the ground, checked, copied and frozen; parameters as in `GroundMotion`."""
+
+    x: FloatArray | None = None
+    y: FloatArray | None = None
+    z: FloatArray | None = None
+    dt: float = math.nan
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        """Copy, check and freeze the components.
+
+        Raises
+        ------
+        MotionError
+            If a field is out of its bounds.
+        """
+        self._freeze()
+        self._warn_of_drift(recorded=False)
+
+    def _freeze(self) -> None:
+        """Check the fields, and put copies in their place that cannot be written to."""
+        object.__setattr__(self, "dt", checked_step(self.dt))
+        given = {axis: checked_component(axis, a) for axis, a in self._given().items()}
+        if not given:
+            msg = "a ground motion needs at least one of x, y and z: give accelerations in m/s2"
+            raise MotionError(msg)
+        for axis, values in equal_lengths(given).items():
+            values.flags.writeable = False
+            object.__setattr__(self, axis, values)
+
+    def _warn_of_drift(self, *, recorded: bool) -> None:
+        left = left_at_end(self._given(), self.dt, recorded=recorded)
+        if left:
+            msg = (
+                f"{self.name or 'ground motion'}: the ground is not at rest at its end, {left}. "
+                "corrected() takes that out, unless the motion was cut or shall end so"
+            )
+            warnings.warn(msg, MotionWarning, stacklevel=4)
+
+    @classmethod
+    def _made(
+        cls,
+        x: FloatArray | None,
+        y: FloatArray | None,
+        z: FloatArray | None,
+        dt: float,
+        name: str,
+    ) -> Self:
+        """Return a motion made of another one or of a file: its end is not looked at (again)."""
+        motion = object.__new__(cls)
+        for field, value in {"x": x, "y": y, "z": z, "dt": dt, "name": name}.items():
+            object.__setattr__(motion, field, value)
+        motion._freeze()
+        return motion
+
+    def __reduce__(self) -> tuple[Callable[..., Self], tuple[object, ...]]:
+        # copies and pickles are made anew: arrays that are copied one by one can be written to
+        return type(self)._made, (self.x, self.y, self.z, self.dt, self.name)
+
+    @property
+    def n_steps(self) -> int:
+        """Number of samples."""
+        return len(next(iter(self._given().values())))
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample [s]."""
+        return (self.n_steps - 1) * self.dt
+
+    @property
+    def time(self) -> FloatArray:
+        """Times of the samples from 0 on [s], shape (n_steps,)."""
+        return np.arange(self.n_steps, dtype=np.float64) * self.dt
+
+    @property
+    def peak(self) -> dict[str, float]:
+        """Peak ground acceleration of each component that is given [m/s2]."""
+        return {axis: float(np.abs(values).max()) for axis, values in self._given().items()}
+
+    @property
+    def drift(self) -> dict[str, Drift]:
+        """Velocity [m/s] and displacement [m] of the ground at its end, and peaks, by component."""
+        return {axis: drift_of(values, self.dt) for axis, values in self._given().items()}
+
+    @property
+    def components(self) -> FloatArray:
+        """Accelerations along x, y, z [m/s2], shape (n_steps, 3), contiguous; zeros where none."""
+        columns = np.zeros((self.n_steps, 3))
+        for axis, values in self._given().items():
+            columns[:, AXES.index(axis)] = values
+        return columns
+
+    def summary(self) -> str:
+        """Return a few lines about the motion, for people.
+
+        Returns
+        -------
+        str
+            Name, samples, peaks of each component, and what is left at its end.
+        """
+        lines = [self.name or "ground motion"]
+        return "\n".join(lines + [f"  {what}: {value}" for what, value in self.facts().items()])
+
+    def facts(self) -> dict[str, str]:
+        """Return size, peaks and what is left at the end, in words by name."""
+        return facts_of(self._given(), self.dt)
+
+    def _repr_html_(self) -> str:
+        return html_table(self.name or "ground motion", list(self.facts().items()))
+
+    def __repr__(self) -> str:
+        """Name, size and peaks on one line."""
+        peaks = ", ".join(f"{axis} {peak:.3f}" for axis, peak in self.peak.items())
+        label = f" {self.name!r}" if self.name else ""
+        size = f"{self.n_steps} samples, dt = {self.dt:g} s, {self.duration:g} s"
+        return f"GroundMotion{label}: {size}, peak {peaks} m/s2"
+
+    def _given(self) -> dict[str, FloatArray]:
+        """Return the components that are given, in the order x, y, z."""
+        pairs = zip(AXES, (self.x, self.y, self.z), strict=True)
+        return {axis: values for axis, values in pairs if values is not None}

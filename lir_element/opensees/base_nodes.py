@@ -1,0 +1,190 @@
+"""Nodes of an OpenSees model that get bearings: what is asked of them, and their release."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from lir_element.device.bearing import LIRBearing
+from lir_element.opensees.leftovers import leftovers, listed
+
+BASE_ROTATIONS = ("kept", "free", "fixed")
+"""What becomes of the rotations of base nodes about horizontal axes."""
+
+_AT_REST = 1e-3  # m, which a base node may have moved before
+_ONE_LEVEL = 1e-3  # m, within which base nodes are at one elevation
+_NO_MASS = 1e-6  # of all nodal masses, below which the base counts as without mass
+
+
+def bearings_by_node(
+    base_nodes: Sequence[int],
+    bearing: LIRBearing | Mapping[int, LIRBearing],
+    *,
+    error: type[ValueError] = ValueError,
+) -> dict[int, LIRBearing]:
+    """Return bearings by base node, in the order of those.
+
+    Parameters
+    ----------
+    base_nodes : sequence of int
+        Tags of the nodes that shall stand on a bearing.
+    bearing : LIRBearing or mapping
+        One for all, or one by tag.
+    error : type
+        What is raised.
+
+    Returns
+    -------
+    dict of int to LIRBearing
+        The bearings.
+
+    Raises
+    ------
+    ValueError
+        If there is no tag, one repeats, or bearings and tags do not match.
+    TypeError
+        If something is no LIRBearing.
+    """
+    bases = [int(tag) for tag in base_nodes]
+    repeated = [tag for tag in bases if bases.count(tag) > 1]
+    if not bases or repeated:
+        what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
+        msg = f"base_nodes {what}: give the tag of each node that shall stand on a bearing once"
+        raise error(msg)
+    given = bearing if isinstance(bearing, Mapping) else dict.fromkeys(bases, bearing)
+    apart = sorted(set(bases) ^ {int(tag) for tag in given})
+    if apart:
+        where = "base_nodes but not in bearing" if apart[0] in bases else "bearing but no base node"
+        msg = f"node {apart[0]} is in {where}: give one bearing for each base node"
+        raise error(msg)
+    for tag in bases:
+        if not isinstance(given[tag], LIRBearing):
+            msg = f"the bearing of node {tag} is {given[tag]!r}: describe it by a LIRBearing"
+            raise TypeError(msg)
+    return {tag: given[tag] for tag in bases}
+
+
+def check_base(ops: Any, bases: list[int], metre: float) -> None:
+    """Raise unless the base nodes are there, have six freedoms, and are where they were built."""
+    present = set(ops.getNodeTags() or ())
+    left = leftovers(ops)
+    if left:
+        msg = f"the OpenSees model cannot be analysed: {left}"
+        raise ValueError(msg)
+    for tag in bases:
+        if tag not in present:
+            msg = f"the OpenSees model has no node {tag}: base_nodes are tags of its nodes"
+            raise ValueError(msg)
+        shape = len(ops.nodeCoord(tag)), len(ops.nodeDisp(tag))
+        if shape != (3, 6):
+            msg = (
+                f"node {tag} has {shape[0]} coordinates and {shape[1]} degrees of freedom: isolate "
+                "needs 3 and 6; in the plane put the bearings by bearing_element, one by one"
+            )
+            raise ValueError(msg)
+        moved = metre * max(abs(value) for value in ops.nodeDisp(tag)[:3])
+        if moved > _AT_REST:
+            msg = (
+                f"base node {tag} has moved by {moved:.3g} m, at most {_AT_REST:g} m is allowed, "
+                "for its bearing would start displaced: call isolate on the model as it was built "
+                "(ops.reset() takes it back), or while its supports hold it"
+            )
+            raise ValueError(msg)
+
+
+def new_tags(
+    present: Any, given: Sequence[int] | None, bases: list[int], word: str, kind: str
+) -> dict[int, int]:
+    """Return new tags by base node: those given, or free ones above the largest."""
+    known = {int(tag) for tag in present or ()}
+    if given is None:
+        first = max([*known, 0]) + 1
+        return {tag: first + place for place, tag in enumerate(bases)}
+    new = [int(tag) for tag in given]
+    if len(new) != len(bases) or len(set(new)) != len(new):
+        msg = f"{word} has {len(set(new))} different tags: give one for each of {len(bases)} nodes"
+        raise ValueError(msg)
+    taken = sorted(known.intersection(new))
+    if taken:
+        msg = f"{word}: {kind} {taken[0]} is in the model already, choose another tag"
+        raise ValueError(msg)
+    return dict(zip(bases, new, strict=True))
+
+
+def by_elevation(ops: Any, bases: list[int], up: int, metre: float) -> list[list[int]]:
+    """Return base nodes by elevation, those that are not alone."""
+    at = {tag: metre * ops.nodeCoord(tag)[up] for tag in bases}
+    groups: list[list[int]] = []
+    for tag in sorted(bases, key=lambda tag: at[tag]):
+        if not groups or at[tag] - at[groups[-1][0]] > _ONE_LEVEL:
+            groups.append([])
+        groups[-1].append(tag)
+    return [sorted(group, key=bases.index) for group in groups if len(group) > 1]
+
+
+def check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
+    """Refuse followers: in a new diaphragm, and on a bearing where what they follow is fixed."""
+    fixed = set(ops.getFixedNodes() or ()) - set(bases)
+    for tag in set(ops.getConstrainedNodes() or ()).intersection(bases):
+        leaders = [int(other) for other in ops.getRetainedNodes(tag)]
+        grounded = [
+            other
+            for other in leaders
+            if other in fixed and {1, 2, 3}.intersection(ops.getFixedDOFs(other))
+        ]
+        if grounded:
+            msg = (
+                f"a multi-point constraint ties base node {tag} to the fixed node {grounded[0]}: "
+                f"its bearing could not move; remove it by ops.remove('mp', {tag})"
+            )
+            raise ValueError(msg)
+        if any(tag in group for group in groups):
+            msg = (
+                f"base node {tag} follows node {leaders[0]} by a multi-point constraint: pass "
+                "base_diaphragm=False and keep the model's own, or remove that one by "
+                f"ops.remove('mp', {tag})"
+            )
+            raise ValueError(msg)
+
+
+def doubts(ops: Any, bases: list[int]) -> list[str]:
+    """Say what holds base nodes beside their bearings, and whether the base lacks mass."""
+    notes = []
+    held = {
+        int(tag)
+        for tag in ops.getFixedNodes() or ()
+        if {1, 2, 3}.intersection(ops.getFixedDOFs(tag))
+    } - set(bases)
+    beside = []
+    for element in ops.getEleTags() or ():
+        nodes = {int(tag) for tag in ops.eleNodes(element)}
+        if nodes.intersection(bases) and nodes.intersection(held):
+            beside.append(int(element))
+    if beside:
+        notes.append(
+            f"elements {listed(beside)} join base nodes to supports beside their bearings: what "
+            "resists the rise of a pendulum draws load to itself; remove what stood for the old "
+            f"isolators or foundations, ops.remove('element', {beside[0]}) and so on"
+        )
+    every = sum(max(ops.nodeMass(tag)[:3]) for tag in ops.getNodeTags())
+    if sum(max(ops.nodeMass(tag)[:3]) for tag in bases) <= _NO_MASS * every:
+        notes.append(
+            "the base nodes have no mass: friction acts on nothing that has inertia, and steps "
+            "have to be small; give them that of the slab above the bearings, ops.mass(tag, ...)"
+        )
+    return notes
+
+
+def release(
+    ops: Any, tag: int, up: int, base_rotations: str
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Release a base node; return the degrees of freedom released, and those that are held."""
+    before = {int(dof) for dof in ops.getFixedDOFs(tag) or ()}
+    tilts = {4, 5, 6} - {4 + up}
+    after = {"kept": before & tilts, "free": set[int](), "fixed": tilts}[base_rotations]
+    for dof in sorted(before - after):
+        ops.remove("sp", tag, dof)
+    new = after - before
+    if new:
+        ops.fix(tag, *(int(dof in new) for dof in range(1, 7)))
+    return tuple(sorted(before - after)), tuple(sorted(after))

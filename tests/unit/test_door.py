@@ -1,0 +1,91 @@
+"""Checks at the door: what passes unchanged, and that refusals name value, bound and remedy."""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from lir_element.door import (
+    as_number,
+    require_between,
+    require_choice,
+    require_finite,
+    require_non_negative,
+    require_positive,
+    require_type,
+    require_vector,
+)
+
+
+class OwnError(ValueError):
+    """What a caller raises."""
+
+
+@pytest.mark.parametrize("value", [2, 2.0, np.int64(2), np.float32(2), Fraction(2), np.array(2.0)])
+def test_every_kind_of_number(value: object) -> None:
+    number = as_number("length", value, "m")
+    assert number == 2.0
+    assert type(number) is float
+
+
+@pytest.mark.parametrize(
+    "value", [True, np.bool_(True), "2", None, 2j, np.complex64(2), [2.0], np.array([2.0])]
+)
+def test_what_is_no_number(value: object) -> None:
+    with pytest.raises(TypeError, match=r"length = .* is not a number: give one number in m$"):
+        require_positive("length", value, "m", error=OwnError)
+
+
+@pytest.mark.parametrize(
+    ("check", "good", "bad"),
+    [
+        (require_finite, (-1.0, 0.0), (math.nan, math.inf, -math.inf)),
+        (require_positive, (1e-300, 1.0), (0.0, -1.0, math.nan, math.inf)),
+        (require_non_negative, (0.0, 1.0), (-1e-300, math.nan, math.inf)),
+    ],
+)
+def test_bounds(
+    check: Callable[..., float], good: tuple[float, ...], bad: tuple[float, ...]
+) -> None:
+    for value in good:
+        assert check("length", value) == value
+    for value in bad:
+        with pytest.raises(OwnError, match=rf"length = {value:g} \[m\] must be .*: measure it$"):
+            check("length", value, "m", remedy="measure it", error=OwnError)
+
+
+def test_infinity_where_it_is_meant() -> None:
+    assert require_positive("radius", math.inf, "m", infinite=True) == math.inf
+    with pytest.raises(ValueError, match="must be positive: give it in m"):
+        require_positive("radius", math.nan, "m", infinite=True)
+
+
+@pytest.mark.parametrize("value", [-0.01, 1.0, math.nan])
+def test_between(value: float) -> None:
+    assert require_between("share", 0.0, 0.0, 1.0) == 0.0
+    with pytest.raises(OwnError, match=f"share = {value:g} .* at least 0 and below 1: give a pure"):
+        require_between("share", value, 0.0, 1.0, "-", error=OwnError)
+
+
+def test_vectors_are_copies() -> None:
+    given = np.arange(3.0)
+    assert require_vector("point [m]", given, 3) is not given
+    bad: list[tuple[object, str]] = [
+        ([1.0, 2.0], r"shape \(2,\), it must be \(3,\)"),
+        ([1.0, 2.0, math.inf], r"\[1.0, 2.0, inf\] must be finite"),
+        (["a", "b", "c"], "must be 3 real numbers"),
+    ]
+    for values, message in bad:
+        with pytest.raises(OwnError, match=message):
+            require_vector("point [m]", values, 3, error=OwnError)
+
+
+def test_kinds_and_choices() -> None:
+    require_type("name", "a", str, "a string")
+    with pytest.raises(TypeError, match="name = 7 must be a string"):
+        require_type("name", 7, str, "a string")
+    require_choice("axis", "x", ("x", "y"))
+    with pytest.raises(OwnError, match=r"axis = 'q': choose one of \('x', 'y'\)"):
+        require_choice("axis", "q", ("x", "y"), error=OwnError)
