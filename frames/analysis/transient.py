@@ -79,8 +79,8 @@ def time_history(
         Length of the analysis [s]; that of the motion if None. Beyond it the ground rests.
     dt : float, optional
         Step [s]. None: the step of the motion, or its largest whole part of at most 0.005 s,
-        halved wherever the estimated error asks for it. A given step is halved only where Newton's method fails, or where a
-        contact that opens or closes would make or lose energy.
+        halved wherever the estimated error asks for it. A given step is halved only where Newton's
+        method fails, or where a contact that opens or closes would make or lose energy.
     level : {"pendulum", "contact", "rigid_body"} or mapping
         Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
         those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":

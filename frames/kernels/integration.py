@@ -202,7 +202,7 @@ def bend(run: Run, k: int, axis: int) -> float:
     return float(new - old - ratio * (old - run.push[k, axis]))
 
 
-@inlined
+@kernel
 def lagging(model: Model, run: Run, k: int) -> float:
     """Return the force by which the Bouc-Wen friction of bearing `k` lags behind its law.
 
@@ -226,7 +226,7 @@ def lagging(model: Model, run: Run, k: int) -> float:
     return total
 
 
-@inlined
+@kernel
 def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
     """Return the estimated error of the step in the bearings' displacement over what is allowed.
 
