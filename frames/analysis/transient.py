@@ -44,7 +44,7 @@ _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
 _SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from the start
-_ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
+_ERROR_VERTICAL = 0.03  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
@@ -78,9 +78,9 @@ def time_history(
     duration : float, optional
         Length of the analysis [s]; that of the motion if None. Beyond it the ground rests.
     dt : float, optional
-        Step [s]. None: the step of the motion, at most 0.005 s, halved wherever the estimated
-        error asks for it. A given step is halved only where Newton's method fails, or where a
-        contact that opens or closes would make or lose energy.
+        Step [s]. None: the step of the motion, or its largest whole part of at most 0.005 s,
+        halved wherever the estimated error asks for it. A given step is halved only where Newton's
+        method fails, or where a contact that opens or closes would make or lose energy.
     level : {"pendulum", "contact", "rigid_body"} or mapping
         Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
         those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":
@@ -134,7 +134,7 @@ def time_history(
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
     length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = min(motion.dt, LARGEST_STEP) if dt is None else dt
+    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
     steps = number_of_steps(length, dt, base)
     if level == "rigid_body":
         data, outcome = rigid_time_history(

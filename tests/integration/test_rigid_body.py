@@ -123,7 +123,7 @@ def test_difference_falls_with_the_tolerance(pulse: Callable[..., np.ndarray]) -
     peaks = [np.abs(run).max() for run in runs]
     assert peaks[-1] > 0.18  # on the rim
     errors = [np.abs(run - runs[-1]).max() for run in runs[:-1]]
-    # at the rim points open for an instant, the more the finer the steps, and friction forgets there
+    # at the rim points open for an instant, in finer steps more often, and friction forgets there
     assert errors[0] > 2.0 * errors[1] > 2.0 * errors[2], errors
     assert errors[1] < 2e-3 * peaks[-1]
     assert errors[2] < 5e-4 * peaks[-1]

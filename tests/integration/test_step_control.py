@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from frames import GroundMotion, lumped_mass, shear_building, time_history
+from frames import Frame, GroundMotion, lumped_mass, shear_building, time_history
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, VelocityFriction
 
 
@@ -58,6 +58,50 @@ def test_chosen_steps_are_accurate_and_turn(run, scene, seed):
     assert chosen.attrs["steps"] < 0.25 * fine.attrs["steps"]
     assert peak(chosen) == pytest.approx(peak(fine), rel=5e-3)
     assert peak(turned) == pytest.approx(peak(chosen), rel=1e-3)
+
+
+BARELY = {
+    "friction": CoulombFriction(0.1), "interface_friction": 0.2, "yield_displacement": 3e-4,
+}  # fmt: skip
+BOUC_WEN = {"friction_law": "bouc-wen", "bouc_wen_exponent": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("law", "scheme"),
+    [
+        (BOUC_WEN, {}),
+        ({}, {"integrator": "generalised-alpha", "spectral_radius": 0.0}),
+    ],
+    ids=["bouc-wen", "generalised-alpha"],
+)
+def test_laws_and_schemes_with_larger_errors(run, law, scheme):
+    """Implicit steps of Bouc and Wen's law are of first order; a scheme that damps errs more."""
+    model, moves = lumped_mass(bearing(**BARELY, **law), 1e5), motion(1, 0.7, vertical=0.0)
+    fine = run(model, moves, dt=2e-4, record_every=25, **scheme)
+    assert peak(run(model, moves, **scheme)) == pytest.approx(peak(fine), rel=0.01)
+
+
+def test_samples_of_the_motion_are_ends_of_steps(run):
+    """A single sample every 6 ms: steps of 5 ms would see another impulse."""
+    spikes = np.zeros(200)
+    spikes[60], spikes[90] = 4.0, -3.0
+    moves, model = GroundMotion(x=spikes, dt=0.006), lumped_mass(bearing(), 1e5)
+    chosen, fine = run(model, moves), run(model, moves, dt=1.2e-4, record_every=25)
+    assert chosen.attrs["dt"] == pytest.approx(0.003)
+    assert peak(chosen) == pytest.approx(peak(fine), rel=5e-3)
+
+
+def test_vertical_ringing_on_a_stiff_substructure_costs_little(run):
+    frame = Frame("on a stiff spring")
+    for name, z, mass in (("ground", -1.0, 0.0), ("head", 0.0, 3e3), ("base", 0.1, 1e5)):
+        frame.add_node(name, 0.0, 0.0, z)
+        frame.fix(name, *(["all"] if mass == 0.0 else ["rx", "ry", "rz"]))
+        if mass > 0.0:
+            frame.add_mass(name, mass)
+    frame.add_spring("spring", "ground", "head", [1e10, 1e10, 1e10, 0.0, 0.0, 0.0])
+    frame.add_bearing("bearing", "head", "base", bearing())
+    chosen, fixed = (run(frame, motion(4, 0.9), dt=dt) for dt in (None, 0.005))
+    assert chosen.attrs["steps"] < 1.6 * fixed.attrs["steps"]
 
 
 def test_modes_of_the_structure_cost_nothing(run):
