@@ -1,4 +1,4 @@
-"""Kernel of the testing rig: imposed lateral path, axial load held by the vertical actuator."""
+"""Kernels of the testing rig: imposed lateral path, axial load held by the vertical actuator."""
 
 from __future__ import annotations
 
@@ -12,80 +12,91 @@ from lir_element.kernels.pendulum.trial import copy_words, has_no_state
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
-    from lir_element.layout import Floats, Records, Words
+    from lir_element.bundles.rig_data import RigRun
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 
 
 @kernel
-def hold_load(
-    props: Records, old: Records, new: Records, work: Records, contacts: Contacts | None,
-    u: Floats, v: Floats, time: float, load: float, k: Floats,
-) -> int:  # fmt: skip
+def hold_actuator(run: RigRun, contacts: Contacts | None, time: float, load: float) -> int:
     """Find the vertical displacement ``u[8]`` that carries `load`; return a status code."""
-    p = props[0]
-    code = _NEWTON_FAILED
+    p, u, k = run.props[0], run.u, run.tangent
+    new = run.new[0]
     low, high = -math.inf, math.inf  # places that carry too much, too little
     for _ in range(60):
-        code = bearing_trial(props, old, new, work, contacts, 0, u, v, time)
+        code = bearing_trial(run.props, run.old, run.new, run.work, contacts, 0, u, run.v, time)
         if has_no_state(code):
             return code
-        excess = new[0].force[8] + load
+        excess = new.force[8] + load
         if abs(excess) <= 1e-9 * load:
-            return new[0].status
+            return new.status
         if excess > 0.0:
             high = min(high, u[8])
         else:
             low = max(low, u[8])
-        bearing_tangent(props, new, work, contacts, 0, k)
+        bearing_tangent(run.props, run.new, run.work, contacts, 0, k)
         if k[8, 8] > 0.0:
             u[8] -= excess / k[8, 8]
         else:  # lifted off: close the gap
-            u[8] -= (p.length - new[0].string) + load / p.axial_stiffness
+            u[8] -= (p.length - new.string) + load / p.axial_stiffness
         if not low < u[8] < high and low < high and math.isfinite(high - low):
             u[8] = 0.5 * (low + high)
     return _NEWTON_FAILED
 
 
 @kernel
-def run_path(
-    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
-    contacts: Contacts | None, path: Floats, loads: Floats, velocity: float, increment: float,
-    u: Floats, v: Floats, k: Floats, out: Words, v_out: Floats,
-    bodies_out: Words,
-) -> tuple[int, int, float]:  # fmt: skip
-    """Go through `path` (n, 2) at `velocity`; fill `out` (n, words) and `v_out` (n, 2).
+def accept(run: RigRun, contacts: Contacts | None) -> None:
+    """Commit the trial state."""
+    bearing_commit(run.props, run.old, run.new, run.old_words, run.new_words, contacts, 0)
 
-    Returns the number of points reached, a status code and the time. The bearing's records are
-    arrays of one; `bodies_out` (n, words) takes the sliders where they are bodies.
+
+@kernel
+def begin_path(run: RigRun, contacts: Contacts | None) -> int:
+    """Put the axial load on a bearing at the centre of its path; return a status code."""
+    load = run.loads[0]
+    run.u[8] = -load / run.props[0].axial_stiffness
+    code = hold_actuator(run, contacts, 0.0, load)
+    if code == _OK:
+        accept(run, contacts)
+    return code
+
+
+@kernel
+def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: int) -> int:
+    """Go on along the path until `last` points are reached, or `increments` were taken.
+
+    ``run.place`` and ``run.clock`` tell where it stands, and the next call goes on from there;
+    returns a status code.
     """
-    u[8] = -loads[0] / props[0].axial_stiffness
-    code = hold_load(props, old, new, work, contacts, u, v, 0.0, loads[0], k)
-    if code != _OK:
-        return 0, code, 0.0
-    bearing_commit(props, old, new, old_words, new_words, contacts, 0)
-    time, x, y, load = 0.0, 0.0, 0.0, loads[0]
-    for point in range(path.shape[0]):
-        d_x, d_y = path[point, 0] - x, path[point, 1] - y
+    place, clock = run.place, run.clock
+    taken = 0
+    while place[0] < last and taken < increments:
+        point = place[0]
+        x, y, load = 0.0, 0.0, run.loads[0]
+        if point > 0:
+            x, y, load = run.path[point - 1, 0], run.path[point - 1, 1], run.loads[point - 1]
+        d_x, d_y = run.path[point, 0] - x, run.path[point, 1] - y
         distance = math.sqrt(d_x * d_x + d_y * d_y)
-        parts = max(1, math.ceil(distance / increment))
-        duration = distance / velocity
-        speed = velocity if distance > 0.0 else 0.0
-        v[6] = d_x / distance * speed if distance > 0.0 else 0.0
-        v[7] = d_y / distance * speed if distance > 0.0 else 0.0
-        for part in range(1, parts + 1):
-            share = part / parts
-            u[6], u[7] = x + share * d_x, y + share * d_y
-            now = time + share * duration
-            load_now = load + share * (loads[point] - load)
-            code = hold_load(props, old, new, work, contacts, u, v, now, load_now, k)
+        parts = max(1, math.ceil(distance / run.increment))
+        speed = run.velocity / distance if distance > 0.0 else 0.0
+        run.v[6], run.v[7] = d_x * speed, d_y * speed
+        while place[1] < parts and taken < increments:
+            share = (place[1] + 1) / parts
+            run.u[6], run.u[7] = x + share * d_x, y + share * d_y
+            clock[1] = clock[0] + share * distance / run.velocity
+            held = load + share * (run.loads[point] - load)
+            code = hold_actuator(run, contacts, clock[1], held)
             if code != _OK:
-                return point, code, now
-            bearing_commit(props, old, new, old_words, new_words, contacts, 0)
-        time, x, y, load = time + duration, path[point, 0], path[point, 1], loads[point]
-        copy_words(old_words[0], out[point])
-        if contacts is not None:
-            copy_words(contacts.bodies_old_words[0], bodies_out[point])
-        v_out[point, 0], v_out[point, 1] = v[6], v[7]
-    return path.shape[0], _OK, time
+                return code
+            accept(run, contacts)
+            place[1] += 1
+            taken += 1
+        if place[1] == parts:
+            clock[0] += distance / run.velocity
+            copy_words(run.old_words[0], run.states_words[point])
+            if contacts is not None:
+                copy_words(contacts.bodies_old_words[0], run.bodies_words[point])
+            run.velocities[point, 0], run.velocities[point, 1] = run.v[6], run.v[7]
+            place[0], place[1] = point + 1, 0
+    return _OK

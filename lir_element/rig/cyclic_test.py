@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import xarray as xr
 
-from lir_element.bundles.contact_data import as_rows, contact_arrays
+from lir_element.bundles.contact_data import contact_arrays
+from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.door import require_choice, require_positive
 from lir_element.element import ALL_LEVELS, AnyLevel, initial_state, limit_detail
 from lir_element.errors import RunStatus
-from lir_element.kernels.cyclic_kernel import run_path
-from lir_element.layout import BODIES, STATE, WORK
+from lir_element.kernels.cyclic_kernel import begin_path, follow_path
+from lir_element.pieces import in_pieces, ready
 from lir_element.results.dataset import (
     bearing_coordinates,
     bearing_variables,
@@ -27,8 +28,10 @@ from lir_element.rig.rigid_rig import drive_path
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.bundles.rig_data import RigRun
     from lir_element.device.bearing import LIRBearing
-    from lir_element.layout import Floats, Records
+    from lir_element.layout import Floats
 
 _INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
 
@@ -69,6 +72,8 @@ def cyclic_test(
     ------
     ValueError
         If an input is out of bounds.
+    lir_element.AnalysisInterrupted
+        After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
 
     Examples
     --------
@@ -84,31 +89,21 @@ def cyclic_test(
     path, loads = _path(displacement), _loads(axial_load, displacement)
     speed = require_positive("velocity", velocity, "m/s")
     props = bearing.to_record()
-    old, new = initial_state(props), initial_state(props)
     contacts = None
     if level != "pendulum":
         contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
-
-    def go(points: Floats, out: Records, v_out: Floats, bodies: Records) -> tuple[int, int, float]:
-        return run_path(
-            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts,
-            points, loads, speed, _INCREMENT * bearing.yield_displacement, np.zeros(12),
-            np.zeros(12), np.zeros((12, 12)), as_rows(out), v_out,
-            as_rows(bodies),
-        )  # fmt: skip
-
-    out, v_out = np.zeros(len(path), dtype=STATE), np.zeros((len(path), 2))
-    bodies = np.zeros(len(path), dtype=BODIES)
-    if level == "rigid_body":
-        reached, code, time = go(np.zeros((1, 2)), out[:1], v_out[:1], bodies[:1])
-        if code == int(RunStatus.OK) and contacts is not None:
-            out, bodies, reached, code, time, new = drive_path(
-                props, contacts, old, path, loads, speed
-            )
+    largest = _INCREMENT * bearing.yield_displacement
+    run = rig_run(props, initial_state(props), path, loads, speed, largest)
+    status, time, reached = RunStatus(begin_path(run, contacts)), 0.0, 0
+    out, v_out, bodies, last = run.states, run.velocities, run.bodies, run.new
+    if status is RunStatus.OK and level == "rigid_body" and contacts is not None:
+        out, bodies, reached, status, time, last = drive_path(
+            props, contacts, run.old, path, loads, speed
+        )
         v_out = np.ascontiguousarray(bodies["velocity"][:, 2, :2])
-    else:
-        reached, code, time = go(path, out, v_out, bodies)
-    status = RunStatus(code)
+    elif status is RunStatus.OK:
+        status = _follow(run, contacts)
+        reached, time = int(run.place[0]), float(run.clock[1])
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
@@ -119,8 +114,18 @@ def cyclic_test(
         )
     data = xr.Dataset(variables, {"step": np.arange(reached), **bearing_coordinates(["bearing"])})
     data.attrs |= {"title": "cyclic test", "level": level, "velocity": speed}
-    detail = "" if status is RunStatus.OK else limit_detail(props, new, 0)
+    detail = "" if status is RunStatus.OK else limit_detail(props, last, 0)
     return report(data, status, time, "bearing in the rig", detail, on_failure=on_failure)
+
+
+def _follow(run: RigRun, contacts: Contacts | None) -> RunStatus:
+    """Follow the path piece by piece, so that Ctrl-C is heard."""
+    ready(follow_path, run, contacts, 0, 0)
+
+    def go(last: int, increments: int) -> int:
+        return follow_path(run, contacts, last, increments)
+
+    return in_pieces(go, lambda: int(run.place[0]), len(run.path))
 
 
 def _path(displacement: ArrayLike) -> Floats:

@@ -28,9 +28,9 @@ motion = GroundMotion(x=wave, y=0.5 * wave, dt=0.02)
 options = dict({options})
 
 def analyse(duration):
-    if "{level}" == "cyclic_test":
-        path = 0.15 * np.sin(np.linspace(0.0, duration, max(2, int(duration))))
-        return cyclic_test(bearing, path, 1e5, level="rigid_body")
+    if "{level}".startswith("rig "):
+        path = 0.15 * np.sin(np.linspace(0.0, 100.0 * duration, max(2, int(100.0 * duration))))
+        return cyclic_test(bearing, path, 1e5, level="{level}".removeprefix("rig "))
     return time_history(lumped_mass(bearing, 1e4), motion, duration, level="{level}", **options)
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may start tests without it
@@ -60,7 +60,9 @@ for time in range({times}):
         ("rigid_body", "record_every=10"),
         ("rigid_body", "record_every=2, integrator='explicit'"),
         ("auto", "record_every=1000"),
-        ("cyclic_test", ""),
+        ("rig pendulum", ""),
+        ("rig contact", ""),
+        ("rig rigid_body", ""),
     ],
 )
 def test_answered_and_kept(level: str, options: str) -> None:
