@@ -23,6 +23,10 @@ LEAST_INPUT = 1e-6
 """Input over weight and effective radius below which the ledger is measured against that [-]."""
 
 
+TUMBLED = 0.3
+"""Tilt of a slider beyond the one at its rim from which on it no longer lies but tumbles [rad]."""
+
+
 class Outcome(NamedTuple):
     """The end of a run."""
 
@@ -33,7 +37,7 @@ class Outcome(NamedTuple):
 
 
 def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
-    """Judge a completed run by its ledger of energy.
+    """Judge a completed run by its ledger of energy, and by its sliders where they are bodies.
 
     Parameters
     ----------
@@ -55,6 +59,10 @@ def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
     scale = max(float(np.abs(given).max()), abs(least))
     gap, numerical = gap / scale, numerical / scale
     data.attrs |= {"energy_error": gap, "numerical_share": numerical}
+    doubt = _tumbled(data)
+    if doubt:
+        data.attrs["audit"] += f"\n  inaccurate: {doubt}"
+        return RunStatus.INACCURATE, doubt
     allowed = ASKED_FOR if data.attrs["integrator"] == "generalised-alpha" else PROMISE
     if gap <= PROMISE and numerical <= allowed:
         if numerical <= PROMISE:
@@ -73,3 +81,23 @@ def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
     )
     data.attrs["audit"] += f"\n  inaccurate: {detail}"
     return RunStatus.INACCURATE, detail
+
+
+def _tumbled(data: xr.Dataset) -> str:
+    """Return what is doubtful of a run in which a slider tumbled, or an empty string."""
+    if "body_rotation" not in data:
+        return ""
+    turn = data["body_rotation"].sel(body=["bottom_slider", "top_slider"]).to_numpy()
+    tilt = np.hypot(turn[..., 0], turn[..., 1]).max(axis=(0, 2))  # NaN without contact points
+    sine = (data["rim_displacement"] / data["radius"]).to_numpy().max(axis=1)
+    lying = np.arcsin(np.minimum(sine, 1.0))
+    beyond = np.nan_to_num(tilt - lying, nan=-np.inf)
+    k = int(beyond.argmax())
+    if beyond[k] <= TUMBLED:
+        return ""
+    worst, degrees, rim = data["bearing"].to_numpy()[k], np.degrees(tilt[k]), np.degrees(lying[k])
+    return (
+        f"the slider of bearing {worst} tilted by {degrees:.0f} degrees (at its rim it lies at "
+        f"{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
+        "compare smaller steps, and take it as a failure of the bearing"
+    )
