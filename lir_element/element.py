@@ -25,6 +25,9 @@ AnyLevel = Literal["pendulum", "contact", "rigid_body"]
 LEVELS = ("pendulum", "contact")
 ALL_LEVELS = (*LEVELS, "rigid_body")
 
+_SNAPS = 0.97
+"""Of the slip beyond which there is no equilibrium: nearer to it a search that fails has met it."""
+
 
 def initial_state(props: Records) -> Records:
     """Return the state records (n,) of undeformed, unloaded bearings with properties `props`."""
@@ -254,6 +257,30 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         limit = float(props["rim_overrun"][index])
         return f"rim deformation {closure:.4g} m, rim_overrun {limit:.4g} m"
     return ""
+
+
+def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
+    """Return the first bearing whose slip is about to pass its last equilibrium, and how far it is.
+
+    ``L mu_h + mu_1 R_1 + mu_2 R_2``, docs/theory.md, section 2: there the force no longer rises,
+    and Newton's method finds no way on.
+
+    Parameters
+    ----------
+    props, state : records, (n,)
+        Constants and committed states of bearings.
+
+    Returns
+    -------
+    int, str, or None
+        Its index, and slip and limit in words.
+    """
+    slips = np.hypot(state["slip"][:, 0], state["slip"][:, 1])
+    friction = (state["friction_coefficient"] * props["radius"]).sum(axis=1)
+    held = props["length"] * props["interface_friction"] + friction
+    for k in np.flatnonzero(slips > _SNAPS * held):
+        return int(k), f"slip {slips[k]:.4g} m, no equilibrium beyond {held[k]:.4g} m"
+    return None
 
 
 def _twelve(name: str, value: ArrayLike) -> Floats:

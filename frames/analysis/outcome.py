@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.results.measures import ABSORBED
+from lir_element.element import about_to_snap, limit_detail
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from frames.analysis.static import GravityState
 
 PROMISE = 1e-3
 """Largest share of the input by which the ledger of a completed run may be open [-]."""
@@ -101,3 +104,26 @@ def _tumbled(data: xr.Dataset) -> str:
         f"{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
         "compare smaller steps, and take it as a failure of the bearing"
     )
+
+
+def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
+    """Return how a run ended that its loop left with `status`, and the number behind it."""
+    run = state.run
+    if status is RunStatus.STEP_TOO_SMALL:
+        cause = RunStatus(int(run.counts["cause"][0]))
+        if cause.is_bearing_failure:
+            return cause, ""
+        near = about_to_snap(state.model.props, run.old)
+        if near is not None:
+            run.counts["bearing"][0] = near[0]
+            return RunStatus.SLIP_UNSTABLE, near[1]
+        return status, f"last cause: {cause.meaning}"
+    if status.is_bearing_failure:
+        return status, limit_detail(state.model.props, run.new, int(run.counts["bearing"][0]))
+    return status, ""
+
+
+def culprit(state: GravityState) -> str:
+    """Return the name of the degree of freedom with the largest unbalanced force."""
+    place = int(np.argmax(np.abs(state.run.residual)))
+    return f'degree of freedom "{state.system.dof_labels[state.basis.bearing_dofs[place]]}"'

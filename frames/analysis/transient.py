@@ -12,7 +12,7 @@ from scipy import linalg
 from frames.analysis.automatic import settle
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.equilibrium import force_tolerance
-from frames.analysis.outcome import Outcome, judged
+from frames.analysis.outcome import Outcome, culprit, ended, judged
 from frames.analysis.plausible import check_analysis
 from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
@@ -24,7 +24,7 @@ from frames.motion.shaking import seen_by_steps
 from frames.results.auditing import audit_report
 from lir_element.device.features import Features
 from lir_element.door import require_between, require_choice, require_positive
-from lir_element.element import ALL_LEVELS, limit_detail
+from lir_element.element import ALL_LEVELS
 from lir_element.errors import RunStatus
 from lir_element.pieces import in_pieces, ready
 from lir_element.results.dataset import report, require_on_failure
@@ -204,7 +204,7 @@ def _run(
     ground = Ground(*seen_by_steps(shaking, settings.dt))
     _start(state, ground)
     code, seconds = _march(state, settings, ground, out, options)
-    status, detail = _outcome(state, code)
+    status, detail = ended(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
     count = int(clock["done"]) // options.record_every + 1
     peak = peak_velocity(motion, float(out.time[count - 1]))
@@ -230,7 +230,7 @@ def _run(
     }
     data.attrs["audit"] = audit_report(data)
     name = state.system.bearings[int(counts["bearing"])][0]
-    where = f'bearing "{name}"' if status.is_bearing_failure else _culprit(state)
+    where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = judged(data)
     return data, Outcome(status, float(clock["time"]), where, detail)
@@ -341,21 +341,3 @@ def _march(
     record(run, contacts, out, 0)
     status = in_pieces(go, lambda: int(run.clock["done"][0]), options.steps, options.progress)
     return status, perf_counter() - began
-
-
-def _outcome(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
-    run = state.run
-    if status is RunStatus.STEP_TOO_SMALL:
-        cause = RunStatus(int(run.counts["cause"][0]))
-        if cause.is_bearing_failure:
-            return cause, ""
-        return status, f"last cause: {cause.meaning}"
-    if status.is_bearing_failure:
-        return status, limit_detail(state.model.props, run.new, int(run.counts["bearing"][0]))
-    return status, ""
-
-
-def _culprit(state: GravityState) -> str:
-    # The degree of freedom with the largest unbalanced force.
-    place = int(np.argmax(np.abs(state.run.residual)))
-    return f'degree of freedom "{state.system.dof_labels[state.basis.bearing_dofs[place]]}"'
