@@ -97,7 +97,7 @@ _TEXT = {
     ),
     RunStatus.INTERRUPTED: ("interrupted by Ctrl-C", "run it again, or use what was computed"),
     RunStatus.INACCURATE: (
-        "completed, but the ledger of energy does not close: the results are doubtful",
+        "completed, but the results are doubtful",
         "use dt=None or a smaller dt; check the step with half of it",
     ),
 }

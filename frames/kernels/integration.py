@@ -251,7 +251,7 @@ def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> 
         late = lagging(model, run, k) / factor
         wrong += x * x + y * y + z * z + late * late
         mass += run.carried[k] * run.carried[k]
-    error = factor * clock.dt * math.sqrt(wrong / mass) * settings.error_time
+    error = factor * clock.dt * math.sqrt(wrong / mass) * settings.error_time  # (5.3)
     return error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 

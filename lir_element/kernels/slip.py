@@ -53,7 +53,7 @@ def charge_at(
         )
     if charge == 0.0 or charge >= mean:
         return 1.0, 0.0, 1.0, 0.0
-    way = charge / mean
+    way = charge / mean  # (3.5)
     if dt == 0.0:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.5 * left / mean
@@ -80,14 +80,14 @@ def charge_after(
     if charge == 0.0 or dt == 0.0:
         return push
     mean = 0.5 * (push_old + push)
-    filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y
+    filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y  # (3.6)
     return min(way * mean + filled, push)
 
 
 @kernel
 def stored(mu: float, charge: float, u_y: float, z_1: float, z_2: float) -> float:
     """Return the energy [J] in the elastic sliding of a contact."""
-    return 0.5 * mu * max(charge, 0.0) * u_y * (z_1 * z_1 + z_2 * z_2)
+    return 0.5 * mu * max(charge, 0.0) * u_y * (z_1 * z_1 + z_2 * z_2)  # (3.4)
 
 
 @kernel
@@ -114,7 +114,7 @@ def return_map(
     z) and its derivative by dw (2).
     """
     d_1, d_2 = dw_1 / u_y, dw_2 / u_y
-    b_1, b_2 = old_1 + d_1, old_2 + d_2
+    b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     inv = 1.0 / u_y
     if size == 0.0:
@@ -215,7 +215,7 @@ def friction_map(
         return flat
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
-    turn = share * angle * (1.0 - q) ** 2 * part
+    turn = share * angle * (1.0 - q) ** 2 * part  # (3.7)
     by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
     by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
     turn_1 = -by_angle * dw_2 + by_slip * s_1
@@ -271,7 +271,7 @@ def friction_coefficient(
     """Return mu and d(mu)/d(speed) of Eq. (1) of the paper (Mokha et al. 1990)."""
     if drop == 0.0:
         return f_max, 0.0
-    decay = drop * math.exp(-rate * speed)
+    decay = drop * math.exp(-rate * speed)  # (3.1)
     return f_max - decay, rate * decay
 
 
@@ -289,7 +289,7 @@ def kelvin_voigt(
     slope = stiffness
     force = stiffness * gap
     if dt > 0.0:
-        force += damping * (gap - closure_old) / dt
+        force += damping * (gap - closure_old) / dt  # (3.8)
         slope += damping / dt
     if force < 0.0:
         return 0.0, 0.0, gap

@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import re
 import warnings
 from pathlib import Path
 
@@ -280,3 +281,19 @@ def test_module_budget(path: Path) -> None:
             warnings.simplefilter("always")
             warnings.warn(f"{path.name}: {count} lines, budget {MODULE_BUDGET}", stacklevel=1)
     assert count <= 2 * MODULE_BUDGET
+
+
+def test_equations_that_kernels_cite_are_in_the_theory() -> None:
+    """A kernel cites (section.number); docs/theory.md ends that equation's line with it."""
+    theory = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+    numbered = re.findall(r"^ {4}.*\S {2,}\((\d+\.\d+)\)$", theory, flags=re.MULTILINE)
+    assert len(numbered) == len(set(numbered)) > 30
+    cited = {
+        number
+        for path in MODULES
+        if "kernels" in path.parts
+        for line in path.read_text(encoding="utf-8").splitlines()
+        for number in re.findall(r"\((\d+\.\d+)\)", line.partition("#")[2])
+    }
+    assert len(cited) > 20
+    assert cited <= set(numbered)

@@ -284,7 +284,7 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
         for col in range(12):
             total = w.k[place, col if col < 6 else col + 12]
             for e in range(12):
-                total += w.k[place, 6 + e] * w.right[e, col]
+                total += w.k[place, 6 + e] * w.right[e, col]  # (7.6)
             k[row, col] = -total
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)

@@ -84,7 +84,7 @@ def sphere(
     f_1, f_2 = mu * z_1, mu * z_2
     m = new.spot
     for a in range(3):
-        w.normal[a] = -push * m[a]
+        w.normal[a] = -push * m[a]  # (7.1)
         w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
@@ -135,7 +135,7 @@ def plane(
     new.gap, new.closure, new.push = -d[2], closure, push
     new.friction, new.slid = mu, slip
     new.speed = slip / dt if dt > 0.0 else 0.0
-    w.normal[2] = push
+    w.normal[2] = push  # (7.2)
     w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
     w.slope[2, 2] = -stiff
     w.slope[0, 2] = stiff * mu * (z_1 + push * z_n1)
@@ -182,7 +182,7 @@ def rim(p: Props, side: int, w: Scratch, old: Bodies, new: Bodies, dt: float) ->
         return
     e_1, e_2 = x / size, y / size
     hoop = push / size
-    w.normal[0], w.normal[1] = -push * e_1, -push * e_2
+    w.normal[0], w.normal[1] = -push * e_1, -push * e_2  # (7.3)
     w.slope[0, 0] = -stiff * e_1 * e_1 - hoop * e_2 * e_2
     w.slope[1, 1] = -stiff * e_2 * e_2 - hoop * e_1 * e_1
     w.slope[0, 1] = (hoop - stiff) * e_1 * e_2

@@ -112,7 +112,7 @@ def add_skew(k: Floats, row: int, col: int, f: Floats, sign: float) -> None:
 
 @kernel
 def set_row(w: Scratch, carrier: int, f: Floats) -> None:
-    """Set the derivative (3 x 12) of the pair's global force by body and carrier."""
+    """Set the derivative (3 x 12) of the pair's global force by body and carrier: (7.4)."""
     q, s = w.q[carrier], w.slope
     for a in range(3):
         for b in range(3):

@@ -42,7 +42,7 @@ def own_forces(s: BodyStep, dt: float, b: int) -> None:
         new.velocity[k, a] = (new.place[k, a] - old.place[k, a]) / dt
         change = new.velocity[k, a] - old.velocity[k, a]
         new.acceleration[k, a] = change / dt
-        part[first + a] -= c.mass[k] * change / dt
+        part[first + a] -= c.mass[k] * change / dt  # (7.5)
     momentum(c.inertia[k], w.q[b], new.spin[k], part, first + 3, -1.0 / dt)
     matrix_of(old.turn[k], w.spare_matrix)
     momentum(c.inertia[k], w.spare_matrix, old.spin[k], part, first + 3, 1.0 / dt)

@@ -68,7 +68,7 @@ def hold_load(p: Props, w: Work) -> None:
     else:
         load = p.fixed_load
         share = n[2] + n[0] * w.phi_s[0] + n[1] * w.phi_s[1]
-    w.n_true = load / share
+    w.n_true = load / share  # (9.3)
     w.n_pos, w.n_hat, w.scale, w.stiff_n = w.n_true, w.n_true, 1.0, 0.0
 
 

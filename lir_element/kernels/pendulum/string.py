@@ -4,14 +4,16 @@ With c from the bottom sphere's centre to the top one, n the slider's axis (inte
 two numbers), and t_1, t_2 the basis of the plane normal to n that turns with the bottom plate
 and has no spin about n (docs/theory.md):
 
-    l     = -n . c                      string length; axial force N(l), never below zero
-    s_a   = t_a . c                     slip of the interface
+    l     = -n . c                      string length; axial force N(l), never below zero   (1.1)
+    s_a   = t_a . c                     slip of the interface                               (1.4)
     dw_k  = -R_k (turn of n against plate k)          sliding on the surfaces
     r_k   = R_k |horizontal part of n, axes of plate k|      radial sliding, rim at d_max
 
 The axis turns until virtual work vanishes for every turn ``eta`` of it:
 
-    -N s + (ds/d eta)' F_h - R_1 F_1 - R_2 F_2 + (rims) = 0.
+    -N s + (ds/d eta)' F_h - R_1 F_1 - R_2 F_2 + (rims) = 0.                             (2.1)
+
+Numbers of equations, here and in all kernels, are those of docs/theory.md.
 
 All vectors here are in axes that turn with the bottom plate.
 """
@@ -65,11 +67,11 @@ def set_axis(w: Work, x: float, y: float, z: float) -> None:
     x, y, z = x / size, y / size, z / size
     k = 1.0 / (1.0 + z)
     w.n[0], w.n[1], w.n[2] = x, y, z
-    w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x
+    w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x  # (1.2)
     w.t[1, 0], w.t[1, 1], w.t[1, 2] = -k * x * y, 1.0 - k * y * y, -y
     if w.fixed_length > 0.0:
-        w.c[2] = -(w.fixed_length + x * w.c[0] + y * w.c[1]) / z
-    w.l = -(x * w.c[0] + y * w.c[1] + z * w.c[2])
+        w.c[2] = -(w.fixed_length + x * w.c[0] + y * w.c[1]) / z  # (9.2)
+    w.l = -(x * w.c[0] + y * w.c[1] + z * w.c[2])  # (1.1)
     for a in range(2):
         w.sigma[a] = w.t[a, 0] * w.c[0] + w.t[a, 1] * w.c[1] + w.t[a, 2] * w.c[2]
 
@@ -155,7 +157,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     m = w.old_top if k == 1 else old.axis
     for a in range(2):
         w.old[k, a] = w.t[a, 0] * m[0] + w.t[a, 1] * m[1] + w.t[a, 2] * m[2]
-        w.dw[k, a] = p.radius[k] * w.old[k, a]
+        w.dw[k, a] = p.radius[k] * w.old[k, a]  # (1.6), (1.7)
     w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
     before = old.sliding_increment[k]
@@ -225,7 +227,7 @@ def rims(p: Props, old: State, w: Work) -> None:
         else:
             x = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
             y = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
-        size = math.sqrt(x * x + y * y)
+        size = math.sqrt(x * x + y * y)  # (1.8)
         w.n_hor[k] = size
         w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
             -math.inf if away else p.radius[k] * size - p.rim_displacement[k],
@@ -264,7 +266,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
         hold_load(p, w)
     n = w.n_pos if p.fused else w.n_hat
     for a in range(2):
-        w.residual[a] = -n * w.drag[a] + w.push[a]
+        w.residual[a] = -n * w.drag[a] + w.push[a]  # (2.1)
     if p.fused:  # the interface carries what equilibrium asks for
         w.rim_scale = 1.0
         for a in range(2):

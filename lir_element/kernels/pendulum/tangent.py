@@ -75,6 +75,7 @@ def direction(
     spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
     tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
     rise = follow_height(p, w, e_1, e_2, d)
+    # (1.4), (1.5)
     d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise
     d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise
     d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * rise
@@ -172,7 +173,7 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
         w.rates[3], w.rates[4] = -rates[0] / w.l, -rates[1] / w.l
     else:
         rates = direction(p, w, 0.0, 0.0, d, v)
-        e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])
+        e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])  # (4.1)
         e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
         for k in range(12):
             w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
