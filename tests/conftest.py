@@ -26,8 +26,8 @@ PLAIN = {
 """Modules of tests/unit that are soon done with the kernels as plain Python, too."""
 
 
-DOUBTS = ("lir_element.DesignWarning", "frames.ModelWarning")
-"""Warnings of what is strange of a bearing or a model, which a test may mean to be."""
+DOUBTS = ("lir_element.DesignWarning", "lir_element.AnalysisWarning", "frames.ModelWarning")
+"""Warnings of what is strange of a bearing, a model or a run, which a test may mean to be."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
 _SHORTEST = 0.3  # of u_y: the way to slip that a rising axial force leaves at least
+_NO_FORCE = 1e-6  # N, what round-off makes of none
 _LITTLE = 1e-3  # hysteretic variable so small that it may give way to a full charge
 LANDED = -1.0  # charge of a contact that has been open: it lands with nothing stored
 
@@ -57,7 +58,7 @@ def charge_at(
     if dt == 0.0:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.5 * left / mean
-    if abs(z_1) + abs(z_2) < _LITTLE:
+    if z_1 * z_1 + z_2 * z_2 < _LITTLE * _LITTLE:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.25 * left / mean
     if way >= _SHORTEST:
@@ -75,7 +76,7 @@ def charge_after(
 
     A contact that has never carried a force (`charge` zero) is charged by its first one.
     """
-    if push <= 0.0:
+    if push <= _NO_FORCE:
         return LANDED if dt > 0.0 else 0.0
     if charge == 0.0 or dt == 0.0:
         return push

@@ -39,7 +39,7 @@ def test_recorded_ground_balances_recorded_forces(run, dt):
     ground = data["ground_acceleration"].to_numpy()
     assert_allclose(total[0], 0.0, rtol=0.0, atol=1e-9)  # nothing but the ground acts at first
     assert np.abs(ground[0]).max() > 1.0
-    assert data.attrs["numerical_share"] < 1e-4
+    assert data.attrs["numerical_share"] < 5e-4  # what friction owes where it turns in a long step
 
 
 @pytest.mark.parametrize("dt", [0.005, 0.02])
