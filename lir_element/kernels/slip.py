@@ -43,7 +43,8 @@ def charge_at(
     and that one's derivative. The mean axial force of the step counts: with the trapezoidal rule
     for works the store then changes by what friction does, whatever the axial force does. A
     contact that was open forgets z as it lands, over the first `floor` of axial force. In a static
-    step (`dt` zero) z gives way to a full charge: how a load came about leaves no trace.
+    step (`dt` zero) z gives way to a rising force, and the way to slip stays: how permanent loads
+    came about leaves no trace.
     """
     mean = 0.5 * (push_old + push) if dt > 0.0 else push
     if charge < 0.0:
@@ -55,9 +56,12 @@ def charge_at(
     if charge == 0.0 or charge >= mean:
         return 1.0, 0.0, 1.0, 0.0
     way = charge / mean  # (3.5)
+    if dt == 0.0 and push > push_old:
+        kept = min(charge / push_old, 1.0) if push_old > 0.0 else 1.0
+        left = math.sqrt(way / kept)
+        return kept, 0.0, left, -0.5 * left / push
     if dt == 0.0:
-        left = math.sqrt(way)
-        return 1.0, 0.0, left, -0.5 * left / mean
+        return way, -way / push, 1.0, 0.0
     if z_1 * z_1 + z_2 * z_2 < _LITTLE * _LITTLE:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.25 * left / mean
@@ -78,9 +82,9 @@ def charge_after(
     """
     if push <= _NO_FORCE:
         return LANDED if dt > 0.0 else 0.0
-    if charge == 0.0 or dt == 0.0:
+    if charge == 0.0:
         return push
-    mean = 0.5 * (push_old + push)
+    mean = 0.5 * (push_old + push) if dt > 0.0 else push
     filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y  # (3.6)
     return min(way * mean + filled, push)
 

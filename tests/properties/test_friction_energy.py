@@ -144,6 +144,23 @@ def test_uplift_loses_the_store(lab: SimpleNamespace) -> None:
     assert np.abs(element.response("friction_force")).max() < 2e-3 * 0.08 * LOAD
 
 
+@pytest.mark.parametrize("level", ["pendulum", "contact"])
+def test_a_static_trial_in_place_has_the_committed_force(lab: SimpleNamespace, level: str) -> None:
+    """Stuck under an axial force that has swung: neither time nor the charge changes the force."""
+    element, time = Element(device(lab, "coulomb"), level), 0.0
+    for load in (LOAD, LOAD, 0.5 * LOAD, 0.5 * LOAD, LOAD, LOAD):
+        u = np.zeros(12)
+        u[6] = 0.05e-3 if time > 0.0 else 0.0
+        u[8] = lab.vertical(element.bearing, u, load)
+        element.set_trial(u, np.zeros(12), time)
+        element.commit()
+        time += 0.01
+    force = element.resisting_force()
+    assert (np.array(element.response("charge")) < 0.8 * element.response("axial_force")).all()
+    element.set_trial(u, np.zeros(12), time - 0.01)
+    assert_allclose(element.resisting_force(), force, rtol=0.0, atol=1e-6 * LOAD)
+
+
 def test_stiffness_before_slip(lab: SimpleNamespace) -> None:
     """mu N / u_y under the first force; mu N^2 / (c u_y) where it has changed since, c its least.
 
