@@ -79,7 +79,7 @@ TERMS = {
     "low_friction_bottom": "dissipated on the bottom concave surfaces (and half of torsion)",
     "low_friction_top": "dissipated on the top concave surfaces (and half of torsion)",
     "high_friction": "dissipated in the high-friction interfaces",
-    "friction_elastic": "work of all friction before slip (elastic sliding)",
+    "friction_elastic": "stored in the elastic sliding before slip, against the state at rest",
     "rims": "work done on the rims: strain and damping",
     "contact": "work done on the axial contacts: strain and damping",
     "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",
