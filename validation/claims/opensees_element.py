@@ -41,6 +41,7 @@ CLAIM = Claim(
     EXAMPLE_RECORD,
 )
 GOAL = 0.005
+GOAL_COARSE = 0.01  # where slip turns round within long steps, work is owed (docs/theory.md, 5)
 SCALE, ANGLE = 1.1, math.radians(30.0)  # of the motion, and its direction in plan
 DURATION = 8.0  # s
 GRAVITY_STEPS = 10
@@ -140,8 +141,9 @@ def page(folder: Path | None) -> Page:
             asked = [k for k in ours if dt < COARSE or any(word in k for word in STEADY)]
             what = "a peak" if dt < COARSE else "displacement, slip, work"
             worst = max(abs(columns[f"OpenSees, {route}"][k] / ours[k] - 1.0) for k in asked)
+            goal = GOAL if dt < COARSE else GOAL_COARSE
             checks.append(below(f"largest difference of {what} ({name})", "frames",
-                                100.0 * GOAL, 100.0 * worst, "%"))  # fmt: skip
+                                100.0 * goal, 100.0 * worst, "%"))  # fmt: skip
         parts += [f"## Level {level}, steps of {1e3 * dt:g} ms", _table(columns)]
     slip = 1e3 * float(shown["frames"]["interface_slip_size"].max())
     worst = max(float(check.got.split()[0]) for check in checks if "a peak" in check.what)
