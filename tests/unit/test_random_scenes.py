@@ -14,11 +14,20 @@ from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.scenes import random_scene
-from validation.fuzzing.trial import change, compare_features, compare_steps, run, sensitivity
+from validation.fuzzing.trial import (
+    change,
+    compare_features,
+    compare_runs,
+    compare_steps,
+    run,
+    sensitivity,
+)
 from validation.random_scenes import arguments, lost, main, tasks
 
 SEED, CALM = 1, 26  # a mass in vertical motion, Newmark, a given step
 """A series and a scene of it that has nothing to find."""
+MIXED = 342
+"""A scene of it with one bearing of a grid at the level "contact"."""
 
 
 @pytest.fixture(scope="module")
@@ -203,6 +212,26 @@ def test_turns_and_mirrors():
     assert np.array_equal(mirrored(motion).components, motion.components * [1.0, -1.0, 1.0])
 
 
+def test_what_is_said_of_a_bearing_holds_for_its_image_in_the_mirror():
+    scene = random_scene(SEED, MIXED)
+    level, seen = scene.options["level"], scene.options_of(True)["level"]
+    (name,) = level
+    assert seen == {scene.images()[name]: "contact"} != level
+    assert scene.options_of(False) is scene.options
+    there, back = scene.images(), scene.images()
+    assert [back[there[name]] for name in there] == list(there)
+    places = [scene.build(False).bearings[name].bearing for name in there]
+    assert [scene.build(True).bearings[image].bearing for image in there.values()] == places
+
+
+def test_the_mirror_image_of_a_mixed_scene_moves_alike():
+    report = Report(0, "", "stick on a grid", "mixed")
+    scene = random_scene(SEED, MIXED)
+    compare_runs(report, scene, run(scene, scene.motion)[1], finer=False)
+    assert report.findings == []
+    assert report.mirror < 1e-9
+
+
 def test_what_hangs_or_dies_does_not_take_the_rest_along():
     slept = list(in_children(time.sleep, [0.0, 60.0, 0.01], workers=1, limit=1.0))
     assert slept == [(0.0, None, ""), (60.0, None, "hang"), (0.01, None, "")]
@@ -225,6 +254,10 @@ def test_the_page_lists_what_was_found():
     assert page.count("| crash | no report: crash |") == 2
     assert "| no end within the limit of time | 2 | **1** |" in page
     assert "2 scenes and 1 buildings" in page
+    assert (
+        '| level="auto" against all features: the peak differs by more than 0.01 | 1 | 0 |'
+        in page  # scene 4
+    )
     json.dumps(entries)
 
 

@@ -51,6 +51,23 @@ class Scene:
         given = self.options["level"]
         return given if isinstance(given, str) else "mixed"
 
+    def images(self) -> dict[str, str]:
+        """Return by the name of each bearing that of its image in a mirror along y."""
+        names = list(self.build(False).bearings)
+        if len(names) == 1:
+            return {names[0]: names[0]}
+        places = {name: tuple(int(part) for part in name.split("-")[1:]) for name in names}
+        last = max(iy for _, iy in places.values())
+        return {name: f"bearing-{ix}-{last - iy}" for name, (ix, iy) in places.items()}
+
+    def options_of(self, in_mirror: bool) -> Mapping[str, Any]:
+        """Return the options of the analysis, or those of the scene seen in a mirror along y."""
+        level = self.options["level"]
+        if not in_mirror or isinstance(level, str):
+            return self.options
+        images = self.images()
+        return {**self.options, "level": {images[name]: own for name, own in level.items()}}
+
     @property
     def is_newmark(self) -> bool:
         """Whether the scheme conserves energy and balances the ends of each step."""

@@ -46,7 +46,7 @@ def run(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         model = scene.build(in_mirror)
-        data = time_history(model, motion, **{**scene.options, **changes})
+        data = time_history(model, motion, **{**scene.options_of(in_mirror), **changes})
     return model, data, caught
 
 
@@ -206,11 +206,9 @@ def _turned_back(data: xr.Dataset, angle: float) -> xr.Dataset:
 def _mirrored_back(scene: Scene, data: xr.Dataset) -> xr.Dataset:
     moved = data["bearing_displacement"].copy(deep=True)
     moved.loc[{"axis": "y"}] *= -1.0
-    names = list(scene.build(False).bearings)
-    if len(names) > 1:
-        rows = max(int(name.split("-")[2]) for name in names)
-        image = [f"bearing-{name.split('-')[1]}-{rows - int(name.split('-')[2])}" for name in names]
-        moved = moved.sel(bearing=image).assign_coords(bearing=names)
+    images = scene.images()
+    if len(images) > 1:
+        moved = moved.sel(bearing=list(images.values())).assign_coords(bearing=list(images))
     return data.assign(bearing_displacement=moved)
 
 
