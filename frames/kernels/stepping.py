@@ -81,13 +81,18 @@ def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: 
 
 @kernel
 def norm(x: Floats) -> float:
-    """Return the largest absolute entry; infinite if one is not finite."""
-    largest = 0.0
+    """Return the Euclidean norm; infinite if an entry is not finite.
+
+    It is the same from all sides: Newton's method takes the same steps however a model is turned
+    about the vertical. The largest entry would not be, and a step that converges from one side
+    would be halved from another.
+    """
+    total = 0.0
     for a in range(x.shape[0]):
         if not math.isfinite(x[a]):
             return math.inf
-        largest = max(largest, abs(x[a]))
-    return largest
+        total += x[a] * x[a]
+    return math.sqrt(total)
 
 
 @inlined
