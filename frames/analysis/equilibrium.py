@@ -16,19 +16,20 @@ from lir_element.errors import AnalysisError, RunStatus
 from lir_element.pieces import ready
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from frames._types import FloatArray
     from frames.assembly.assemble import System
     from frames.assembly.basis import Basis
     from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Records
 
 _FORCE_TOLERANCE = 1e-9  # of the total weight
 _MAX_ITERATIONS = 100
-_SOFTEST = 1e-2  # elastic sliding before slip over effective radius, where a search begins
+_SOFTNESSES = (0.1, 1e-2, 1e-3)  # stiffness of the pendulum over that of friction: starts
 _FACTORS = (0.1, 0.3, 0.7)  # by which it is brought down, the next where one fails
 _MOST_STAGES = 60
-_YIELDS = ("yield_displacement", "interface_yield")
+_YIELDS = ("yield_displacement", "interface_yield", "torsion_yield")
 
 
 class Equilibrium(NamedTuple):
@@ -49,10 +50,10 @@ def find_equilibrium(
 ) -> Equilibrium:
     """Find the equilibrium of a frame under its permanent loads.
 
-    Newton's method starts from the linear solution. Where it fails, friction is softened: a large
-    elastic sliding before slip, which is brought down to the true one stage by stage, each from
-    the equilibrium before. The bearings are at rest before each solution, so that the last one is
-    the equilibrium that was asked for.
+    Newton's method starts from the linear solution. Where it fails, friction is softened: an
+    elastic sliding before slip that leaves it ten times as stiff as the pendulum, and is brought
+    down to the true one stage by stage, each from the equilibria before. The bearings are at rest
+    before each solution, so that the last one is the equilibrium that was asked for.
 
     Parameters
     ----------
@@ -103,32 +104,75 @@ def _softened(
     model: Model, solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]],
     guess: FloatArray,
 ) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
-    # Follow the equilibrium from soft friction to the true one; None if the way ends.
-    props = model.props
-    true = {name: props[name].copy() for name in _YIELDS}
-    soft = _SOFTEST * float(props["length"].max())
-    smallest = min(float(values.min()) for values in true.values())
+    # Follow the equilibrium from soft friction to the true one; None if no way leads there.
+    true = {name: model.props[name].copy() for name in _YIELDS}
     try:
-        for name, values in true.items():
-            props[name] = np.maximum(values, soft)
-        found = solve(guess)
-        for _ in range(_MOST_STAGES):
-            if found[0] is not RunStatus.OK:
-                return None
-            if soft <= smallest:
+        for softness in _SOFTNESSES:
+            found = _way_from(softness, model.props, true, solve, guess)
+            if found is not None:
                 return found
-            guess = found[1].b.copy()
-            for factor in _FACTORS:
-                for name, values in true.items():
-                    props[name] = np.maximum(values, factor * soft)
-                found = solve(guess)
-                if found[0] is RunStatus.OK:
-                    soft *= factor
-                    break
     finally:
         for name, values in true.items():
-            props[name] = values
+            model.props[name] = values
     return None
+
+
+def _way_from(
+    softness: float, props: Records, true: Mapping[str, FloatArray],
+    solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]], guess: FloatArray,
+) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
+    # The same from one softness.
+    _soften(props, true, softness)
+    found = solve(guess)
+    before: tuple[float, FloatArray] | None = None
+    for _ in range(_MOST_STAGES):
+        if found[0] is not RunStatus.OK:
+            return None
+        if all(np.array_equal(props[name], values) for name, values in true.items()):
+            return found
+        here = softness, found[1].b.copy()
+        for less, first in _next_guesses(here, before):
+            _soften(props, true, less)
+            found = solve(first)
+            if found[0] is RunStatus.OK:
+                before, softness = here, less
+                break
+    return None
+
+
+def _next_guesses(
+    here: tuple[float, FloatArray], before: tuple[float, FloatArray] | None
+) -> Iterator[tuple[float, FloatArray]]:
+    # Less softness and a first guess: on the line through both equilibria (while nothing slips,
+    # displacements are linear in the softness), then the last one.
+    softness, b = here
+    for factor in _FACTORS:
+        if before is not None:
+            yield (
+                factor * softness,
+                b + (1.0 - factor) * softness * ((b - before[1]) / (before[0] - softness)),
+            )
+        yield factor * softness, b
+
+
+def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> None:
+    # Elastic sliding before slip with which each contact is 1 / softness times as stiff as the
+    # pendulum: mu N / u = N / (softness L). The same for all, for where the interface is softer
+    # than the pendulum no slider finds its place.
+    low = np.asarray(props["friction_max"] - props["friction_drop"])
+    slid = softness * props["length"][:, None] * low
+    held = np.where(props["fused"] == 0, props["interface_friction"], 0.0)
+    twisting = props["torsion_lever"] > 0.0
+    twist = np.where(
+        twisting, slid.min(axis=1) / np.where(twisting, props["torsion_lever"], 1.0), 0
+    )
+    soft = {
+        "yield_displacement": slid,
+        "interface_yield": softness * props["length"] * held,
+        "torsion_yield": twist,
+    }
+    for name, values in true.items():
+        props[name] = np.maximum(values, soft[name])
 
 
 def _is_beyond(run: Run) -> bool:

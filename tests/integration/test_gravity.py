@@ -17,7 +17,9 @@ from frames import (
     lumped_mass,
     moment_frame,
 )
+from frames.analysis import equilibrium
 from frames.assembly.basis import bearing_rows
+from frames.kernels.stepping import solve_gravity
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 
 G = 9.80665
@@ -277,3 +279,25 @@ def test_heavy_load_on_stiff_friction(elastic, load):
     shear = np.linalg.norm(state.run.old["force"][:, 6:8], axis=1)
     assert (shear < mu * state.axial_forces).all()
     assert_allclose(state.model.props["yield_displacement"], elastic, rtol=0.0, atol=0.0)
+
+
+def test_the_way_over_softer_friction_leads_to_the_same_equilibrium(newhall_bearing, monkeypatch):
+    """The first search is said to fail: two iterations a stage then lead to where it had led."""
+    frame = moment_frame(bays=(2, 1), storeys=2, bearing=newhall_bearing)
+    frame.add_load("base-0-1", [2e4, 1e4, 0.0, 0.0, 0.0, 0.0])
+    direct = gravity(frame)
+    searches = []
+
+    def search(*given):
+        code = solve_gravity(*given)
+        searches.append((code, int(given[1].counts["iterations"][0])))
+        return int(RunStatus.NEWTON_FAILED) if len(searches) == 1 else code
+
+    monkeypatch.setattr(equilibrium, "ready", lambda *_: 0.0)
+    monkeypatch.setattr(equilibrium, "solve_gravity", search)
+    over_softer = gravity(frame)
+    assert len(searches) > 3
+    assert max(count for _, count in searches[1:]) <= 6
+    assert_allclose(over_softer.displacement, direct.displacement, rtol=0.0, atol=1e-9)
+    for name in ("yield_displacement", "interface_yield", "torsion_yield"):
+        assert np.array_equal(over_softer.model.props[name], direct.model.props[name])

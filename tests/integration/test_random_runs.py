@@ -16,6 +16,8 @@ SEED = 1
 CASES = 300
 AGAIN = 6
 BUILDINGS = 20
+HARD_BUILDINGS = (119, 123)
+"""Lateral loads on friction that holds within a micrometre, sliders of unlike size and friction."""
 KNOWN = {"store"}
 """Kinds of finding that the page still lists: a point may give back what gravity had stored."""
 FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
@@ -29,7 +31,7 @@ def test_completes_or_reports(number):
     assert report.outcome in {"ok", *FAILURES}, report.message
 
 
-@pytest.mark.parametrize("number", range(BUILDINGS))
+@pytest.mark.parametrize("number", [*range(BUILDINGS), *HARD_BUILDINGS])
 def test_a_building_finds_its_equilibrium_and_rests(number):
     report = try_building(SEED, number)
     assert report.findings == [], report.scene

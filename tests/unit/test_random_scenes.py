@@ -138,6 +138,12 @@ def test_a_run_may_say_what_its_damping_took_out(result):
     assert "end" in kinds(result, data)  # for it did not warn
 
 
+def test_work_that_friction_owes_is_work_of_the_forces(result):
+    data = result[2].copy(deep=True)
+    shifted("numerical", "low_friction_bottom", -5e-3)(data)
+    assert "works" not in kinds(result, data)
+
+
 def test_a_bit_makes_a_difference(result):
     data = result[2]
     other = data.copy(deep=True)
