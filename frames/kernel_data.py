@@ -108,6 +108,7 @@ class Run(NamedTuple):
     old_words: Array
     new_words: Array
     work: Array
+    store_at_rest: Array  # (1,) in the elastic sliding of all friction under permanent loads
     push: Array  # (n_bearings, 3) force on node j before the committed state
     rise: Array  # (n_bearings, 2) mean vertical velocity of node j to i, and its rate, last step
     carried: Array  # (n_bearings,) mass that the permanent axial force holds [kg]
@@ -228,7 +229,7 @@ def run_arrays(model: Model) -> Run:
     return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
-        work=np.zeros(count, dtype=WORK),
+        work=np.zeros(count, dtype=WORK), store_at_rest=np.zeros(1),
         push=np.zeros((count, 3)), rise=np.zeros((count, 2)), carried=np.ones(count),
         force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),

@@ -243,7 +243,7 @@ def _output(state: GravityState, times: FloatArray, recorded: RigidOutput) -> Ou
         if term in _TERMS:
             out.energy[:, k] = energy[term]
         elif term in _WORKS:
-            out.energy[:, k] = states[_WORKS[term]]
+            out.energy[:, k] = states[_WORKS[term]] - states[_WORKS[term]][0]  # against rest
     places = {term: k for k, term in enumerate(ENERGY_TERMS)}
     out.energy[:, places["low_friction_bottom"]] = states["work_friction"][:, 0]
     out.energy[:, places["low_friction_top"]] = states["work_friction"][:, 1]

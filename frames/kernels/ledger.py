@@ -90,10 +90,14 @@ def add_energy(model: Model, run: Run, ground: Ground) -> None:
 
 @inlined
 def add_bearing_energy(run: Run) -> None:
-    """Set the bearings' terms of the energy from their accumulated works."""
+    """Set the bearings' terms of the energy from their accumulated works.
+
+    What friction stores counts against the state at rest, where gravity may have left some.
+    """
     energy = run.energy[0]
     energy.low_friction_bottom, energy.low_friction_top, energy.high_friction = 0.0, 0.0, 0.0
-    energy.friction_elastic, energy.rims, energy.contact, energy.sliders = 0.0, 0.0, 0.0, 0.0
+    energy.friction_elastic = -run.store_at_rest[0]
+    energy.rims, energy.contact, energy.sliders = 0.0, 0.0, 0.0
     for k in range(run.old.shape[0]):
         old = run.old[k]
         energy.low_friction_bottom += old.work_friction[0]

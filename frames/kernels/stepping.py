@@ -190,7 +190,9 @@ def solve_gravity(
     for a in range(run.e.shape[0]):
         run.e[a] = model.load_e[a] / model.omega2[a]
     commit_bearings(model, run, contacts)
-    for k in range(run.old.shape[0]):  # works count from here
+    run.store_at_rest[0] = 0.0
+    for k in range(run.old.shape[0]):  # works count from here; what friction stores is a state
+        run.store_at_rest[0] += run.old[k].work_elastic
         for side in range(2):
             run.old[k].work_friction[side] = 0.0
             run.old[k].work_rim[side] = 0.0
@@ -198,7 +200,6 @@ def solve_gravity(
         for side in range(3):
             run.old[k].work_owed[side] = 0.0
         run.old[k].work_interface = 0.0
-        run.old[k].work_elastic = 0.0
         run.old[k].work_contact = 0.0
         run.old[k].work_sliders = 0.0
     return _OK

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from frames import GroundMotion, lumped_mass
+from frames import GroundMotion, energy_error, lumped_mass
 from lir_element import LIRBearing
 
 WEIGHT = 286.73e3
@@ -37,3 +37,26 @@ def test_vertical_shaking_at_twice_the_sticking_frequency(
     # two surfaces: W f_min u_y z^2 / 2 each, z = R u / (L u_y)
     most = 0.5 * WEIGHT * 0.0325 * square / b.yield_displacement
     assert float(stored.max()) < most * (10.0 * still / b.effective_radius) ** 2
+
+
+@pytest.mark.meant("the bearings hardly slide")
+@pytest.mark.parametrize("level", ["pendulum", "contact", "rigid_body"])
+def test_what_a_permanent_load_stored_may_be_given_back(
+    level: str, newhall_bearing: LIRBearing, run: Callable[..., xr.Dataset]
+) -> None:
+    """A lateral load leaves friction half used; ground that pushes against it takes it away."""
+    share, t = 0.5, np.arange(0.0, 0.3, 0.001)
+    model = lumped_mass(newhall_bearing, WEIGHT / 9.80665)
+    held = 0.0325 * sum(newhall_bearing.radii) / newhall_bearing.effective_radius
+    model.add_load("mass", [share * held * WEIGHT, 0.0, 0.0, 0.0, 0.0, 0.0])
+    push = share * held * 9.80665 * np.sin(2.0 * np.pi * t / 0.3) ** 2
+    data = run(model, GroundMotion(x=push, dt=0.001), dt=0.001, level=level)
+    stored = data["work_friction_elastic"].isel(bearing=0).to_numpy()
+    # two surfaces: W f_min u_y z^2 / 2 each, z the share but for what the pendulum takes
+    full = WEIGHT * 0.0325 * newhall_bearing.yield_displacement
+    assert stored[0] == pytest.approx(share**2 * full, rel=0.05)
+    assert stored.min() > -1e-9 * stored.max()
+    assert stored.min() < 0.1 * stored[0]
+    term = data["energy"].sel(term="friction_elastic").to_numpy()
+    np.testing.assert_allclose(term, stored - stored[0], rtol=0.0, atol=1e-12 * full)
+    assert energy_error(data) < 1e-3

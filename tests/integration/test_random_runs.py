@@ -18,16 +18,17 @@ AGAIN = 6
 BUILDINGS = 20
 HARD_BUILDINGS = (119, 123)
 """Lateral loads on friction that holds within a micrometre, sliders of unlike size and friction."""
-KNOWN = {"store"}
-"""Kinds of finding that the page still lists: a point may give back what gravity had stored."""
+HARD = (342, 533, 962, 1044, 1086)
+"""Found once: one bearing of a grid with contact points, seen in
+a mirror; Newton's method that tells east from north; friction that owes work."""
 FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
 
 
-@pytest.mark.parametrize("number", range(CASES))
+@pytest.mark.parametrize("number", [*range(CASES), *HARD])
 def test_completes_or_reports(number):
     again = number % AGAIN == 0 and random_scene(SEED, number).level == "pendulum"
-    report = try_scene(SEED, number, again=again, finer=False)
-    assert [entry for entry in report.findings if entry[0] not in KNOWN] == [], report.scene
+    report = try_scene(SEED, number, again=again or number in HARD, finer=False)
+    assert report.findings == [], report.scene
     assert report.outcome in {"ok", *FAILURES}, report.message
 
 

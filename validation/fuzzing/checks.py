@@ -24,7 +24,7 @@ LEDGER = 1e-3
 SMALL_INPUT = 1e-6
 """Input below which the ledger is not looked at, over weight times effective radius [-]."""
 GIVEN_BACK = -1e-9
-"""Largest step back of a dissipated energy, over its largest value [-]."""
+"""Largest step back of a dissipated energy, and least store, over its largest value [-]."""
 BALANCE = 1e-4
 """Largest unbalanced force on the whole structure, over weight and largest force [-]."""
 WORKS = 1e-3
@@ -172,7 +172,6 @@ def _ledger(report: Report, data: xr.Dataset) -> Iterator[tuple[str, float, str]
 
 def _friction(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
     # Friction never gives energy back, and its elastic part never more than it stored.
-    supplied = float(np.abs(data["energy"].sel(term="input")).max())
     count = len(data["time"])
     for name in ("work_low_friction", "work_high_friction"):
         work = data[name].to_numpy().reshape(count, -1)
@@ -182,11 +181,10 @@ def _friction(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
                 yield "given back", least, f"{name} falls by {-100.0 * least:.3g} % of its end"
         elif work.min() < 0.0:
             yield "given back", float(work.min()), f"{name} is negative"
-    store = data["work_friction_elastic"].to_numpy().reshape(count, -1)
-    floor = SMALL_INPUT * float(data["weight"]) * float(data["length"].min())
-    share = float(store.min()) / max(supplied, floor)
-    if share < -LEDGER:
-        yield "store", share, f"elastic store of friction at {100.0 * share:.3g} % of the input"
+    store = data["work_friction_elastic"].to_numpy()
+    share = float(store.min()) / max(float(store.max()), 1e-300)
+    if share < GIVEN_BACK:
+        yield "store", share, f"elastic store of friction at {100.0 * share:.3g} % of its largest"
 
 
 def _balance(scene: Scene, model: Frame, data: xr.Dataset) -> Iterator[tuple[str, float, str]]:

@@ -41,7 +41,7 @@ KINDS = {
     "ledger": f"gap of the ledger above {LEDGER:g} of the input",
     "numerical": f"numerical term of the ledger above {LEDGER:g} of the input, status ok",
     "given back": f"dissipation that falls by more than {-GIVEN_BACK:g} of its end",
-    "store": f"elastic store of friction below -{LEDGER:g} of the input",
+    "store": f"elastic store of friction below {GIVEN_BACK:g} of its largest",
     "balance": f"masses times accelerations against forces: off by more than {BALANCE:g}",
     "works": f"work of the forces in the Dataset against the ledger: off by more than {WORKS:g}",
     "repeat": "a second run that differs in a bit",
