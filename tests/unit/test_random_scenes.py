@@ -9,7 +9,9 @@ import pytest
 import xarray as xr
 
 from lir_element import LIRBearing
+from validation.fuzzing import trial
 from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.ends import LATE, left_over, same_end
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
 from validation.fuzzing.pool import in_children
@@ -161,13 +163,87 @@ def test_changes_are_measured_over_the_peak(result):
     other["bearing_displacement"] *= 1.01
     assert change(data, other) == pytest.approx(0.01)
     report = Report(0, "", "mass", "pendulum")
-    compare_steps(report, other, data)
+    assert compare_steps(report, result[1], other, data)
     assert report.peak_error == pytest.approx(0.01)
-    compare_steps(report, other.assign_attrs(status="newton_failed"), data)
+    assert not compare_steps(report, result[1], other.assign_attrs(status="newton_failed"), data)
     compare_features(report, data, data)
-    assert [kind for kind, _, _ in report.findings] == ["finer ends differently"]
+    assert report.findings == []
     compare_features(report, data, data.assign(bearing_displacement=1.2 * moved))
     assert report.findings[-1][0] == "auto"
+
+
+def failing(data: xr.Dataset, status: str, time: float) -> xr.Dataset:
+    return data.assign_attrs(status=status, failed_at=time)
+
+
+def test_a_bearing_fails_at_both_steps_or_at_none(result):
+    _, model, data = result
+    failed = failing(data, "slip_exceeded", 1.0)
+    assert same_end(model, failed, failing(data, "sphere_exceeded", 1.0 + 0.9 * LATE), 0.0)
+    assert not same_end(model, failed, failing(data, "sphere_exceeded", 1.0 + 1.1 * LATE), 0.0)
+    assert not same_end(model, failed, failing(data, "newton_failed", 1.0), np.inf)
+    assert same_end(model, data, data.assign_attrs(status="inaccurate"), 0.0)
+
+
+@pytest.mark.parametrize(
+    "status", ["slip_exceeded", "rim_overrun", "slip_unstable", "sphere_exceeded"]
+)
+def test_a_run_that_completes_may_have_missed_a_limit_by_its_error(result, status):
+    _, model, data = result
+    half = float(data["time"][-1]) / 2.0
+    limited = near(model, data, status)
+    failed = failing(data, status, half)
+    assert left_over(model, limited, status) == pytest.approx(1e-3, rel=1e-6)
+    assert same_end(model, limited, failed, 1.001e-3)
+    assert same_end(model, failed, limited, 1.001e-3)
+    assert not same_end(model, limited, failed, 0.999e-3)
+    early = failing(data, status, 0.5 * half)  # what happens long after is another thing
+    assert not same_end(model, limited, early, 1.001e-3)
+
+
+def near(model, data: xr.Dataset, status: str) -> xr.Dataset:
+    """Return a result in which the bearing comes within a millimetre of a limit, half through."""
+    data = data.copy(deep=True)
+    ((name, link),) = model.bearings.items()
+    limits, length = link.bearing.resolved(), link.bearing.effective_radius
+    place = len(data["time"]) // 2
+    own = data.sel(bearing=name)
+    for quiet in ("interface_slip_size", "rim_closure", "bearing_displacement"):
+        data[quiet] *= 0.0
+    data["axial_force"] += 2.0 * abs(float(data["axial_force"].min()))
+    if status == "rim_overrun":
+        data["rim_closure"][{"time": place}] = limits["rim_overrun"] - 1e-3
+    elif status == "sphere_exceeded":
+        data["bearing_displacement"].loc[{"axis": "y"}][{"time": place}] = (
+            length * np.sin(np.radians(72.0)) - 1e-3
+        )
+    else:
+        data["interface_friction"] = xr.full_like(data["interface_friction"], 0.2)
+        friction = (own["friction_coefficient"] * own["radius"]).sum("surface")
+        most = 0.2 * length + float(friction[place])
+        largest = limits["slip_capacity"] if status == "slip_exceeded" else most
+        data["interface_slip_size"][{"time": place}] = largest - 1e-3
+    return data
+
+
+def test_another_end_at_a_finer_step_is_found(monkeypatch):
+    """The reference is made to say that its bearing failed."""
+    scene = next(s for s in (random_scene(SEED, n) for n in range(99)) if chooses(s))
+    report = Report(0, "", scene.model, scene.level, controlled=True)
+    model, data, _ = run(scene, scene.motion)
+    failed = run(scene, scene.motion)[1].assign_attrs(status="slip_exceeded", failed_at=0.1)
+
+    def pretend(scene, motion, **changes):
+        return (model, failed, []) if "dt" in changes else run(scene, motion, **changes)
+
+    monkeypatch.setattr(trial, "run", pretend)
+    compare_runs(report, scene, model, data, finer=True)
+    assert [kind for kind, _, _ in report.findings] == ["finer ends differently"]
+
+
+def chooses(scene) -> bool:
+    """Return whether it is a mass at a step that the program chooses."""
+    return scene.model == "mass" and scene.level == "pendulum" and scene.options["dt"] is None
 
 
 def test_a_calm_scene_is_not_sensitive(result):
@@ -233,7 +309,8 @@ def test_what_is_said_of_a_bearing_holds_for_its_image_in_the_mirror():
 def test_the_mirror_image_of_a_mixed_scene_moves_alike():
     report = Report(0, "", "stick on a grid", "mixed")
     scene = random_scene(SEED, MIXED)
-    compare_runs(report, scene, run(scene, scene.motion)[1], finer=False)
+    model, data, _ = run(scene, scene.motion)
+    compare_runs(report, scene, model, data, finer=False)
     assert report.findings == []
     assert report.mirror < 1e-9
 

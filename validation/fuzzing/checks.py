@@ -9,6 +9,7 @@ import numpy as np
 
 from frames import energy_error
 from lir_element import RunStatus
+from validation.fuzzing.ends import FAILED_BEARINGS, INACCURATE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -31,10 +32,7 @@ WORKS = 1e-3
 """Largest difference of the work of the forces in the Dataset and in the ledger [-]."""
 UNLIMITED = {"rim_displacement", "interface_friction"}
 """Variables that may be infinite: without rims, in one piece."""
-INACCURATE = "inaccurate"
-"""Status of a run that went to its end, with a ledger that is open."""
 STATUSES = {status.name.lower() for status in RunStatus}
-FAILED_BEARINGS = {status.name.lower() for status in RunStatus if status.is_bearing_failure}
 
 
 @dataclass
@@ -123,12 +121,6 @@ def _end(scene: Scene, data: xr.Dataset, warned: Sequence[str]) -> Iterator[tupl
         yield "end", last, "a failure without place"
     if failed_at < last - 1e-9:
         yield "end", last, f"failed at {failed_at:g} s, before the last output"
-
-
-def end_of(data: xr.Dataset) -> str:
-    """Return how a run ended; one whose ledger is open went to its end, too."""
-    status = str(data.attrs["status"])
-    return "ok" if status == INACCURATE else status
 
 
 def _numbers(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:

@@ -9,15 +9,14 @@ import numpy as np
 
 from validation.fuzzing.checks import (
     BALANCE,
-    FAILED_BEARINGS,
     GIVEN_BACK,
-    INACCURATE,
     LEDGER,
     SMALL_INPUT,
     WORKS,
 )
+from validation.fuzzing.ends import FAILED_BEARINGS, INACCURATE, LATE
 from validation.fuzzing.scenes import LEVELS, MODELS
-from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SMALL_PEAK, TURN
+from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SENSITIVE_ERROR, SMALL_PEAK, TURN
 from validation.page import table
 
 if TYPE_CHECKING:
@@ -98,7 +97,11 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         "radius. "
         "A turn or a mirror image is a finding where it changes the displacement more than "
         f"{MARGIN:g} times as much as a change of the motion in its ninth digit "
-        f"({NOISE:g}): what lands often or hangs on an edge amplifies every difference.",
+        f"({NOISE:g}): what lands often or hangs on an edge amplifies every difference. A finer "
+        "step must end alike: bearings fail in both or in none. Which limit of a bearing is passed "
+        f"first is not looked at, if the times differ by no more than {100.0 * LATE:g} %; nor a "
+        "failure that the other run missed by less than the error of the displacement, at most "
+        f"{100.0 * SENSITIVE_ERROR:g} % of its peak.",
         _checks(scenes, buildings),
         "## Error of the chosen step",
         f"`dt=None` against a step {FINER} times finer: error of the peak displacement, and "
