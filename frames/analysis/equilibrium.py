@@ -157,8 +157,8 @@ def _next_guesses(
 
 def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> None:
     # Elastic sliding before slip with which each contact is 1 / softness times as stiff as the
-    # pendulum: mu N / u = N / (softness L), (5.4). The same for all, for where the interface is softer
-    # than the pendulum no slider finds its place.
+    # pendulum: mu N / u = N / (softness L), (5.4). The same for all, for where the interface is
+    # softer than the pendulum no slider finds its place.
     low = np.asarray(props["friction_max"] - props["friction_drop"])
     slid = softness * props["length"][:, None] * low
     held = np.where(props["fused"] == 0, props["interface_friction"], 0.0)
