@@ -168,7 +168,12 @@ def test_changes_are_measured_over_the_peak(result):
     assert not compare_steps(report, result[1], other.assign_attrs(status="newton_failed"), data)
     compare_features(report, data, data)
     assert report.findings == []
-    compare_features(report, data, data.assign(bearing_displacement=1.2 * moved))
+    larger = data.assign(bearing_displacement=1.2 * moved)
+    report.sensitivity = 0.02  # 0.2 / 1.2 is less than ten times that
+    compare_features(report, data, larger)
+    assert report.findings == []
+    report.sensitivity = 0.01
+    compare_features(report, data, larger)
     assert report.findings[-1][0] == "auto"
 
 

@@ -95,7 +95,7 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         f"turns), and where the program chooses the step with one {FINER} times finer. The ledger "
         f"is not looked at where the input is below {SMALL_INPUT:g} of weight times effective "
         "radius. "
-        "A turn or a mirror image is a finding where it changes the displacement more than "
+        "A turn, a mirror image or a feature left out is a finding where it changes the displacement more than "
         f"{MARGIN:g} times as much as a change of the motion in its ninth digit "
         f"({NOISE:g}): what lands often or hangs on an edge amplifies every difference. A finer "
         "step must end alike: bearings fail in both or in none. Which limit of a bearing is passed "
