@@ -15,7 +15,6 @@ from lir_element.kernels.pendulum.solve import solve_axis
 from lir_element.kernels.pendulum.string import (
     aim_axis,
     place_plates,
-    pressed,
     set_axis,
     static_speeds,
 )
@@ -73,14 +72,12 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    push_old, push = pressed(p, old, w)
+    push_old, push = w.pressing[0], w.pressing[1]
     z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
         p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, w.dt, 0.0, 0.0, 0.0,
     )  # fmt: skip
-    if p.fixed_load > 0.0:
-        by_n = 0.0
-    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * by_n)
+    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * w.pressing_rate * by_n)
     w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
     new.twist_hysteresis = z
@@ -109,6 +106,23 @@ def keep_works(old: State, new: State) -> None:
 
 
 @kernel
+def set_charges(p: Props, old: State, w: Work, new: State) -> None:
+    """Set the charges of the stores before slip at the end of the step."""
+    before, after = w.pressing[0], w.pressing[1]
+    for k in range(2):
+        new.charge[k] = charge_after(
+            old.charge[k], w.way[k], before, after, w.z[k, 0], w.z[k, 1], w.slid[k],
+            p.yield_displacement[k], w.dt,
+        )  # fmt: skip
+    new.interface_charge = 0.0
+    if not p.fused:
+        new.interface_charge = charge_after(
+            old.interface_charge, w.way_s, before, after, w.z_s[0], w.z_s[1], w.slid_s,
+            p.interface_yield, w.dt,
+        )  # fmt: skip
+
+
+@kernel
 def set_state(p: Props, old: State, w: Work, new: State) -> None:
     """Fill what the record keeps of the sliders."""
     n, t, q = w.n, w.t, w.q_i
@@ -123,9 +137,9 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     keep_works(old, new)
+    set_charges(p, old, w, new)
     new.string = w.l
     new.closure = w.closure
-    new.interface_charge = 0.0 if p.fused else w.charge_s
     new.axial_force = w.n_true
     new.vertical_force = w.vertical
     for k in range(2):
@@ -136,7 +150,6 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
         new.slid[k] = w.slid[k]
-        new.charge[k] = w.charge[k]
         new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
