@@ -51,9 +51,9 @@ def kernels_of(sources: Sources, inline: bool = False) -> KernelDecorator:
     """
 
     def decorate(function: F) -> F:
-        compiled: Any = numba.njit(
-            error_model="numpy", nogil=True, forceinline=inline, _nrt=False
-        )(function)
+        compiled: Any = numba.njit(error_model="numpy", nogil=True, forceinline=inline, _nrt=False)(
+            function
+        )
         if not config.DISABLE_JIT:  # else it is the plain function
             compiled._cache = KernelCache(function, sources)
         return cast("F", compiled)
@@ -88,6 +88,9 @@ def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
 
 kernel = kernels_of(OWN)
 """The kernel decorator of this package."""
+
+inlined = kernels_of(OWN, inline=True)
+"""The same for kernels that become part of their callers (see `kernels_of`)."""
 
 expanded: KernelDecorator = numba.njit(inline="always")
 """For kernels that stand for an expression: put in place before types are known.

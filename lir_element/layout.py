@@ -163,6 +163,7 @@ WORK_FIELDS = (
     Field("k6", "N/m, N, N m", "", "derivative of g and tau by centre and spin", (6, 6)),
     Field("dn6", "N/m, N", "", "derivative of the axial force by centre and spin", (6,)),
     Field("d_rows", "", "", "rows of the global tangent: force, moment", (6, 12)),
+    Field("n_row", "N/m, N", "", "derivative of the axial force by the nodes", (12,)),
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("torque_stiffness", "N m", "", "its derivative by the twist"),
     Field("torque_axial", "m", "", "its derivative by the axial force"),
@@ -200,7 +201,7 @@ POINT_FIELDS = (
 
 BODY_FIELDS = (
     Field("step", "s", "dt", "time step that led to this state, zero if static"),
-    Field("place", "m", "", "displacement: bottom slider, top slider, top plate", (3, 3)),
+    Field("displacement", "m", "", "of the mass centres: both sliders, top plate", (3, 3)),
     Field("turn", "-", "", "rotation as quaternion (scalar first)", (3, 4)),
     Field("velocity", "m/s", "", "velocity of the mass centres", (3, 3)),
     Field("spin", "rad/s", "", "angular velocity, global axes", (3, 3)),
@@ -249,11 +250,13 @@ SCRATCH_FIELDS = (
     Field("step", "m, rad", "", "last step of Newton's method", (18,)),
     Field("shift", "m", "", "displacement of the mass centres over the time step", (9,)),
     Field("try_shift", "m", "", "the same before a step of Newton's method", (9,)),
-    Field("try_place", "m", "", "places before a step", (3, 3)),
+    Field("try_displacement", "m", "", "displacements before a step", (3, 3)),
     Field("try_turn", "-", "", "rotations before a step", (3, 4)),
     Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", (3, 3)),
     Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", (3, 3)),
+    Field("axis", "-", "n", "axis that a slider is put at", (3,)),
     Field("spare_matrix", "", "", "spare", (3, 3)),
+    Field("spare_vector", "", "", "spare", (3,)),
     Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
 )

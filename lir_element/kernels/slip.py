@@ -40,11 +40,11 @@ def charge_at(
     """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
 
     Four numbers: the way to slip over u_y, the derivative of its logarithm by `push`, the share of
-    z that is left, and that one's derivative; one of both derivatives is zero. The mean axial force of the step counts: with the trapezoidal rule
-    for works the store then changes by what friction does, whatever the axial force does. A
-    contact that was open forgets z as it lands, over the first `floor` of axial force. In a static
-    step (`dt` zero) z gives way to a rising force, and the way to slip stays: how permanent loads
-    came about leaves no trace.
+    z that is left, and that one's derivative; one of both derivatives is zero. The mean axial force
+    of the step counts: with the trapezoidal rule for works the store then changes by what friction
+    does, whatever the axial force does. A contact that was open forgets z as it lands, over the
+    first `floor` of axial force. In a static step (`dt` zero) z gives way to a rising force, and
+    the way to slip stays: how permanent loads came about leaves no trace.
     """
     mean = 0.5 * (push_old + push) if dt > 0.0 else push
     if charge < 0.0:
@@ -281,6 +281,21 @@ def friction_coefficient(
         return f_max, 0.0
     decay = drop * math.exp(-rate * speed)  # (3.1)
     return f_max - decay, rate * decay
+
+
+@kernel
+def open_work(force_old: float, force: float, approach: float, closed: float) -> float:
+    """Return the work of a contact's force over the part of its approach that no closure took.
+
+    The trapezoidal rule lets a contact's force act over the open part of the step as well.
+    """
+    return 0.5 * (force_old + force) * abs(approach - closed)
+
+
+@kernel
+def surplus(stiffness: float, closure_old: float, closure: float, work: float) -> float:
+    """Return what a contact gives in a step beyond what it had stored; `work` is done on it."""
+    return max(0.5 * stiffness * (closure**2 - closure_old**2) - work, 0.0)
 
 
 @kernel

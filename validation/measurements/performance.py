@@ -51,10 +51,7 @@ def repeat_element(
     props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
     contacts: Contacts | None, path: Floats, v: Floats, dt: float, with_tangent: bool, k: Floats,
 ) -> int:  # fmt: skip
-    """Run trial (, tangent) and commit along `path` (n, 12); returns the iterations inside.
-
-    `v` (12,) holds the nodes' velocities.
-    """
+    """Run trial (, tangent) and commit along `path` (n, 12), speeds `v`; returns the iterations."""
     total = 0
     for step in range(path.shape[0]):
         bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt)

@@ -123,6 +123,7 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             along += rate[k] * (w.q_i[k, 0] * w.n[0] + w.q_i[k, 1] * w.n[1] + w.q_i[k, 2] * w.n[2])
         for k in range(3):
             rate[k] -= w.q_i[k, 2] * along / w.n[2]
+    square_bottom, square_top = 0.0, 0.0
     for a in range(2):
         bottom, top = 0.0, 0.0
         for k in range(3):
@@ -132,9 +133,10 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             n_m = w.q_i[m, 0] * w.n[0] + w.q_i[m, 1] * w.n[1] + w.q_i[m, 2] * w.n[2]
             n_o = w.q_i[o, 0] * w.n[0] + w.q_i[o, 1] * w.n[1] + w.q_i[o, 2] * w.n[2]
             top -= axis * ((v[9 + m] - v[3 + m]) * n_o - (v[9 + o] - v[3 + o]) * n_m)
-        w.phi[0, a], w.phi[1, a] = bottom, bottom + top
-    for k in range(2):
-        w.static_speed[k] = p.radius[k] * math.sqrt(w.phi[k, 0] ** 2 + w.phi[k, 1] ** 2)
+        square_bottom += bottom**2
+        square_top += (bottom + top) ** 2
+    w.static_speed[0] = p.radius[0] * math.sqrt(square_bottom)
+    w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
 @kernel

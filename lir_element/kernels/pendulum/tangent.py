@@ -140,9 +140,9 @@ def direction(
         g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_push
         g_d1 = w.n_hat * g_d1 + w.phi_s[0] * d_hat
         g_d2 = w.n_hat * g_d2 + w.phi_s[1] * d_hat
-    chi = s_2 * g_1 - s_1 * g_2
-    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * chi
-    chi *= k
+    cross = s_2 * g_1 - s_1 * g_2
+    chi = k * cross  # moment about n that the basis passes on: (2.1)
+    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * cross
     r_1 += d_l * g_1 + w.l * g_d1 + d_chi * w.n[1] + chi * (e_2 - k * w.n[1] * tilt)
     r_2 += d_l * g_2 + w.l * g_d2 - d_chi * w.n[0] - chi * (e_1 - k * w.n[0] * tilt)
     r_1 -= d_hat * s_1 + w.n_hat * d_s1

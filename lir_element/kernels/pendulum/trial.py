@@ -30,6 +30,8 @@ _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
+_NEAR_END = 0.9  # of the last slip: a search that fails from beyond it has met it (a choice)
+_BEYOND_END = 1.001  # of it: what is found further on lies on the far side; 0.1 % for the estimate
 _STARTS = (0.9, 0.5, 1.0, 0.75)  # by trial: none of 19,200 random trials near rims stayed unsolved
 SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 
@@ -182,18 +184,25 @@ def is_finite(x: Floats) -> bool:
 
 
 @kernel
-def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
-    """Return whether the slip passed ``L mu_h + mu_1 R_1 + mu_2 R_2``, where equilibrium ends.
+def last_slip(p: Props, at: State) -> float:
+    """Return the slip at which equilibrium ends in a state: ``L mu_h + mu_1 R_1 + mu_2 R_2``.
 
     The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
-    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md).
+    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md, section 2).
     """
+    mu = at.friction_coefficient
+    return at.string * p.interface_friction + p.radius[0] * mu[0] + p.radius[1] * mu[1]
+
+
+@kernel
+def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
+    """Return whether the slip passed the one at which equilibrium ends, or a search met its end."""
     if p.fused:
         return False
-    held = w.l * p.interface_friction + p.radius[0] * w.mu[0] + p.radius[1] * w.mu[1]
+    held = last_slip(p, new)
     if count < 0:
-        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > 0.9 * held
-    return math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) > 1.001 * held
+        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > _NEAR_END * held
+    return math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > _BEYOND_END * held
 
 
 @kernel
@@ -257,7 +266,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     set_forces(w, p, new, old)
     set_state(p, old, w, new)
     status = limit_status(p, new)
-    if has_snapped(p, old, w, count):
+    if has_snapped(p, old, new, count):
         status = _SLIP_UNSTABLE
     elif count < 0:
         status = _NO_EQUILIBRIUM
