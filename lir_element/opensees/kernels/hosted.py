@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._jit import kernel
+from lir_element._jit import counting as kernel
 from lir_element.bundles.contact_data import Contacts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
