@@ -1,4 +1,8 @@
-"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash."""
+"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash.
+
+Kernels allocate nothing, so they count no references to their arrays either (`_nrt=False`): whoever
+calls them holds these. The counting, atomic, took half of a step of the time loop.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +33,7 @@ class KernelDecorator(Protocol):
         ...
 
 
-def kernels_of(sources: Sources, inline: bool = False) -> KernelDecorator:
+def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> KernelDecorator:
     """Make a decorator that compiles the kernels of some packages.
 
     Parameters
@@ -39,6 +43,8 @@ def kernels_of(sources: Sources, inline: bool = False) -> KernelDecorator:
     inline : bool
         Whether a kernel becomes part of those that call it: for kernels that pass bundles of many
         arrays on, whose every call would otherwise cost as much as a small kernel's work.
+    counts : bool
+        Whether a kernel counts references: for those that make arrays of addresses (`carray`).
 
     Returns
     -------
@@ -47,7 +53,9 @@ def kernels_of(sources: Sources, inline: bool = False) -> KernelDecorator:
     """
 
     def decorate(function: F) -> F:
-        compiled: Any = numba.njit(error_model="numpy", nogil=True, forceinline=inline)(function)
+        compiled: Any = numba.njit(
+            error_model="numpy", nogil=True, forceinline=inline, _nrt=counts
+        )(function)
         if not config.DISABLE_JIT:  # else it is the plain function
             compiled._cache = KernelCache(function, sources)
         return cast("F", compiled)
@@ -82,6 +90,12 @@ def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
 
 kernel = kernels_of(OWN)
 """The kernel decorator of this package."""
+
+counting = kernels_of(OWN, counts=True)
+"""The same for kernels that make arrays of addresses (see `kernels_of`)."""
+
+inlined = kernels_of(OWN, inline=True)
+"""The same for kernels that become part of their callers (see `kernels_of`)."""
 
 expanded: KernelDecorator = numba.njit(inline="always")
 """For kernels that stand for an expression: put in place before types are known.

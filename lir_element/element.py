@@ -12,7 +12,7 @@ from lir_element.device.features import Features, apply
 from lir_element.door import require_choice
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
-from lir_element.kernels.pendulum.trial import has_no_state
+from lir_element.kernels.pendulum.trial import has_no_state, last_slip
 from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
 
 if TYPE_CHECKING:
@@ -262,8 +262,7 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
 def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
     """Return the first bearing whose slip is about to pass its last equilibrium, and how far it is.
 
-    ``L mu_h + mu_1 R_1 + mu_2 R_2``, docs/theory.md, section 2: there the force no longer rises,
-    and Newton's method finds no way on.
+    There (`last_slip`) the force no longer rises, and Newton's method finds no way on.
 
     Parameters
     ----------
@@ -276,8 +275,7 @@ def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
         Its index, and slip and limit in words.
     """
     slips = np.hypot(state["slip"][:, 0], state["slip"][:, 1])
-    friction = (state["friction_coefficient"] * props["radius"]).sum(axis=1)
-    held = props["length"] * props["interface_friction"] + friction
+    held = np.array([last_slip(p, at) for p, at in zip(props, state, strict=True)])
     for k in np.flatnonzero(slips > _SNAPS * held):
         return int(k), f"slip {slips[k]:.4g} m, no equilibrium beyond {held[k]:.4g} m"
     return None

@@ -75,7 +75,7 @@ def build_dataset(
     velocity = _bearing_velocity(state, out.v_b[:count])
     variables = bearing_variables("time", states[:count], velocity)
     if state.contacts is not None:
-        variables |= some_bodies("time", state.contacts.place, states[:count], bodies[:count])
+        variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     node = ("time", "node", "dof")
     grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
     forces = states["force"][:count, grounded, 6:9].sum(axis=1)

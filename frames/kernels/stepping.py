@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined, kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
-from lir_element.kernels.linear import solve_many
+from lir_element.kernels.linear import gather, scatter, solve_many
 from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
@@ -24,16 +24,10 @@ if TYPE_CHECKING:
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 _SINGULAR = int(RunStatus.SINGULAR)
-
-
-@inlined
-def gather(model: Model, k: int, b: Floats, out: Floats) -> None:
-    """Set `out` (12,) to the displacements (or velocities) of bearing `k`'s nodes."""
-    for row in range(12):
-        total = 0.0
-        for entry in range(model.start[k, row], model.start[k, row + 1]):
-            total += model.values[entry] * b[model.columns[entry]]
-        out[row] = total
+_SHORTER = 0.4  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
+_TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is taken as it is (a choice)
+_PATIENCE = 3  # tries: then a residual that rises a little does, past a corner of a law (a choice)
+_RISE = 2.0  # of the residual that is little (a choice)
 
 
 @inlined
@@ -48,8 +42,8 @@ def bearing_forces(
         run.force[a] = 0.0
     worst = _OK
     for k in range(model.props.shape[0]):
-        gather(model, k, b, run.u)
-        gather(model, k, v_b, run.v)
+        gather(model.start[k], model.columns, model.values, b, run.u)
+        gather(model.start[k], model.columns, model.values, v_b, run.v)
         code = bearing_trial(
             model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time
         )
@@ -59,9 +53,7 @@ def bearing_forces(
             if has_no_state(code):
                 return code
         force = run.new[k].force
-        for row in range(12):
-            for entry in range(model.start[k, row], model.start[k, row + 1]):
-                run.force[model.columns[entry]] += model.values[entry] * force[row]
+        scatter(model.start[k], model.columns, model.values, 1.0, force, run.force)
     return worst
 
 
@@ -154,13 +146,13 @@ def newton(
         if not solve_many(run.tangent, run.h_b.reshape((n_b, 1)), n_b, 1):
             return _SINGULAR
         factor = 1.0
-        for attempt in range(6):
+        for attempt in range(_TRIES):
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
             new = set_residual(model, run, contacts, linear, run.g_b, share)
-            if new < size or (attempt >= 3 and new < 2.0 * size):
+            if new < size or (attempt >= _PATIENCE and new < _RISE * size):
                 break
-            factor *= 0.4
+            factor *= _SHORTER
         if new == math.inf:
             return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
         for a in range(n_b):

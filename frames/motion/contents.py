@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Self
 
@@ -74,6 +74,14 @@ class MotionContents:
             object.__setattr__(motion, field, value)
         motion._freeze()
         return motion
+
+    def _with(
+        self, arrays: Mapping[str, FloatArray], dt: float | None = None, name: str | None = None
+    ) -> Self:
+        """Return a motion with other components, and the same step and name where none is given."""
+        x, y, z = (arrays.get(axis) for axis in AXES)
+        step = self.dt if dt is None else dt
+        return self._made(x, y, z, step, self.name if name is None else name)
 
     def __reduce__(self) -> tuple[Callable[..., Self], tuple[object, ...]]:
         # copies and pickles are made anew: arrays that are copied one by one can be written to

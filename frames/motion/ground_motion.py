@@ -6,34 +6,22 @@ samples the acceleration is linear; before the first and after the last one it i
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 from frames._errors import MotionError
 from frames.motion import changes
-from frames.motion.components import AXES
-from frames.motion.contents import MotionContents
-from frames.motion.records import (
-    AccelerationTrace,
-    ColumnLayout,
-    PathLike,
-    Source,
-    at2_traces,
-    column_traces,
-    common_step,
-)
+from frames.motion.recorded import RecordedMotion
 from frames.motion.spectra import response_spectrum
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     import xarray as xr
 
-    from frames._types import FloatArray
-
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class GroundMotion(MotionContents):
+class GroundMotion(RecordedMotion):
     """Accelerations of the ground along up to three axes.
 
     Parameters
@@ -71,127 +59,6 @@ class GroundMotion(MotionContents):
     >>> pulse.scaled(2.0).peak
     {'x': 6.0}
     """
-
-    @classmethod
-    def from_at2(
-        cls,
-        x: PathLike | None = None,
-        y: PathLike | None = None,
-        z: PathLike | None = None,
-        scale: float | Sequence[float] = 1.0,
-        name: str | None = None,
-    ) -> GroundMotion:
-        """Read PEER AT2 files, one for each component (`frames.motion.records.read_at2`).
-
-        Parameters
-        ----------
-        x, y, z : str or path, optional
-            The files; at least one of them. A vertical component recorded as positive downwards
-            (its name ends in DWN or DN) wants a negative scale.
-        scale : float or sequence of three
-            Factor on all components, or one for each [-].
-        name : str, optional
-            Name of the motion; the first file's name if left out.
-
-        Returns
-        -------
-        GroundMotion
-            The motion in m/s2.
-
-        Raises
-        ------
-        MotionError
-            If a file cannot be used, or time steps or lengths differ.
-
-        Warns
-        -----
-        MotionWarning
-            If the ground still moves at the end of a component.
-        """
-        traces, label = at2_traces(x, y, z)
-        return cls._from_traces(traces, label if name is None else name).scaled(scale)
-
-    @classmethod
-    def from_columns(
-        cls,
-        path: PathLike | None = None,
-        *,
-        x: Source | None = None,
-        y: Source | None = None,
-        z: Source | None = None,
-        unit: str,
-        time: int | None = None,
-        dt: float | None = None,
-        scale: float | Sequence[float] = 1.0,
-        skip: int = 0,
-        comments: str = "#",
-        delimiter: str | None = None,
-        name: str | None = None,
-    ) -> GroundMotion:
-        """Read columns of text files (`frames.motion.records.read_columns`).
-
-        Parameters
-        ----------
-        path : str or path, optional
-            The file that column numbers refer to.
-        x, y, z : int, str, path or (path, int), optional
-            Where each component is: a column of `path`, counted from 0; a file of its own, with
-            one column besides the times; or a file and its column.
-        unit : {"g", "m/s2", "cm/s2"}
-            Unit of the accelerations in the files.
-        time : int, optional
-            Column of the times [s] in each file. Give it or `dt`.
-        dt : float, optional
-            Time step [s] of files without times.
-        scale : float or sequence of three
-            Factor on all components, or one for each [-].
-        skip : int
-            Number of header lines that no comment sign marks.
-        comments : str
-            What starts a comment.
-        delimiter : str, optional
-            What separates the columns; white space if left out.
-        name : str, optional
-            Name of the motion; the first file's name if left out.
-
-        Returns
-        -------
-        GroundMotion
-            The motion in m/s2.
-
-        Raises
-        ------
-        MotionError
-            If a file cannot be used, or time steps or lengths differ.
-
-        Warns
-        -----
-        MotionWarning
-            If the ground still moves at the end of a component.
-
-        Examples
-        --------
-        One file with times, north, east and up, in cm/s2; three files of one column, in g:
-
-        >>> GroundMotion.from_columns(
-        ...     "station.bbp", x=2, y=1, z=3, time=0, unit="cm/s2"
-        ... )  # doctest: +SKIP
-        >>> GroundMotion.from_columns(
-        ...     x="E.ATH", y="N.ATH", z="V.ATH", dt=0.005, unit="g"
-        ... )  # doctest: +SKIP
-        """
-        layout = ColumnLayout(unit, time, dt, skip, comments, delimiter)
-        traces, label = column_traces(path, x, y, z, layout)
-        return cls._from_traces(traces, label if name is None else name).scaled(scale)
-
-    @classmethod
-    def _from_traces(cls, traces: dict[str, AccelerationTrace], name: str) -> Self:
-        """Join components that share their time step."""
-        arrays = {axis: trace.acceleration for axis, trace in traces.items()}
-        x, y, z = (arrays.get(axis) for axis in AXES)
-        motion = cls._made(x, y, z, common_step(traces), name)
-        motion._warn_of_drift(recorded=True)
-        return motion
 
     def scaled(self, factor: float | Sequence[float]) -> GroundMotion:
         """Return the motion times a factor, or times one factor for each of x, y and z.
@@ -367,11 +234,3 @@ class GroundMotion(MotionContents):
             raise MotionError(msg)
         data = response_spectrum(given[component], self.dt, periods, damping)
         return data.assign_attrs(motion=self.name, component=component)
-
-    def _with(
-        self, arrays: Mapping[str, FloatArray], dt: float | None = None, name: str | None = None
-    ) -> GroundMotion:
-        """Return a motion with other components, and the same step and name where none is given."""
-        x, y, z = (arrays.get(axis) for axis in AXES)
-        step = self.dt if dt is None else dt
-        return self._made(x, y, z, step, self.name if name is None else name)

@@ -24,11 +24,11 @@ WORDS = ("bodies_old", "bodies_new", "touch_old", "touch_new")
 class Contacts(NamedTuple):
     """Bearings with contact points: constants, committed (old) and trial (new) state, scratch.
 
-    `place` says for each bearing of a model where it stands in the other arrays, -1 for bearings
+    `row` says for each bearing of a model where it stands in the other arrays, -1 for bearings
     at another level. Unused contact points at the end of a row have no share.
     """
 
-    place: npt.NDArray[np.int64]  # (n_bearings,)
+    row: npt.NDArray[np.int64]  # (n_bearings,)
     sliders: Records  # (n,)
     points: Records  # (n, m)
     bodies_old: Records  # (n,)
@@ -76,8 +76,8 @@ def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravi
     Contacts
         Records of the chosen ones.
     """
-    place = np.full(len(bearings), -1, dtype=np.int64)
-    place[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
+    row = np.full(len(bearings), -1, dtype=np.int64)
+    row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
     each = [point_records(bearing) for bearing in picked]
     most = max((points.shape[1] for points in each), default=0)
@@ -95,7 +95,7 @@ def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravi
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
-        place=place, sliders=sliders, points=points,
+        row=row, sliders=sliders, points=points,
         bodies_old=bodies, bodies_new=others, touch_old=touches, touch_new=news,
         bodies_old_words=as_rows(bodies), bodies_new_words=as_rows(others),
         touch_old_words=as_rows(touches), touch_new_words=as_rows(news),

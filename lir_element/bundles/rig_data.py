@@ -34,7 +34,7 @@ class RigRun(NamedTuple):
     bodies: Records  # (n,) BODIES, where the sliders are bodies
     states_words: Words  # (n, words): the same memory
     bodies_words: Words
-    place: Words  # (2,) points reached, increments since
+    reached: Words  # (2,) points reached, increments since
     clock: Floats  # (2,) time of the last point, of the last trial
 
 

@@ -143,7 +143,7 @@ def rigid_run(
     states = np.repeat(state, 3)
     energy = np.zeros(3, dtype=RIGID_LEDGER)
     node = state["displacement"][0, 6:]
-    bodies["place"][:, 2] = node[:3]
+    bodies["displacement"][:, 2] = node[:3]
     half = 0.5 * node[3:]
     bodies["turn"][:, 2] = np.concatenate([[1.0], half * np.sinc(np.linalg.norm(half) / np.pi)])
     bodies["turn"][:, 2] /= np.linalg.norm(bodies["turn"][0, 2])

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
+_MAX_ITERATIONS = 60  # of Newton's method with bisection, which alone halves to round-off in 52
+_TOLERANCE = 1e-9  # of the axial load
 
 
 @kernel
@@ -23,13 +25,13 @@ def hold_actuator(run: RigRun, contacts: Contacts | None, time: float, load: flo
     """Find the vertical displacement ``u[8]`` that carries `load`; return a status code."""
     p, u, k = run.props[0], run.u, run.tangent
     new = run.new[0]
-    low, high = -math.inf, math.inf  # places that carry too much, too little
-    for _ in range(60):
+    low, high = -math.inf, math.inf  # heights that carry too much, too little
+    for _ in range(_MAX_ITERATIONS):
         code = bearing_trial(run.props, run.old, run.new, run.work, contacts, 0, u, run.v, time)
         if has_no_state(code):
             return code
         excess = new.force[8] + load
-        if abs(excess) <= 1e-9 * load:
+        if abs(excess) <= _TOLERANCE * load:
             return new.status
         if excess > 0.0:
             high = min(high, u[8])
@@ -66,13 +68,13 @@ def begin_path(run: RigRun, contacts: Contacts | None) -> int:
 def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: int) -> int:
     """Go on along the path until `last` points are reached, or `increments` were taken.
 
-    ``run.place`` and ``run.clock`` tell where it stands, and the next call goes on from there;
+    ``run.reached`` and ``run.clock`` tell where it stands, and the next call goes on from there;
     returns a status code.
     """
-    place, clock = run.place, run.clock
+    reached, clock = run.reached, run.clock
     taken = 0
-    while place[0] < last and taken < increments:
-        point = place[0]
+    while reached[0] < last and taken < increments:
+        point = reached[0]
         x, y, load = 0.0, 0.0, run.loads[0]
         if point > 0:
             x, y, load = run.path[point - 1, 0], run.path[point - 1, 1], run.loads[point - 1]
@@ -81,8 +83,8 @@ def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: i
         parts = max(1, math.ceil(distance / run.increment))
         speed = run.velocity / distance if distance > 0.0 else 0.0
         run.v[6], run.v[7] = d_x * speed, d_y * speed
-        while place[1] < parts and taken < increments:
-            share = (place[1] + 1) / parts
+        while reached[1] < parts and taken < increments:
+            share = (reached[1] + 1) / parts
             run.u[6], run.u[7] = x + share * d_x, y + share * d_y
             clock[1] = clock[0] + share * distance / run.velocity
             held = load + share * (run.loads[point] - load)
@@ -90,13 +92,13 @@ def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: i
             if code != _OK:
                 return code
             accept(run, contacts)
-            place[1] += 1
+            reached[1] += 1
             taken += 1
-        if place[1] == parts:
+        if reached[1] == parts:
             clock[0] += distance / run.velocity
             copy_words(run.old_words[0], run.states_words[point])
             if contacts is not None:
                 copy_words(contacts.bodies_old_words[0], run.bodies_words[point])
             run.velocities[point, 0], run.velocities[point, 1] = run.v[6], run.v[7]
-            place[0], place[1] = point + 1, 0
+            reached[0], reached[1] = point + 1, 0
     return _OK

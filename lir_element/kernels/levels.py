@@ -38,7 +38,7 @@ def bearing_trial(
 ) -> int:  # fmt: skip
     """Determine the state of bearing `k`; returns a RunStatus code."""
     if contacts is not None:
-        at = contacts.place[k]
+        at = contacts.row[k]
         if at >= 0:
             bodies = bodies_of(props, contacts, k, at)
             return contact_trial(bodies, old[k], new[k], work[k], u, v, time)
@@ -52,7 +52,7 @@ def bearing_tangent(
 ) -> None:  # fmt: skip
     """Fill the tangent (12, 12) of bearing `k`'s last trial."""
     if contacts is not None:
-        at = contacts.place[k]
+        at = contacts.row[k]
         if at >= 0:
             contact_tangent(bodies_of(props, contacts, k, at), work[k].dt, tangent)
             return
@@ -66,7 +66,7 @@ def bearing_commit(
 ) -> None:  # fmt: skip
     """Accept the trial state of bearing `k`."""
     if contacts is not None:
-        at = contacts.place[k]
+        at = contacts.row[k]
         if at >= 0:
             contact_accumulate(bodies_of(props, contacts, k, at), old[k], new[k], 2)
             copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
@@ -83,7 +83,7 @@ def bearing_defect(
 ) -> float:
     """Return the energy that bearing `k`'s contacts make or lose in the step by its size."""
     if contacts is not None:
-        at = contacts.place[k]
+        at = contacts.row[k]
         if at >= 0:
             return points_defect(bodies_of(props, contacts, k, at))
     return contact_defect(props[k], old[k], new[k])
@@ -97,4 +97,4 @@ def bearing_look(
     if contacts is None:
         return
     work[k].dt = 0.0
-    look_at_committed(bodies_of(props, contacts, k, contacts.place[k]), old[k])
+    look_at_committed(bodies_of(props, contacts, k, contacts.row[k]), old[k])

@@ -1,13 +1,37 @@
-"""Kernel of small dense linear systems."""
+"""Kernels of small linear maps: sparse rows, and dense systems."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 
 if TYPE_CHECKING:
-    from lir_element.layout import Floats
+    from lir_element.layout import Floats, Words
+
+
+@inlined
+def gather(start: Words, columns: Words, values: Floats, source: Floats, target: Floats) -> None:
+    """Set the 12 displacements `target` of a bearing's nodes from those of a model, `source`.
+
+    Row r of the map has the entries ``start[r]`` to ``start[r + 1]``.
+    """
+    for row in range(12):
+        total = 0.0
+        for entry in range(start[row], start[row + 1]):
+            total += values[entry] * source[columns[entry]]
+        target[row] = total
+
+
+@inlined
+def scatter(
+    start: Words, columns: Words, values: Floats, factor: float, force: Floats, target: Floats
+) -> None:
+    """Add `factor` times the 12 forces on a bearing's nodes to those of a model, `target`."""
+    for row in range(12):
+        value = factor * force[row]
+        for entry in range(start[row], start[row + 1]):
+            target[columns[entry]] += values[entry] * value
 
 
 @kernel

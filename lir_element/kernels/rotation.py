@@ -1,4 +1,4 @@
-"""Kernels of finite rotations: a rotation vector's matrix and its spin operator.
+"""Kernels of finite rotations: a rotation vector's matrix, its spin operator, cross products.
 
 Sources: Rodrigues' formula; Crisfield (1997), Non-linear Finite Element Analysis, vol. 2,
 section 16.
@@ -26,6 +26,17 @@ def coefficients(square: float) -> tuple[float, float, float]:
     x = math.sqrt(square)
     s = math.sin(x) / x
     return s, (1.0 - math.cos(x)) / square, (1.0 - s) / square
+
+
+@kernel
+def add_cross(k: Floats, row: int, col: int, x: float, y: float, z: float, factor: float) -> None:
+    """Add `factor` times the matrix of ``(x, y, z) x`` to the 3 x 3 block of `k` at (row, col)."""
+    k[row, col + 1] -= factor * z
+    k[row, col + 2] += factor * y
+    k[row + 1, col] += factor * z
+    k[row + 1, col + 2] -= factor * x
+    k[row + 2, col] -= factor * y
+    k[row + 2, col + 1] += factor * x
 
 
 @kernel

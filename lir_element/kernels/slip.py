@@ -39,12 +39,12 @@ def charge_at(
 ) -> tuple[float, float, float, float]:
     """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
 
-    Four numbers: the way to slip over u_y, its derivative by `push`, the share of z that is left,
-    and that one's derivative. The mean axial force of the step counts: with the trapezoidal rule
-    for works the store then changes by what friction does, whatever the axial force does. A
-    contact that was open forgets z as it lands, over the first `floor` of axial force. In a static
-    step (`dt` zero) z gives way to a rising force, and the way to slip stays: how permanent loads
-    came about leaves no trace.
+    Four numbers: the way to slip over u_y, the derivative of its logarithm by `push`, the share of
+    z that is left, and that one's derivative; one of both derivatives is zero. The mean axial force
+    of the step counts: with the trapezoidal rule for works the store then changes by what friction
+    does, whatever the axial force does. A contact that was open forgets z as it lands, over the
+    first `floor` of axial force. In a static step (`dt` zero) z gives way to a rising force, and
+    the way to slip stays: how permanent loads came about leaves no trace.
     """
     mean = 0.5 * (push_old + push) if dt > 0.0 else push
     if charge < 0.0:
@@ -61,12 +61,12 @@ def charge_at(
         left = math.sqrt(way / kept)
         return kept, 0.0, left, -0.5 * left / push
     if dt == 0.0:
-        return way, -way / push, 1.0, 0.0
+        return way, -1.0 / push, 1.0, 0.0
     if z_1 * z_1 + z_2 * z_2 < _LITTLE * _LITTLE:
         left = math.sqrt(way)
         return 1.0, 0.0, left, -0.25 * left / mean
     if way >= _SHORTEST:
-        return way, -0.5 * way / mean, 1.0, 0.0
+        return way, -0.5 / mean, 1.0, 0.0
     left = math.sqrt(way / _SHORTEST)  # as much is stored, under a larger force a unit of z
     return _SHORTEST, 0.0, left, -0.25 * left / mean
 
@@ -155,11 +155,10 @@ def return_map(
 @kernel
 def map_rate(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
-    by_old_1: float, by_old_2: float, by_d_1: float, by_d_2: float,
+    c_1: float, c_2: float,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Return the derivative of z (2) and of ``|b| - rho`` in a direction of z_old and dw / u."""
+    """Return the derivative of z (2) and of ``|b| - rho`` in a direction c of z_old."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2
-    c_1, c_2 = by_old_1 + by_d_1, by_old_2 + by_d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     if size == 0.0:
         return c_1, c_2, 0.0
@@ -171,8 +170,7 @@ def map_rate(
         if kappa <= 0.0:
             return c_1, c_2, 0.0
         rho, by_size = bouc_wen_radius(size, kappa, exponent)
-        by_kappa = w_1 * d_1 + w_2 * d_2 + e_1 * by_d_1 + e_2 * by_d_2
-        radial = by_size * (along - rho**exponent * by_kappa)
+        radial = by_size * (along - rho**exponent * (w_1 * d_1 + w_2 * d_2))
     elif size <= 1.0:
         return c_1, c_2, 0.0
     else:
@@ -189,26 +187,31 @@ def friction_map(
     """Return what `return_map` does with the way to slip that the store leaves, and more.
 
     Thirteen numbers: the nine of `return_map`, the derivatives of z (2) and of the slip by the
-    axial force `push`, and the way to slip over u_y.
+    axial force `push`, and the way to slip over u_y. The axial force changes the way u or what is
+    left of z, never both; z is a function of dw / u, so that the former needs nothing but the
+    derivative by dw.
 
     The return map leaves z along the mean direction of the step: half a step late where the path
     bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
-    way, by_way, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor, dt)
+    way, rate, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor, dt)
     u = way * u_y
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
         bouc_wen, exponent, left * old_1, left * old_2, dw_1, dw_2, u
     )
     n_1, n_2, s_n = 0.0, 0.0, 0.0
-    if by_way != 0.0 or by_left != 0.0:
-        shrink = -by_way / (way * u)  # derivative of 1 / u
+    if rate != 0.0:
+        n_1 = -rate * (h_11 * dw_1 + h_12 * dw_2)
+        n_2 = -rate * (h_21 * dw_1 + h_22 * dw_2)
+        s_n = rate * (slip - (s_1 * dw_1 + s_2 * dw_2))
+    elif by_left != 0.0:
         n_1, n_2, s_n = map_rate(
             bouc_wen, exponent, left * old_1, left * old_2, dw_1 / u, dw_2 / u,
-            by_left * old_1, by_left * old_2, shrink * dw_1, shrink * dw_2,
+            by_left * old_1, by_left * old_2,
         )  # fmt: skip
-        s_n = u * s_n + by_way / way * slip
+        s_n *= u
     cross = before_1 * dw_2 - before_2 * dw_1
     dot = before_1 * dw_1 + before_2 * dw_2
     flat = (z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way)
@@ -278,6 +281,21 @@ def friction_coefficient(
         return f_max, 0.0
     decay = drop * math.exp(-rate * speed)  # (3.1)
     return f_max - decay, rate * decay
+
+
+@kernel
+def open_work(force_old: float, force: float, approach: float, closed: float) -> float:
+    """Return the work of a contact's force over the part of its approach that no closure took.
+
+    The trapezoidal rule lets a contact's force act over the open part of the step as well.
+    """
+    return 0.5 * (force_old + force) * abs(approach - closed)
+
+
+@kernel
+def surplus(stiffness: float, closure_old: float, closure: float, work: float) -> float:
+    """Return what a contact gives in a step beyond what it had stored; `work` is done on it."""
+    return max(0.5 * stiffness * (closure**2 - closure_old**2) - work, 0.0)
 
 
 @kernel

@@ -244,7 +244,7 @@ class Hosted:
             return
         bundle = contact_arrays([self.bearing], [True], STANDARD_GRAVITY)
         self.block["point_count"] = bundle.points.shape[1]
-        for name in ("place", "sliders", "points", "bodies_old", "bodies_new", "touch_old",
+        for name in ("row", "sliders", "points", "bodies_old", "bodies_new", "touch_old",
                      "touch_new", "scratch"):  # fmt: skip
             self._keep(name, getattr(bundle, name))
         self._keep("bodies_first", initial_bodies(1))

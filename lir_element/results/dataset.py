@@ -161,18 +161,20 @@ def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str
     rotation = np.zeros((*displacement.shape[:2], 3, 3))
     rotation[:, :, :2] = turns.as_rotvec().reshape(*displacement.shape[:2], 2, 3)
     rotation[:, :, 2] = displacement[..., 9:12]
-    place = np.concatenate([bodies["place"][..., :2, :], displacement[..., None, 6:9]], axis=-2)
+    moved = np.concatenate(
+        [bodies["displacement"][..., :2, :], displacement[..., None, 6:9]], axis=-2
+    )
     return {
         "body": xr.Variable(("body",), list(BODY_NAMES)),
         "body_position": labelled(
-            dims, place, "m", "displacement of mass centre or plate node from its undeformed place"
+            dims, moved, "m", "displacement of mass centre or plate node from its undeformed place"
         ),
         "body_rotation": labelled(dims, rotation, "rad", "rotation vector of the body"),
     }
 
 
 def some_bodies(
-    step: str, place: IntArray, states: Records, bodies: Records
+    step: str, row: IntArray, states: Records, bodies: Records
 ) -> dict[str, xr.Variable]:
     """Return `body_variables` of all bearings, NaN for those without contact points.
 
@@ -180,7 +182,7 @@ def some_bodies(
     ----------
     step : str
         Name of the first dimension.
-    place : ndarray, shape (n_bearings,)
+    row : ndarray, shape (n_bearings,)
         Where a bearing stands in `bodies`, -1 if it does not.
     states, bodies : records, shape (n_steps, n_bearings), (n_steps, n_with_points)
         Committed states.
@@ -191,9 +193,9 @@ def some_bodies(
         Variables by name.
     """
     full = np.zeros(states.shape, dtype=bodies.dtype)
-    chosen = place >= 0
+    chosen = row >= 0
     full["turn"] = (1.0, 0.0, 0.0, 0.0)
-    full[:, chosen] = bodies[:, place[chosen]]
+    full[:, chosen] = bodies[:, row[chosen]]
     variables = body_variables(step, full, states["displacement"])
     for name in ("body_position", "body_rotation"):
         variables[name].data[:, ~chosen, :2] = np.nan

@@ -103,7 +103,7 @@ def cyclic_test(
         v_out = np.ascontiguousarray(bodies["velocity"][:, 2, :2])
     elif status is RunStatus.OK:
         status = _follow(run, contacts)
-        reached, time = int(run.place[0]), float(run.clock[1])
+        reached, time = int(run.reached[0]), float(run.clock[1])
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
@@ -125,7 +125,7 @@ def _follow(run: RigRun, contacts: Contacts | None) -> RunStatus:
     def go(last: int, increments: int) -> int:
         return follow_path(run, contacts, last, increments)
 
-    return in_pieces(go, lambda: int(run.place[0]), len(run.path))
+    return in_pieces(go, lambda: int(run.reached[0]), len(run.path))
 
 
 def _path(displacement: ArrayLike) -> Floats:

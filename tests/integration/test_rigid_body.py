@@ -303,7 +303,7 @@ def test_spinning_plate_in_flight() -> None:
         state.model.props, state.contacts, state.run.old.copy(), np.full(3, MASS), inertia,
         np.ones(6, np.int64), driven=False,
     )  # fmt: skip
-    run.bodies["place"][:, 2, 2] += 0.5
+    run.bodies["displacement"][:, 2, 2] += 0.5
     run.bodies["spin"][:, 2] = (0.8, 1.5, 0.6)
     run.bodies["velocity"][:, 2] = (0.2, -0.1, 0.3)
     count, dt = 41, 0.005
@@ -319,7 +319,7 @@ def test_spinning_plate_in_flight() -> None:
     t = given.times
     expected = np.array([0.2, -0.1, 0.3]) * t[:, None]
     expected[:, 2] -= 0.5 * G * t**2
-    moved = bodies["place"][:, 2] - bodies["place"][0, 2]
+    moved = bodies["displacement"][:, 2] - bodies["displacement"][0, 2]
     assert_allclose(moved, expected, rtol=0.0, atol=1e-7)
     q = Rotation.from_quat(bodies["turn"][:, 2], scalar_first=True).as_matrix()
     momentum = np.einsum("tij,j,tkj,tk->ti", q, inertia, q, bodies["spin"][:, 2])

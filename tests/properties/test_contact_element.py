@@ -207,7 +207,7 @@ def test_landing_on_an_edge(points: int, way: float) -> None:
     element, u, time = tilted(points, 3e3, 1.5e-3, way)
     bearing = element.bearing
     record, height = slider_record(bearing)[0], bearing.height
-    start = contacts(element).bodies_old["place"][0, 1] + record["place"][2]
+    start = contacts(element).bodies_old["displacement"][0, 1] + record["place"][2]
     start[2] += bearing.radii[0]  # from the bottom vertex
     element.set_trial(u, STILL, time)
     plan, share = ring_points(points, 0.08)
@@ -419,11 +419,11 @@ def test_whole_bearing_is_in_equilibrium(name: str, lab: SimpleNamespace) -> Non
             own = mass[b] * (after["velocity"][b] - before["velocity"][b]) / dt
             own = own + mass[b] * np.array([0.0, 0.0, 9.80665])
             assert_allclose(
-                after["velocity"][b], (after["place"][b] - before["place"][b]) / dt,
+                after["velocity"][b], (after["displacement"][b] - before["displacement"][b]) / dt,
                 rtol=1e-12, atol=1e-15,
             )  # fmt: skip
             forces = forces - own
-            moments = moments - np.cross(after["place"][b] + place[b + 1] - at_i, own)
+            moments = moments - np.cross(after["displacement"][b] + place[b + 1] - at_i, own)
             moments = moments - (momentum(after, b) - momentum(before, b)) / dt
         scale = max(np.abs(f[[2, 8]]).max(), 200.0)
         worst = max(worst, np.abs(forces).max() / scale, np.abs(moments).max() / scale)

@@ -49,10 +49,9 @@ HISTORY = START + (
 @kernel
 def repeat_element(
     props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
-    contacts: Contacts | None, path: Floats, dt: float, with_tangent: bool, k: Floats,
+    contacts: Contacts | None, path: Floats, v: Floats, dt: float, with_tangent: bool, k: Floats,
 ) -> int:  # fmt: skip
-    """Run trial (, tangent) and commit along `path` (n, 12); returns the iterations inside."""
-    v = np.zeros(12)
+    """Run trial (, tangent) and commit along `path` (n, 12), speeds `v`; returns the iterations."""
     total = 0
     for step in range(path.shape[0]):
         bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt)
@@ -91,7 +90,7 @@ def element_microseconds(
         began = time.perf_counter()
         iterations = repeat_element(
             props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
-            0.001, tangent, np.zeros((12, 12)),
+            np.zeros(12), 0.001, tangent, np.zeros((12, 12)),
         )  # fmt: skip
         times.append((time.perf_counter() - began) / len(path) * 1e6)
     return statistics.median(times[1:]), iterations / len(path)

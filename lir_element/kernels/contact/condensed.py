@@ -43,6 +43,10 @@ _TOLERANCE = 1e-10  # of the normal forces
 _HOLD = 1e-10  # of the contact stiffness, in static states
 ROUND_OFF = 4e-16  # of lengths and turns
 LARGEST_TURN = 0.1  # rad, of a body in one iteration
+SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
+_TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
+_GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
+_RESTING = 1.0 / 3.0  # of the closure in each of the three interfaces, which are equally stiff
 
 
 @kernel
@@ -57,21 +61,21 @@ def place_nodes(p: Props, c: Sliders, w: Scratch, u: Floats) -> None:
 
 @kernel
 def put_slider(c: Sliders, w: Scratch, new: Bodies, b: int, centre: Floats, depth: float) -> None:
-    """Put slider `b` (1, 2) with its sphere's centre at `centre`, axis ``w.step[:3]``.
+    """Put slider `b` (1, 2) with its sphere's centre at `centre`, axis ``w.axis``.
 
     It turns from where it is on the shortest way; `depth` is the mass centre's height above the
     sphere's centre.
     """
     matrix_of(new.turn[b - 1], w.spare_matrix)
     x, y, z = w.spare_matrix[0, 2], w.spare_matrix[1, 2], w.spare_matrix[2, 2]
-    n = w.step
+    n = w.axis
     c_x, c_y, c_z = y * n[2] - z * n[1], z * n[0] - x * n[2], x * n[1] - y * n[0]
     size = math.sqrt(c_x * c_x + c_y * c_y + c_z * c_z)
     angle = math.atan2(size, x * n[0] + y * n[1] + z * n[2])
     factor = angle / size if size > 1e-12 else 1.0
     turn_by(new.turn[b - 1], factor * c_x, factor * c_y, factor * c_z, new.turn[b - 1])
     for a in range(3):
-        new.place[b - 1, a] = centre[a] + depth * n[a] - c.place[b, a]
+        new.displacement[b - 1, a] = centre[a] + depth * n[a] - c.place[b, a]
 
 
 @kernel
@@ -80,17 +84,17 @@ def follow_string(p: Props, c: Sliders, new: Bodies, w: Scratch, pen: Work) -> N
     closure = pen.l - p.length
     q = pen.q_i
     for a in range(3):
-        w.step[a] = q[a, 0] * pen.n[0] + q[a, 1] * pen.n[1] + q[a, 2] * pen.n[2]
-    share_bottom, share_top = closure / 3.0, closure / 3.0
+        w.axis[a] = q[a, 0] * pen.n[0] + q[a, 1] * pen.n[1] + q[a, 2] * pen.n[2]
+    share_bottom, share_top = _RESTING * closure, _RESTING * closure
     if not closure > 0.0:  # lifted off: both rest on the bottom plate
         share_bottom = (c.mass[0] + c.mass[1]) * c.gravity / c.stiffness
         share_top = closure - share_bottom
-    centre = w.force[0]
+    centre = w.spare_vector
     for a in range(3):
-        centre[a] = w.x[0, a] + p.lever[0] * w.q[0][a, 2] - share_bottom * w.step[a]
+        centre[a] = w.x[0, a] + p.lever[0] * w.q[0][a, 2] - share_bottom * w.axis[a]
     put_slider(c, w, new, 1, centre, c.place[1, 2])
     for a in range(3):
-        centre[a] = w.x[3, a] - p.lever[1] * w.q[3][a, 2] + share_top * w.step[a]
+        centre[a] = w.x[3, a] - p.lever[1] * w.q[3][a, 2] + share_top * w.axis[a]
     put_slider(c, w, new, 2, centre, c.place[2, 2] + p.length)
 
 
@@ -99,7 +103,7 @@ def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
     """Put the sliders where their velocity takes them."""
     for b in range(2):
         for a in range(3):
-            new.place[b, a] = old.place[b, a] + dt * old.velocity[b, a]
+            new.displacement[b, a] = old.displacement[b, a] + dt * old.velocity[b, a]
         s = old.spin[b]
         turn_by(old.turn[b], dt * s[0], dt * s[1], dt * s[2], new.turn[b])
 
@@ -125,7 +129,7 @@ def unbalanced(s: BodyStep, dt: float, speeds: Floats) -> float:
 
 
 @kernel
-def tolerance(p: Props, c: Sliders, touch: Records, dt: float) -> float:
+def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
     """Return the residual to reach: a share of the forces, and round-off under stiff laws."""
     total = p.axial_floor
     for j in range(touch.shape[0]):
@@ -159,11 +163,33 @@ def set_system(s: BodyStep, dt: float) -> None:
 
 
 @kernel
+def newton_direction(new: Bodies, w: Scratch, bodies: int) -> float:
+    """Set ``w.step`` of the first `bodies`, keep their turns; return how much of it to try first.
+
+    No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
+    """
+    n = 6 * bodies
+    for row in range(n):
+        w.right[row, 0] = w.residual[row]
+    if not solve_many(w.system, w.right, n, 1):
+        return 0.0
+    largest = 0.0
+    for row in range(n):
+        w.step[row] = w.right[row, 0]
+        if row % 6 >= 3:
+            largest = max(largest, abs(w.step[row]))
+    for k in range(bodies):
+        for a in range(4):
+            w.try_turn[k, a] = new.turn[k, a]
+    return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+
+
+@kernel
 def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
-    """Move the sliders by `factor` times ``w.step`` from ``w.try_place``, ``w.try_turn``."""
+    """Move the sliders by `factor` times ``w.step`` from where the iteration began."""
     for k in range(2):
         for a in range(3):
-            new.place[k, a] = w.try_place[k, a] + factor * w.step[6 * k + a]
+            new.displacement[k, a] = w.try_displacement[k, a] + factor * w.step[6 * k + a]
         turn_by(
             w.try_turn[k], factor * w.step[6 * k + 3], factor * w.step[6 * k + 4],
             factor * w.step[6 * k + 5], new.turn[k],
@@ -171,7 +197,7 @@ def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
 
 
 @kernel
-def settle(s: BodyStep, dt: float, speeds: Floats) -> int:
+def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
     new, touch_new = s.new, s.touch_new
@@ -184,32 +210,24 @@ def settle(s: BodyStep, dt: float, speeds: Floats) -> int:
             if size > 0.5 * mark:
                 return -1
             mark = size
-        if size <= tolerance(p, c, touch_new, dt):
+        if size <= small_forces(p, c, touch_new, dt):
             return count
         set_system(s, dt)
-        for row in range(12):
-            w.right[row, 0] = w.residual[row]
-        if not solve_many(w.system, w.right, 12, 1):
+        factor = newton_direction(new, w, 2)
+        if factor == 0.0:
             return -1
-        largest = 0.0
         for k in range(2):
             for a in range(3):
-                w.try_place[k, a] = new.place[k, a]
-                largest = max(largest, abs(w.right[6 * k + 3 + a, 0]))
-            for a in range(4):
-                w.try_turn[k, a] = new.turn[k, a]
-        for row in range(12):
-            w.step[row] = w.right[row, 0]
-        factor = min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+                w.try_displacement[k, a] = new.displacement[k, a]
         best, kept = math.inf, factor
-        for _ in range(5):
+        for _ in range(_TRIES):
             move_sliders(new, w, factor)
             attempt = unbalanced(s, dt, speeds)
             if attempt < best:
                 best, kept = attempt, factor
-            if attempt < 0.9 * size or attempt <= tolerance(p, c, touch_new, dt):
+            if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
                 break
-            factor *= 0.35
+            factor *= SHORTER
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
             best = unbalanced(s, dt, speeds)
@@ -244,7 +262,7 @@ def contact_trial(
             fly_on(b_old, b_new, dt)
         else:
             follow_string(p, c, b_new, w, pen)
-        count = settle(s, dt, pen.static_speed)
+        count = balance_sliders(s, dt, pen.static_speed)
     fill_state(s, old, new, u)
     new.time, new.step = time, dt
     new.iterations = count
@@ -263,7 +281,7 @@ def look_at_committed(s: BodyStep, old: State) -> None:
     place_nodes(p, c, w, old.displacement)
     for k in range(2):
         for a in range(3):
-            b_new.place[k, a] = b_old.place[k, a]
+            b_new.displacement[k, a] = b_old.displacement[k, a]
         for a in range(4):
             b_new.turn[k, a] = b_old.turn[k, a]
     place_bodies(c, w, b_new, 1, 3)
@@ -280,11 +298,11 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
             w.right[row, col] = w.k[6 + row, col if col < 6 else col + 12]
     solve_many(w.system, w.right, 12, 12)
     for row in range(12):
-        place = row if row < 6 else row + 12
+        at = row if row < 6 else row + 12
         for col in range(12):
-            total = w.k[place, col if col < 6 else col + 12]
+            total = w.k[at, col if col < 6 else col + 12]
             for e in range(12):
-                total += w.k[place, 6 + e] * w.right[e, col]  # (7.6)
+                total += w.k[at, 6 + e] * w.right[e, col]  # (7.6)
             k[row, col] = -total
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
+from lir_element.kernels.rotation import add_cross
 from lir_element.kernels.slip import step_share
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def place_bodies(c: Sliders, w: Scratch, bodies: Bodies, first: int, last: int) 
     """Set places and rotations of the bodies `first` to `last` (exclusive) from their record."""
     for b in range(first, last):
         for a in range(3):
-            w.x[b, a] = c.place[b, a] + bodies.place[b - 1, a]
+            w.x[b, a] = c.place[b, a] + bodies.displacement[b - 1, a]
         matrix_of(bodies.turn[b - 1], w.q[b])
 
 
@@ -100,17 +101,6 @@ def cross_rows(row: Floats, x: float, y: float, z: float, sign: float, k: Floats
 
 
 @kernel
-def add_skew(k: Floats, row: int, col: int, f: Floats, sign: float) -> None:
-    """Add ``sign`` times the matrix of ``f x`` to the 3 x 3 block at (row, col)."""
-    k[row, col + 1] -= sign * f[2]
-    k[row, col + 2] += sign * f[1]
-    k[row + 1, col] += sign * f[2]
-    k[row + 1, col + 2] -= sign * f[0]
-    k[row + 2, col] -= sign * f[1]
-    k[row + 2, col + 1] += sign * f[0]
-
-
-@kernel
 def set_row(w: Scratch, carrier: int, f: Floats) -> None:
     """Set the derivative (3 x 12) of the pair's global force by body and carrier: (7.4)."""
     q, s = w.q[carrier], w.slope
@@ -132,7 +122,7 @@ def set_row(w: Scratch, carrier: int, f: Floats) -> None:
             w.row[a, col + 3] = sign * (y * g_2 - z * g_1)
             w.row[a, col + 4] = sign * (z * g_0 - x * g_2)
             w.row[a, col + 5] = sign * (x * g_1 - y * g_0)
-    add_skew(w.row, 0, 9, f, -1.0)  # the force turns with its carrier
+    add_cross(w.row, 0, 9, f[0], f[1], f[2], -1.0)  # the force turns with its carrier
 
 
 @kernel
@@ -181,8 +171,8 @@ def add_slope(w: Scratch, body: int, carrier: int) -> None:
             turn = w.arm[0, a] * f[b] - (dot if a == b else 0.0)
             k[s + 3 + a, s + 3 + b] += turn
             k[r + 3 + a, s + 3 + b] -= turn
-    add_skew(k, r + 3, s, f, 1.0)
-    add_skew(k, r + 3, r, f, -1.0)
+    add_cross(k, r + 3, s, f[0], f[1], f[2], 1.0)
+    add_cross(k, r + 3, r, f[0], f[1], f[2], -1.0)
 
 
 @kernel

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.contact.pairs import OWN, matrix_of, turn_between
+from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -39,7 +40,7 @@ def own_forces(s: BodyStep, dt: float, b: int) -> None:
     x, y, z = turn_between(old.turn[k], new.turn[k])
     new.spin[k, 0], new.spin[k, 1], new.spin[k, 2] = x / dt, y / dt, z / dt
     for a in range(3):
-        new.velocity[k, a] = (new.place[k, a] - old.place[k, a]) / dt
+        new.velocity[k, a] = (new.displacement[k, a] - old.displacement[k, a]) / dt
         change = new.velocity[k, a] - old.velocity[k, a]
         new.acceleration[k, a] = change / dt
         part[first + a] -= c.mass[k] * change / dt  # (7.5)
@@ -64,27 +65,16 @@ def add_gyration(s: BodyStep, dt: float, k: int, first: int) -> None:
     if square > 1e-4:
         half = 0.5 * math.sqrt(square)
         curve = (1.0 - half / math.tan(half)) / square
-    psi = (x, y, z)
+    psi, g = (x, y, z), w.spare_matrix
     for a in range(3):  # d(rotation vector) = (1 - psi x / 2 + curve (psi x)^2) spin, over dt
         for b in range(3):
             value = curve * psi[a] * psi[b]
             if a == b:
                 value += 1.0 - curve * square
-            w.global_slope[a, b] = value / dt
-    w.global_slope[0, 1] += 0.5 * z / dt
-    w.global_slope[1, 0] -= 0.5 * z / dt
-    w.global_slope[1, 2] += 0.5 * x / dt
-    w.global_slope[2, 1] -= 0.5 * x / dt
-    w.global_slope[2, 0] += 0.5 * y / dt
-    w.global_slope[0, 2] -= 0.5 * y / dt
-    g = w.global_slope  # and of the turning inertia: J (spin x), then -(momentum x)
-    g[0, 1] -= spin[2]
-    g[0, 2] += spin[1]
-    g[1, 0] += spin[2]
-    g[1, 2] -= spin[0]
-    g[2, 0] -= spin[1]
-    g[2, 1] += spin[0]
-    h = w.force[0]
+            g[a, b] = value / dt
+    add_cross(g, 0, 0, x, y, z, -0.5 / dt)
+    add_cross(g, 0, 0, spin[0], spin[1], spin[2], 1.0)  # turning inertia: J (spin x) - momentum x
+    h = w.spare_vector
     h[0], h[1], h[2] = 0.0, 0.0, 0.0
     momentum(inertia, q, spin, h, 0, 1.0)
     m = w.system
@@ -94,9 +84,4 @@ def add_gyration(s: BodyStep, dt: float, k: int, first: int) -> None:
             for e in range(3):
                 total += w.half[a, e] * g[e, b]
             m[first + a, first + b] += total / dt
-    m[first, first + 1] += h[2] / dt
-    m[first, first + 2] -= h[1] / dt
-    m[first + 1, first] -= h[2] / dt
-    m[first + 1, first + 2] += h[0] / dt
-    m[first + 2, first] += h[1] / dt
-    m[first + 2, first + 1] -= h[0] / dt
+    add_cross(m, first, first, h[0], h[1], h[2], -1.0 / dt)

@@ -20,8 +20,8 @@ from lir_element.kernels.contact.pairs import (
     turn_between,
 )
 from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
-from lir_element.kernels.pendulum.work import taken
-from lir_element.kernels.slip import stored
+from lir_element.kernels.pendulum.work import store_law, taken
+from lir_element.kernels.slip import open_work, stored, surplus
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
+_SIDES = (0, 2, 1)  # of a contact pair: 0 bottom, 1 top, 2 interface
 
 
 @kernel
@@ -74,9 +75,9 @@ def set_axes(p: Props, w: Scratch, new: State) -> None:
     q, r = w.q[0], w.q[3]
     length = 0.0
     for a in range(3):
-        w.force[0, a] = w.x[3, a] - w.x[0, a] - p.lever[1] * r[a, 2] - p.lever[0] * q[a, 2]
-        length -= w.q[1][a, 2] * w.force[0, a]
-    c = w.force[0]
+        w.spare_vector[a] = w.x[3, a] - w.x[0, a] - p.lever[1] * r[a, 2] - p.lever[0] * q[a, 2]
+        length -= w.q[1][a, 2] * w.spare_vector[a]
+    c = w.spare_vector
     for a in range(3):
         new.centres[a] = q[0, a] * c[0] + q[1, a] * c[1] + q[2, a] * c[2]
         new.axis[a] = q[0, a] * w.q[1][0, 2] + q[1, a] * w.q[1][1, 2] + q[2, a] * w.q[1][2, 2]
@@ -89,7 +90,7 @@ def set_axes(p: Props, w: Scratch, new: State) -> None:
 def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
     """Set the slip of the interface: the top slider's axis point from that of the bottom one."""
     n = w.q[1]
-    s, along = w.force[0], 0.0
+    s, along = w.spare_vector, 0.0
     for a in range(3):
         s[a] = w.x[2, a] + c.plane[1] * w.q[2][a, 2] - w.x[1, a] - c.plane[0] * n[a, 2]
         along += s[a] * n[a, 2]
@@ -171,7 +172,7 @@ def set_moves(
         moves[18 + a] = new.displacement[6 + a] - old.displacement[6 + a]
     for k in range(bodies):
         for a in range(3):
-            moves[6 * k + 6 + a] = b_new.place[k, a] - b_old.place[k, a]
+            moves[6 * k + 6 + a] = b_new.displacement[k, a] - b_old.displacement[k, a]
         x, y, z = turn_between(b_old.turn[k], b_new.turn[k])
         moves[6 * k + 9], moves[6 * k + 10], moves[6 * k + 11] = x, y, z
 
@@ -186,20 +187,25 @@ def taken_up(b_old: Bodies, b_new: Bodies, moves: Floats, origin: int) -> float:
 
 
 @kernel
-def springs(p: Props, points: Records, touch: Records, pair: int) -> float:
-    """Return the energy in the elastic sliding of the points of one interface."""
-    mu, u_y = p.interface_friction, p.interface_yield
-    if pair != 1:
-        side = 0 if pair == 0 else 1
-        mu, u_y = p.friction_max[side] - p.friction_drop[side], p.yield_displacement[side]
-    elif p.fused:
-        return 0.0
-    total = 0.0
-    for j in range(points.shape[0]):
-        if points[j].pair == pair:
-            t = touch[j]
-            total += stored(mu, t.charge, u_y, t.hysteresis[0], t.hysteresis[1])
-    return total
+def spring_gains(s: BodyStep) -> tuple[float, float, float]:
+    """Return what the elastic sliding of all points takes up: bottom, top, interface."""
+    bottom, top, plane = 0.0, 0.0, 0.0
+    for j in range(s.points.shape[0]):
+        side = _SIDES[s.points[j].pair]
+        if side == 2 and s.props.fused:
+            continue
+        mu, u_y = store_law(s.props, side)
+        before, after = s.touch_old[j], s.touch_new[j]
+        y, z = before.hysteresis, after.hysteresis
+        gain = stored(mu, after.charge, u_y, z[0], z[1])
+        gain -= stored(mu, before.charge, u_y, y[0], y[1])
+        if side == 0:
+            bottom += gain
+        elif side == 1:
+            top += gain
+        else:
+            plane += gain
+    return bottom, top, plane
 
 
 @kernel
@@ -209,13 +215,12 @@ def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None
     Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
     What friction takes beyond its elastic energy is dissipated.
     """
-    p, points, b_old = s.props, s.points, s.old
-    b_new, moves = s.new, s.scratch.moves
+    b_old, b_new, moves = s.old, s.new, s.scratch.moves
     set_moves(old, new, b_old, b_new, bodies, moves)
-    for side, pair, origin in ((0, 0, LOW_BOTTOM), (1, 2, LOW_TOP), (2, 1, HIGH)):
-        spring = springs(p, points, s.touch_new, pair) - springs(p, points, s.touch_old, pair)
-        lost = taken(old, new, side, taken_up(b_old, b_new, moves, origin) - spring)
-        new.work_elastic += spring
+    gains = spring_gains(s)
+    for side, origin in ((0, LOW_BOTTOM), (1, LOW_TOP), (2, HIGH)):
+        lost = taken(old, new, side, taken_up(b_old, b_new, moves, origin) - gains[side])
+        new.work_elastic += gains[side]
         if side < 2:
             new.work_friction[side] += lost
         else:
@@ -235,24 +240,21 @@ def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None
 
 @kernel
 def points_defect(s: BodyStep) -> float:
-    """Return the energy that contacts make or lose in the step by its size alone.
-
-    Force times the part of the approach that no closure took part in, as in `contact_defect`.
-    """
+    """Return the energy that contacts make or lose in the step by its size, as `contact_defect`."""
     p, b_old, b_new = s.props, s.old, s.new
     defect = 0.0
     for j in range(s.points.shape[0]):
         before, after = s.touch_old[j], s.touch_new[j]
-        travel = abs((after.gap - before.gap) - (after.closure - before.closure))
-        defect += 0.5 * (before.push + after.push) * travel
+        defect += open_work(
+            before.push, after.push, after.gap - before.gap, after.closure - before.closure
+        )
     for k in range(2):
         if b_old.rim_force[k] == 0.0 and b_new.rim_force[k] == 0.0:
             continue  # a rim at infinity among them
         approach = b_new.rim_gap[k] - b_old.rim_gap[k]
-        travel = abs(approach - (b_new.rim_closure[k] - b_old.rim_closure[k]))
-        force = 0.5 * (b_old.rim_force[k] + b_new.rim_force[k])
-        defect += force * travel
-        if force > 0.0:
-            stored = b_new.rim_closure[k] ** 2 - b_old.rim_closure[k] ** 2
-            defect += max(0.5 * p.rim_stiffness * stored - force * approach, 0.0)
+        push_old, push = b_old.rim_force[k], b_new.rim_force[k]
+        closure_old, closure = b_old.rim_closure[k], b_new.rim_closure[k]
+        defect += open_work(push_old, push, approach, closure - closure_old)
+        work = 0.5 * (push_old + push) * approach
+        defect += surplus(p.rim_stiffness, closure_old, closure, work)
     return defect

@@ -35,7 +35,13 @@ def fix_length(p: Props, w: Work) -> None:
 
 @kernel
 def axial(p: Props, old: State, w: Work) -> None:
-    """Set the axial force of the string and its floor (below it all forces fade alike)."""
+    """Set the axial force of the string and its floor (below it all forces fade alike).
+
+    With it the forces that press the contacts at both ends of the step. Under a fixed load they
+    differ by what the slider's lean makes of it, which is not known yet: that of the committed
+    state counts, and nothing of the step follows from it.
+    """
+    before = max(old.axial_force, 0.0)
     gap = (w.l if w.fixed_length == 0.0 else -w.height) - p.length
     if p.bilateral:
         force, slope = p.axial_stiffness * gap, p.axial_stiffness
@@ -50,8 +56,12 @@ def axial(p: Props, old: State, w: Work) -> None:
     w.vertical, w.stiff_vertical = 0.0, 0.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
+        load = before if before > 0.0 else p.fixed_load
+        w.pressing[0], w.pressing[1], w.pressing_rate = load, load, 0.0
         return
     w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
+    w.pressing[0], w.pressing[1] = before, w.n_pos
+    w.pressing_rate = 1.0 if force >= 0.0 else 0.0
     if w.n_pos > p.axial_floor:
         w.n_hat, w.scale = w.n_pos, 1.0
     else:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.pendulum.tangent import condense
+from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, Work
@@ -72,17 +73,6 @@ def spread(
 
 
 @kernel
-def add_cross(k: Floats, first: int, col: int, x: float, y: float, z: float, sign: float) -> None:
-    """Add the derivative of ``sign * phi x (x, y, z)`` by phi to rows `first`, columns `col`."""
-    k[first, col + 1] += sign * z
-    k[first, col + 2] -= sign * y
-    k[first + 1, col] -= sign * z
-    k[first + 1, col + 2] += sign * x
-    k[first + 2, col] += sign * y
-    k[first + 2, col + 1] -= sign * x
-
-
-@kernel
 def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial that `w` holds; `force` is its (12,) force.
 
@@ -96,8 +86,8 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     for a in range(6):
         r = w.k6[a]
         spread(rows[a], r[0], r[1], r[2], w, p.lever[0], p.lever[1], r[3], r[4], r[5])
-    add_cross(rows, 0, 3, g_x, g_y, g_z, 1.0)  # g and tau turn with the bottom plate
-    add_cross(rows, 3, 3, m_x, m_y, m_z, 1.0)
+    add_cross(rows, 0, 3, g_x, g_y, g_z, -1.0)  # g and tau turn with the bottom plate: phi x g
+    add_cross(rows, 3, 3, m_x, m_y, m_z, -1.0)
     a_x, a_y, a_z = p.lever[1] * w.q_j[0, 2], p.lever[1] * w.q_j[1, 2], p.lever[1] * w.q_j[2, 2]
     b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
     b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
@@ -114,8 +104,8 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
         k[10, col] = -(a_z * d_x - a_x * d_z) + t_y
         k[11, col] = -(a_x * d_y - a_y * d_x) + t_z
     # levers move: m_i = -(a_i e_i + c) x g - tau, whose arm shifts by u_j - u_i + a_j e_j x phi_j
-    add_cross(k, 3, 6, g_x, g_y, g_z, -1.0)
-    add_cross(k, 3, 0, g_x, g_y, g_z, 1.0)
+    add_cross(k, 3, 6, g_x, g_y, g_z, 1.0)
+    add_cross(k, 3, 0, g_x, g_y, g_z, -1.0)
     # ... and m_j = -a_j e_j x g + tau, whose arm turns: (phi x arm) x g = arm (phi.g) - phi (arm.g)
     dot = a_x * g_x + a_y * g_y + a_z * g_z
     arm = (a_x, a_y, a_z)
@@ -139,8 +129,7 @@ def axial_torsion(p: Props, w: Work, k: Floats) -> None:
     """Add the change of the torsional friction (about z, + on node j) with the axial force."""
     if w.torque_axial == 0.0:
         return
-    row = w.d_rows[0]
-    n = w.dn6
+    row, n = w.n_row, w.dn6
     spread(row, n[0], n[1], n[2], w, p.lever[0], p.lever[1], n[3], n[4], n[5])
     for col in range(12):
         value = w.torque_axial * row[col]

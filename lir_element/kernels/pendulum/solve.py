@@ -21,6 +21,17 @@ _MAX_STEEPEST = 12
 _TOLERANCE = 1e-12  # of axial force times string length
 _ROUND_OFF = 4e-16  # of lengths
 _LARGEST_TURN = 0.1  # rad, of the axis in one iteration
+_GAIN = 0.999  # of the residual, with which a step does: any gain beyond round-off
+_SHORTER = 0.3  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
+_TRIES = 8  # of a step: the last one is 0.3^7, 2e-4 of it (a choice)
+_NEARLY = 10.0  # residuals to reach: as good, where no step gains any more (a choice)
+_SINGULAR = 1e-3  # of the restoring term's determinant, below which Newton sees none (a choice)
+_LARGEST_SEARCH = 3.0 * _LARGEST_TURN  # 17 degrees, beyond any neighbouring equilibrium (a choice)
+_FURTHER = 4.0  # times as far, until the zero is bracketed (a choice)
+_MAX_BISECTIONS = 80
+_BRACKETED = 1e-3  # of axial force and length: from there Newton's method goes on (a choice)
+_SMALLEST_TURN = 1e-16  # rad, round-off of the axis
+_SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle (a choice)
 
 
 @kernel
@@ -30,7 +41,7 @@ def residual_size(w: Work) -> float:
 
 
 @kernel
-def tolerance(p: Props, w: Work) -> float:
+def small_residual(p: Props, w: Work) -> float:
     """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
     stiff = w.l * p.interface_friction / p.interface_yield
     for k in range(2):
@@ -47,7 +58,7 @@ def mark_start(w: Work) -> None:
         w.start[0, a], w.start[1, a], w.start[2, a] = w.n[a], w.t[0, a], w.t[1, a]
     on_rim = w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0
     radius = math.sqrt(w.n[0] ** 2 + w.n[1] ** 2)
-    w.start_circle[2] = radius if on_rim and radius > 1e-6 else 0.0
+    w.start_circle[2] = radius if on_rim and radius > _SMALLEST_CIRCLE else 0.0
     if w.start_circle[2] > 0.0:
         w.start_circle[0], w.start_circle[1] = w.n[0] / radius, w.n[1] / radius
 
@@ -84,7 +95,7 @@ def newton_turn(p: Props, old: State, w: Work) -> float:
     j = w.jacobian
     det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
     floor = w.n_hat * w.l * w.l  # of the restoring term, which must not rule
-    if not (j[0, 0] + j[1, 1] > floor and det > 1e-3 * floor * floor):
+    if not (j[0, 0] + j[1, 1] > floor and det > _SINGULAR * floor * floor):
         return -1.0
     e_1 = -(j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1]) / det
     e_2 = -(j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0]) / det
@@ -92,13 +103,13 @@ def newton_turn(p: Props, old: State, w: Work) -> float:
     if turn > _LARGEST_TURN:
         e_1, e_2 = e_1 * _LARGEST_TURN / turn, e_2 * _LARGEST_TURN / turn
     mark_start(w)
-    for _ in range(8):
+    for _ in range(_TRIES):
         move(p, old, w, e_1, e_2)
         relative = residual_size(w)
         new = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-        if new <= 0.999 * size or relative < tolerance(p, w):
+        if new <= _GAIN * size or relative < small_residual(p, w):
             return relative
-        e_1, e_2 = 0.3 * e_1, 0.3 * e_2
+        e_1, e_2 = _SHORTER * e_1, _SHORTER * e_2
     move(p, old, w, 0.0, 0.0)
     return -1.0
 
@@ -120,17 +131,17 @@ def steepest_turn(p: Props, old: State, w: Work) -> float:
     f_high = w.residual[0] * d_1 + w.residual[1] * d_2
     while f_high < 0.0:
         low, f_low = high, f_high
-        if high >= 3.0 * _LARGEST_TURN:
+        if high >= _LARGEST_SEARCH:
             move(p, old, w, 0.0, 0.0)
             return -1.0
-        high = min(4.0 * high, 3.0 * _LARGEST_TURN)
+        high = min(_FURTHER * high, _LARGEST_SEARCH)
         move(p, old, w, high * d_1, high * d_2)
         f_high = w.residual[0] * d_1 + w.residual[1] * d_2
-    for _ in range(80):
+    for _ in range(_MAX_BISECTIONS):
         middle = (low * f_high - high * f_low) / (f_high - f_low)
         move(p, old, w, middle * d_1, middle * d_2)
         f = w.residual[0] * d_1 + w.residual[1] * d_2
-        if abs(f) <= 1e-3 * w.n_hat * w.l or high - low < 1e-16:
+        if abs(f) <= _BRACKETED * w.n_hat * w.l or high - low < _SMALLEST_TURN:
             break
         if f < 0.0:
             low, f_low, f_high = middle, f, 0.5 * f_high
@@ -148,12 +159,12 @@ def solve_axis(p: Props, old: State, w: Work) -> int:
     size = residual_size(w)
     steepest = 0
     for count in range(_MAX_ITERATIONS):
-        enough = tolerance(p, w)
+        enough = small_residual(p, w)
         if size < enough:
             return count
         new = newton_turn(p, old, w)
         if new < 0.0:
-            if size < 10.0 * enough:
+            if size < _NEARLY * enough:
                 return count
             steepest += 1
             new = steepest_turn(p, old, w)

@@ -27,7 +27,6 @@ from lir_element._jit import kernel
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.rotation import rotate
 from lir_element.kernels.slip import (
-    charge_after,
     friction_coefficient,
     friction_map,
     kelvin_voigt,
@@ -124,6 +123,7 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             along += rate[k] * (w.q_i[k, 0] * w.n[0] + w.q_i[k, 1] * w.n[1] + w.q_i[k, 2] * w.n[2])
         for k in range(3):
             rate[k] -= w.q_i[k, 2] * along / w.n[2]
+    square_bottom, square_top = 0.0, 0.0
     for a in range(2):
         bottom, top = 0.0, 0.0
         for k in range(3):
@@ -133,22 +133,10 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
             n_m = w.q_i[m, 0] * w.n[0] + w.q_i[m, 1] * w.n[1] + w.q_i[m, 2] * w.n[2]
             n_o = w.q_i[o, 0] * w.n[0] + w.q_i[o, 1] * w.n[1] + w.q_i[o, 2] * w.n[2]
             top -= axis * ((v[9 + m] - v[3 + m]) * n_o - (v[9 + o] - v[3 + o]) * n_m)
-        w.phi[0, a], w.phi[1, a] = bottom, bottom + top
-    for k in range(2):
-        w.static_speed[k] = p.radius[k] * math.sqrt(w.phi[k, 0] ** 2 + w.phi[k, 1] ** 2)
-
-
-@kernel
-def pressed(p: Props, old: State, w: Work) -> tuple[float, float]:
-    """Return the axial forces that press the contacts at both ends of the step.
-
-    Under a fixed load they differ by what the slider's lean makes of it, which is not known yet:
-    that of the committed state counts, and nothing of the step follows from it.
-    """
-    before = max(old.axial_force, 0.0)
-    if p.fixed_load == 0.0:
-        return before, w.n_pos
-    return (before, before) if before > 0.0 else (p.fixed_load, p.fixed_load)
+        square_bottom += bottom**2
+        square_top += (bottom + top) ** 2
+    w.static_speed[0] = p.radius[0] * math.sqrt(square_bottom)
+    w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
 @kernel
@@ -162,16 +150,12 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
     before = old.sliding_increment[k]
     share = step_share(w.dt, old.step)
-    push_old, push = pressed(p, old, w)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], old.charge[k], push_old, push, p.axial_floor, w.dt,
+        p.yield_displacement[k], old.charge[k], w.pressing[0], w.pressing[1], p.axial_floor, w.dt,
         before[0], before[1], share,
     )  # fmt: skip
     w.slid[k], w.way[k] = slip, way
-    w.charge[k] = charge_after(
-        old.charge[k], way, push_old, push, z_1, z_2, slip, p.yield_displacement[k], w.dt
-    )
     # the speed of slip, not of the elastic part: friction must not grow while it unloads
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
@@ -182,8 +166,6 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
     w.mu[k] = mu
     w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1 + z_1 * by_n, mu * n_2 + z_2 * by_n
-    if p.fixed_load > 0.0:
-        w.phi_n[k, 0], w.phi_n[k, 1] = 0.0, 0.0
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
     w.h[k, 0, 0], w.h[k, 0, 1] = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
@@ -194,21 +176,15 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
     before = old.slip_increment
-    push_old, push = pressed(p, old, w)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, n_1, n_2, _, way = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
-        old.interface_charge, push_old, push, p.axial_floor, w.dt, before[0], before[1],
-        step_share(w.dt, old.step),
+        old.interface_charge, w.pressing[0], w.pressing[1], p.axial_floor, w.dt,
+        before[0], before[1], step_share(w.dt, old.step),
     )  # fmt: skip
     mu = p.interface_friction
-    w.z_s[0], w.z_s[1], w.way_s = z_1, z_2, way
-    w.charge_s = charge_after(
-        old.interface_charge, way, push_old, push, z_1, z_2, slip, p.interface_yield, w.dt
-    )
+    w.z_s[0], w.z_s[1], w.slid_s, w.way_s = z_1, z_2, slip, way
     w.phi_sn[0], w.phi_sn[1] = mu * n_1, mu * n_2
-    if p.fixed_load > 0.0:
-        w.phi_sn[0], w.phi_sn[1] = 0.0, 0.0
     w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
 

@@ -15,7 +15,6 @@ from lir_element.kernels.pendulum.solve import solve_axis
 from lir_element.kernels.pendulum.string import (
     aim_axis,
     place_plates,
-    pressed,
     set_axis,
     static_speeds,
 )
@@ -31,6 +30,8 @@ _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
+_NEAR_END = 0.9  # of the last slip: a search that fails from beyond it has met it (a choice)
+_BEYOND_END = 1.001  # of it: what is found further on lies on the far side; 0.1 % for the estimate
 _STARTS = (0.9, 0.5, 1.0, 0.75)  # by trial: none of 19,200 random trials near rims stayed unsolved
 SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 
@@ -73,14 +74,12 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    push_old, push = pressed(p, old, w)
+    push_old, push = w.pressing[0], w.pressing[1]
     z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
         p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, w.dt, 0.0, 0.0, 0.0,
     )  # fmt: skip
-    if p.fixed_load > 0.0:
-        by_n = 0.0
-    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * by_n)
+    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * w.pressing_rate * by_n)
     w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
     new.twist_hysteresis = z
@@ -109,6 +108,23 @@ def keep_works(old: State, new: State) -> None:
 
 
 @kernel
+def set_charges(p: Props, old: State, w: Work, new: State) -> None:
+    """Set the charges of the stores before slip at the end of the step."""
+    before, after = w.pressing[0], w.pressing[1]
+    for k in range(2):
+        new.charge[k] = charge_after(
+            old.charge[k], w.way[k], before, after, w.z[k, 0], w.z[k, 1], w.slid[k],
+            p.yield_displacement[k], w.dt,
+        )  # fmt: skip
+    new.interface_charge = 0.0
+    if not p.fused:
+        new.interface_charge = charge_after(
+            old.interface_charge, w.way_s, before, after, w.z_s[0], w.z_s[1], w.slid_s,
+            p.interface_yield, w.dt,
+        )  # fmt: skip
+
+
+@kernel
 def set_state(p: Props, old: State, w: Work, new: State) -> None:
     """Fill what the record keeps of the sliders."""
     n, t, q = w.n, w.t, w.q_i
@@ -123,9 +139,9 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     keep_works(old, new)
+    set_charges(p, old, w, new)
     new.string = w.l
     new.closure = w.closure
-    new.interface_charge = 0.0 if p.fused else w.charge_s
     new.axial_force = w.n_true
     new.vertical_force = w.vertical
     for k in range(2):
@@ -136,7 +152,6 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
         new.slid[k] = w.slid[k]
-        new.charge[k] = w.charge[k]
         new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
@@ -169,18 +184,25 @@ def is_finite(x: Floats) -> bool:
 
 
 @kernel
-def has_snapped(p: Props, old: State, w: Work, count: int) -> bool:
-    """Return whether the slip passed ``L mu_h + mu_1 R_1 + mu_2 R_2``, where equilibrium ends.
+def last_slip(p: Props, at: State) -> float:
+    """Return the slip at which equilibrium ends in a state: ``L mu_h + mu_1 R_1 + mu_2 R_2``.
 
     The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
-    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md).
+    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md, section 2).
     """
+    mu = at.friction_coefficient
+    return at.string * p.interface_friction + p.radius[0] * mu[0] + p.radius[1] * mu[1]
+
+
+@kernel
+def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
+    """Return whether the slip passed the one at which equilibrium ends, or a search met its end."""
     if p.fused:
         return False
-    held = w.l * p.interface_friction + p.radius[0] * w.mu[0] + p.radius[1] * w.mu[1]
+    held = last_slip(p, new)
     if count < 0:
-        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > 0.9 * held
-    return math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) > 1.001 * held
+        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > _NEAR_END * held
+    return math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > _BEYOND_END * held
 
 
 @kernel
@@ -244,7 +266,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     set_forces(w, p, new, old)
     set_state(p, old, w, new)
     status = limit_status(p, new)
-    if has_snapped(p, old, w, count):
+    if has_snapped(p, old, new, count):
         status = _SLIP_UNSTABLE
     elif count < 0:
         status = _NO_EQUILIBRIUM

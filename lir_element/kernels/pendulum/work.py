@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import stored
+from lir_element.kernels.slip import open_work, stored, surplus
 
 if TYPE_CHECKING:
     from lir_element.layout import Props, State
@@ -47,23 +47,22 @@ def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
 def contact_defect(p: Props, old: State, new: State) -> float:
     """Return the energy that the contacts make or lose in the step by its size alone.
 
-    The trapezoidal rule lets a contact's force act over the open part of the step as well: force
-    times the part of the travel that no closure took part in. And what a contact gives must not
-    exceed what it had stored, which a slider that runs along a rim in large steps would violate.
+    Works of open contacts, and what a rim gives beyond what it had stored, as one does along which
+    a slider runs in large steps.
     """
     defect = 0.0
     if p.fixed_load == 0.0:
-        travel = abs((new.string - old.string) - (new.closure - old.closure))
-        defect = 0.5 * (old.axial_force + new.axial_force) * travel
+        defect = open_work(
+            old.axial_force, new.axial_force, new.string - old.string, new.closure - old.closure
+        )
     for k in range(2):
         if old.rim_force[k] == 0.0 and new.rim_force[k] == 0.0:
             continue
         radial = new.eccentricity[k] - old.eccentricity[k]
-        travel = abs(radial - (new.rim_closure[k] - old.rim_closure[k]))
-        defect += 0.5 * (old.rim_force[k] + new.rim_force[k]) * travel
+        before, after = old.rim_closure[k], new.rim_closure[k]
+        defect += open_work(old.rim_force[k], new.rim_force[k], radial, after - before)
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
-        stored = new.rim_closure[k] ** 2 - old.rim_closure[k] ** 2
-        defect += max(0.5 * p.rim_stiffness * stored - work, 0.0)
+        defect += surplus(p.rim_stiffness, before, after, work)
     return defect
 
 
@@ -83,11 +82,22 @@ def taken(old: State, new: State, side: int, work: float) -> float:
 
 
 @kernel
+def store_law(p: Props, side: int) -> tuple[float, float]:
+    """Return the friction coefficient that counts for a contact's store, and its u_y.
+
+    Side 0 bottom, 1 top, 2 interface. Of a coefficient that sliding raises the least counts.
+    """
+    if side == 2:
+        return p.interface_friction, p.interface_yield
+    return p.friction_max[side] - p.friction_drop[side], p.yield_displacement[side]
+
+
+@kernel
 def spring_energy(p: Props, at: State, k: int) -> float:
     """Return the energy in the elastic sliding of surface `k` in the state `at`."""
-    low = p.friction_max[k] - p.friction_drop[k]
+    low, u_y = store_law(p, k)
     z = at.hysteresis[k]
-    return stored(low, at.charge[k], p.yield_displacement[k], z[0], z[1])
+    return stored(low, at.charge[k], u_y, z[0], z[1])
 
 
 @kernel
@@ -95,8 +105,9 @@ def interface_energy(p: Props, at: State) -> float:
     """Return the same of the interface."""
     if p.fused:
         return 0.0
+    mu, u_y = store_law(p, 2)
     z = at.interface_hysteresis
-    return stored(p.interface_friction, at.interface_charge, p.interface_yield, z[0], z[1])
+    return stored(mu, at.interface_charge, u_y, z[0], z[1])
 
 
 @kernel
@@ -117,9 +128,8 @@ def twist_energy(p: Props, at: State) -> float:
     """Return the same of the torsional friction, which counts with its least coefficient."""
     low = p.interface_friction
     for k in range(2):
-        low = min(low, p.friction_max[k] - p.friction_drop[k])
-    low *= p.torsion_lever
-    return stored(low, at.twist_charge, p.torsion_yield, at.twist_hysteresis, 0.0)
+        low = min(low, store_law(p, k)[0])
+    return stored(low * p.torsion_lever, at.twist_charge, p.torsion_yield, at.twist_hysteresis, 0.0)
 
 
 @kernel

@@ -23,26 +23,31 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
+# Choice of the step by an error of order dt^3: Hairer, Norsett and Wanner (1993), II.4
+_SAFETY = 0.9  # of the step that would just do; there, too
+_LEAST, _MOST = 0.2, 2.0  # of the step before; a cautious 2 of their 1.5 to 5
+_SMALL = 0.06  # of the allowed error: below it the step grows by the most, also of no error
+_FAILED = 8.0  # allowed errors that a step without a solution counts for: 0.45 of it is next
 
 
 @kernel
-def set_instant(run: RigidRun, given: RigidInput, time: float, dt: float, place: int) -> None:
-    """Set ground acceleration, imposed place and load at `time`, before the output `place`.
+def set_instant(run: RigidRun, given: RigidInput, time: float, dt: float, output: int) -> None:
+    """Set ground acceleration, imposed place and load at `time`, before the given `output`.
 
     The step of size `dt` ends at `time`.
     """
     w = run.scratch[0]
-    span = given.times[place] - given.times[place - 1]
-    share = (time - given.times[place - 1]) / span if span > 0.0 else 1.0
+    span = given.times[output] - given.times[output - 1]
+    share = (time - given.times[output - 1]) / span if span > 0.0 else 1.0
     for axis in range(3):
         run.ground[axis] = ground_acceleration(given.motion, given.motion_dt, time, axis)
         run.ground_mean[axis] = 0.5 * (
             run.ground[axis] + ground_acceleration(given.motion, given.motion_dt, time - dt, axis)
         )
     for a in range(2):
-        run.drive[a] = (1.0 - share) * given.drive[place - 1, a] + share * given.drive[place, a]
+        run.drive[a] = (1.0 - share) * given.drive[output - 1, a] + share * given.drive[output, a]
     for a in range(6):
-        w.load[a] = (1.0 - share) * given.load[place - 1, a] + share * given.load[place, a]
+        w.load[a] = (1.0 - share) * given.load[output - 1, a] + share * given.load[output, a]
 
 
 @kernel
@@ -54,7 +59,7 @@ def set_rotation_vector(run: RigidRun, at: int) -> None:
     if turn[0] < 0.0:
         factor = -factor
     for a in range(3):
-        run.u[6 + a] = run.bodies[at].place[2, a]
+        run.u[6 + a] = run.bodies[at].displacement[2, a]
         run.u[9 + a] = factor * turn[1 + a]
 
 
@@ -123,17 +128,17 @@ def difference(run: RigidRun) -> float:
         x, y, z = turn_between(one.turn[k], two.turn[k])
         largest = max(largest, run.sliders[0].radius * math.sqrt(x * x + y * y + z * z))
         for a in range(3):
-            largest = max(largest, abs(one.place[k, a] - two.place[k, a]))
+            largest = max(largest, abs(one.displacement[k, a] - two.displacement[k, a]))
     return largest
 
 
 @kernel
 def implicit(
     run: RigidRun, given: RigidInput, setup: RigidSetup, start: int, end: int, time: float,
-    dt: float, place: int,
+    dt: float, output: int,
 ) -> bool:  # fmt: skip
     """Take one implicit step from the bodies `start` to `end`, which is reached at `time`."""
-    set_instant(run, given, time, dt, place)
+    set_instant(run, given, time, dt, output)
     return implicit_step(body_step(run, start, end), run, setup, dt)
 
 
@@ -147,10 +152,10 @@ def commit(run: RigidRun, at: int, state: int) -> None:
 
 
 @kernel
-def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
-    """Try a step of controlled error towards the output `place`; return a status code."""
+def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, output: int) -> int:
+    """Try a step of controlled error towards the given `output`; return a status code."""
     clock, counts = run.clock[0], run.counts[0]
-    time, left = clock.time, given.times[place] - clock.time
+    time, left = clock.time, given.times[output] - clock.time
     dt = min(clock.step, setup.largest)
     if dt >= left:
         dt = left
@@ -158,19 +163,19 @@ def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) ->
         dt = 0.5 * left
     half = 0.5 * dt
     counts.tries += 1
-    good = implicit(run, given, setup, 0, 1, time + dt, dt, place)
+    good = implicit(run, given, setup, 0, 1, time + dt, dt, output)
     if good:
-        good = implicit(run, given, setup, 0, 2, time + half, half, place)
+        good = implicit(run, given, setup, 0, 2, time + half, half, output)
     code = _OK
     if good:
         code = take_up(run, 0, 2, 0, 1)
-        good = implicit(run, given, setup, 2, 3, time + dt, half, place)
-    share = difference(run) / setup.error if good else 8.0
+        good = implicit(run, given, setup, 2, 3, time + dt, half, output)
+    share = difference(run) / setup.error if good else _FAILED
     if not (good and share <= 1.0):
         counts.refused += 1
         if dt <= setup.smallest:
             return _STEP_TOO_SMALL
-        clock.step = dt * max(0.2, min(0.9, 0.9 * share ** (-1.0 / 3.0)))
+        clock.step = dt * max(_LEAST, min(_SAFETY, _SAFETY * share ** (-1.0 / 3.0)))
         return _OK
     code = max(code, take_up(run, 2, 3, 1, 2))
     clock.time = time + dt
@@ -179,22 +184,22 @@ def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) ->
     commit(run, 3, 2)
     counts.steps += 1
     run.states[0].time = clock.time
-    growth = 2.0 if share < 0.06 else 0.9 * share ** (-1.0 / 3.0)
-    clock.step = max(clock.step if dt < clock.step else 0.0, dt * min(growth, 2.0))
+    growth = _MOST if share < _SMALL else _SAFETY * share ** (-1.0 / 3.0)
+    clock.step = max(clock.step if dt < clock.step else 0.0, dt * min(growth, _MOST))
     return _OK
 
 
 @kernel
-def explicit_pair(run: RigidRun, given: RigidInput, setup: RigidSetup, place: int) -> int:
-    """Take two of the equal explicit steps towards the output `place`; return a status code."""
+def explicit_pair(run: RigidRun, given: RigidInput, setup: RigidSetup, output: int) -> int:
+    """Take two of the equal explicit steps towards the given `output`; return a status code."""
     clock, counts = run.clock[0], run.counts[0]
-    begin, end = given.times[place - 1], given.times[place]
+    begin, end = given.times[output - 1], given.times[output]
     parts = 2 * max(1, math.ceil(0.5 * (end - begin) / setup.explicit))
     dt = (end - begin) / parts
     for now in range(2):
         clock.part += 1
         time = end if clock.part == parts else begin + clock.part * dt
-        set_instant(run, given, time, dt, place)
+        set_instant(run, given, time, dt, output)
         explicit_step(body_step(run, now, 1 - now), run, dt)
         code = take_up(run, now, 1 - now, now, 1 - now)
         clock.time = time
@@ -225,7 +230,7 @@ def start(run: RigidRun, given: RigidInput) -> None:
     )  # fmt: skip
     press(begin, 0.0, 0.0, 0.0, False)
     set_accelerations(run, run.bodies[0])
-    record(run, given, 0)
+    write_output(run, given, 0)
 
 
 @kernel
@@ -237,24 +242,24 @@ def march(run: RigidRun, given: RigidInput, setup: RigidSetup, last: int, tries:
     clock, counts = run.clock[0], run.counts[0]
     most = counts.tries + tries
     while counts.outputs < last and counts.tries < most:
-        place = counts.outputs
-        end = given.times[place]
+        output = counts.outputs
+        end = given.times[output]
         if end - clock.time <= 1e-12 * max(abs(end), 1.0):
-            record(run, given, place)
+            write_output(run, given, output)
             continue
         if setup.explicit > 0.0:
-            code = explicit_pair(run, given, setup, place)
+            code = explicit_pair(run, given, setup, output)
         else:
-            code = adaptive(run, given, setup, place)
+            code = adaptive(run, given, setup, output)
         if code != _OK:
             return code
     return _OK
 
 
 @kernel
-def record(run: RigidRun, given: RigidInput, place: int) -> None:
+def write_output(run: RigidRun, given: RigidInput, output: int) -> None:
     """Write the committed state to the output."""
-    copy_words(run.states_words[0], given.words[place])
-    copy_words(run.bodies_words[0], given.bodies[place])
-    copy_words(run.energy_words[0], given.energy[place])
-    run.counts[0].outputs = place + 1
+    copy_words(run.states_words[0], given.words[output])
+    copy_words(run.bodies_words[0], given.bodies[output])
+    copy_words(run.energy_words[0], given.energy[output])
+    run.counts[0].outputs = output + 1

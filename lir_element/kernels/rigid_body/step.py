@@ -12,7 +12,12 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.contact.condensed import LARGEST_TURN, ROUND_OFF, tolerance
+from lir_element.kernels.contact.condensed import (
+    ROUND_OFF,
+    SHORTER,
+    newton_direction,
+    small_forces,
+)
 from lir_element.kernels.contact.pairs import (
     OWN,
     matrix_of,
@@ -22,7 +27,6 @@ from lir_element.kernels.contact.pairs import (
     turn_by,
 )
 from lir_element.kernels.contact.slider_motion import momentum
-from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -30,6 +34,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Bodies, Floats, Scratch
 
 _MAX_ITERATIONS = 25
+_TRIES = 4  # of a step: the last one, 0.35^3 or 4 % of it, is taken as it is (a choice)
 
 
 @kernel
@@ -77,7 +82,7 @@ def set_own_forces(s: BodyStep, run: RigidRun, am: float) -> None:
     mass, inertia, ground = run.mass, run.inertia, run.ground
     part = new.parts[OWN]
     for k in range(3):
-        moment, q = w.force[0], w.spare_matrix
+        moment, q = w.spare_vector, w.spare_matrix
         for a in range(3):
             moment[a] = 0.0
         turning_force(inertia[k], w.q[k + 1], new.spin[k], new.spin_rate[k], moment, 1.0 - am)
@@ -144,7 +149,7 @@ def move_bodies(old: Bodies, new: Bodies, w: Scratch, factor: float) -> None:
     for k in range(3):
         for a in range(3):
             w.shift[3 * k + a] = w.try_shift[3 * k + a] + factor * w.step[6 * k + a]
-            new.place[k, a] = old.place[k, a] + w.shift[3 * k + a]
+            new.displacement[k, a] = old.displacement[k, a] + w.shift[3 * k + a]
         turn_by(
             w.try_turn[k], factor * w.step[6 * k + 3], factor * w.step[6 * k + 4],
             factor * w.step[6 * k + 5], new.turn[k],
@@ -161,9 +166,9 @@ def predict(s: BodyStep, run: RigidRun, dt: float) -> None:
             if free[6 * k + a] == 0:
                 move = 0.0
                 if run.driven and k == 2 and a < 2:
-                    move = run.drive[a] - old.place[k, a]
+                    move = run.drive[a] - old.displacement[k, a]
             w.shift[3 * k + a] = move
-            new.place[k, a] = old.place[k, a] + move
+            new.displacement[k, a] = old.displacement[k, a] + move
         x, y, z = dt * old.spin[k, 0], dt * old.spin[k, 1], dt * old.spin[k, 2]
         if free[6 * k + 3] == 0:
             x = 0.0
@@ -182,7 +187,7 @@ def small_enough(s: BodyStep, run: RigidRun, dt: float) -> float:
         if run.free[15 + a] != 0:
             own = max(own, run.inertia[2, a] / s.sliders.radius)
     stiff = (run.mass[2, 2] + 4.0 * own) / (dt * dt)
-    return tolerance(s.props, s.sliders, s.touch_new, dt) + ROUND_OFF * stiff
+    return small_forces(s.props, s.sliders, s.touch_new, dt) + ROUND_OFF * stiff
 
 
 @kernel
@@ -197,27 +202,18 @@ def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> b
         if size <= small_enough(s, run, dt):
             return True
         set_matrix(run, w, setup, dt)
-        for row in range(18):
-            w.right[row, 0] = w.residual[row]
-        if not solve_many(w.system, w.right, 18, 1):
+        factor = newton_direction(new, w, 3)
+        if factor == 0.0:
             return False
-        largest = 0.0
-        for k in range(3):
-            for a in range(3):
-                w.try_shift[3 * k + a] = w.shift[3 * k + a]
-                largest = max(largest, abs(w.right[6 * k + 3 + a, 0]))
-            for a in range(4):
-                w.try_turn[k, a] = new.turn[k, a]
-        for row in range(18):
-            w.step[row] = w.right[row, 0]
-        factor = min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+        for entry in range(9):
+            w.try_shift[entry] = w.shift[entry]
         before = size
-        for _attempt in range(4):
+        for _attempt in range(_TRIES):
             move_bodies(old, new, w, factor)
             size = residual_of(s, run, setup, dt)
             if size < before or size <= small_enough(s, run, dt):
                 break
-            factor *= 0.35
+            factor *= SHORTER
     return size <= small_enough(s, run, dt)
 
 
@@ -233,8 +229,8 @@ def explicit_step(s: BodyStep, run: RigidRun, dt: float) -> None:
             new.velocity[k, a] = old.velocity[k, a] + dt * old.acceleration[k, a]
             new.spin[k, a] = old.spin[k, a] + dt * old.spin_rate[k, a]
             if run.driven and k == 2 and a < 2:
-                new.velocity[k, a] = (run.drive[a] - old.place[k, a]) / dt
-            new.place[k, a] = old.place[k, a] + dt * new.velocity[k, a]
+                new.velocity[k, a] = (run.drive[a] - old.displacement[k, a]) / dt
+            new.displacement[k, a] = old.displacement[k, a] + dt * new.velocity[k, a]
         spin = new.spin[k]
         turn_by(old.turn[k], dt * spin[0], dt * spin[1], dt * spin[2], new.turn[k])
     place_bodies(s.sliders, s.scratch, new, 1, 4)
@@ -250,7 +246,7 @@ def set_accelerations(run: RigidRun, new: Bodies) -> None:
     part = new.parts[OWN]
     for k in range(3):
         q, spin = w.q[k + 1], new.spin[k]
-        moment = w.force[0]
+        moment = w.spare_vector
         for a in range(3):
             force = w.g[6 * k + 6 + a] - mass[k, a] * ground[a]
             if k < 2:
@@ -262,10 +258,9 @@ def set_accelerations(run: RigidRun, new: Bodies) -> None:
             is_free = free[6 * k + a] != 0
             new.acceleration[k, a] = force / mass[k, a] if is_free else 0.0
             moment[a] = w.g[6 * k + 9 + a] + (w.load[3 + a] if k == 2 else 0.0)
-        w.force[1, 0], w.force[1, 1], w.force[1, 2] = 0.0, 0.0, 0.0
-        turning_force(inertia[k], q, spin, w.force[1], moment, -1.0)
         for a in range(3):
             new.spin_rate[k, a] = 0.0
+        turning_force(inertia[k], q, spin, new.spin_rate[k], moment, -1.0)
         for b in range(3):
             if inertia[k, b] > 0.0:
                 own = (q[0, b] * moment[0] + q[1, b] * moment[1] + q[2, b] * moment[2]) / (

@@ -71,7 +71,7 @@ SHARED_FIELDS = (
     Field("first", "", "", "address of the state at the start", (), _ADDRESS),
     Field("work", "", "", "address of the scratch", (), _ADDRESS),
     Field("point_count", "-", "", "contact points of all interfaces", (), "i8"),
-    Field("place", "", "", "address of `Contacts.place`, and so on", (), _ADDRESS),
+    Field("row", "", "", "address of `Contacts.row`, and so on", (), _ADDRESS),
     Field("sliders", "", "", "", (), _ADDRESS),
     Field("points", "", "", "", (), _ADDRESS),
     Field("bodies_old", "", "", "", (), _ADDRESS),

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._jit import kernel
+from lir_element._jit import counting as kernel
 from lir_element.bundles.contact_data import Contacts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
+from lir_element.kernels.linear import gather, scatter
 from lir_element.kernels.pendulum.trial import copy_words, has_no_state
 from lir_element.layout import BODIES, POINT, PROPS, SCRATCH, SLIDERS, STATE, TOUCH, WORK
 from lir_element.opensees.block.layout import (
@@ -52,7 +53,7 @@ def contacts_at(h: Host) -> Contacts:
     """Return the contact points of a bearing at the level 'contact'."""
     m = h.point_count
     return Contacts(
-        carray(pointer(h.place), 1, WORDS),
+        carray(pointer(h.row), 1, WORDS),
         carray(pointer(h.sliders), 1, SLIDERS),
         carray(pointer(h.points), (1, m), POINT),
         carray(pointer(h.bodies_old), 1, BODIES),
@@ -68,24 +69,11 @@ def contacts_at(h: Host) -> Contacts:
 
 
 @kernel
-def to_bearing(h: Host, source: Floats, target: Floats) -> None:
-    """Map displacements of the model's degrees of freedom to bearing axes."""
-    for row in range(12):
-        total = 0.0
-        for entry in range(h.start[row], h.start[row + 1]):
-            total += h.values[entry] * source[h.columns[entry]]
-        target[row] = total
-
-
-@kernel
 def set_force(h: Host, force: Floats) -> None:
     """Set the block's force to that of the bearing, in the model's degrees of freedom."""
     for k in range(h.dofs):
         h.force[k] = 0.0
-    for row in range(12):
-        value = h.force_factor * force[row]
-        for entry in range(h.start[row], h.start[row + 1]):
-            h.force[h.columns[entry]] += h.values[entry] * value
+    scatter(h.start, h.columns, h.values, h.force_factor, force, h.force)
 
 
 @kernel
@@ -116,8 +104,8 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     """
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
-    to_bearing(h, h.host_u, h.u)
-    to_bearing(h, h.host_v, h.v)
+    gather(h.start, h.columns, h.values, h.host_u, h.u)
+    gather(h.start, h.columns, h.values, h.host_v, h.v)
     moves = False
     for k in range(h.dofs):
         moves = moves or h.host_v[k] != 0.0
@@ -241,19 +229,19 @@ def record_state(h: Host) -> None:
             h.record_every = -1
             return
         h.record, h.record_room = memory, room
-    place = h.record + 8 * RECORD_WORDS * h.record_count
-    head = carray(pointer(place), 4, NUMBERS)
+    address = h.record + 8 * RECORD_WORDS * h.record_count
+    head = carray(pointer(address), 4, NUMBERS)
     head[0] = h.time
     for a in range(3):
         head[1 + a] = h.v[6 + a] - h.v[a]
     copy_words(
         carray(pointer(h.old), STATE_WORDS, WORDS),
-        carray(pointer(place + 32), STATE_WORDS, WORDS),
+        carray(pointer(address + 32), STATE_WORDS, WORDS),
     )
     if h.bodies_old != 0:
         copy_words(
             carray(pointer(h.bodies_old), BODY_WORDS, WORDS),
-            carray(pointer(place + 32 + 8 * STATE_WORDS), BODY_WORDS, WORDS),
+            carray(pointer(address + 32 + 8 * STATE_WORDS), BODY_WORDS, WORDS),
         )
     h.record_count += 1
 

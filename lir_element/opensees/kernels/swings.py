@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import counting as kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
