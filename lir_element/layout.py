@@ -73,9 +73,6 @@ STATE_FIELDS = (
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
     Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
     Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
-    Field("charge", "N", "c", "of the store before slip: bottom, top; negative: landed", (2,)),
-    Field("interface_charge", "N", "c_h", "the same of the interface"),
-    Field("twist_charge", "N", "c_t", "the same of the torsional friction"),
     Field("friction_force", "N", "F", "friction force, tangent plane: bottom, top", (2, 2)),
     Field("interface_force", "N", "F_h", "friction force of the interface, in its plane", (2,)),
     Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
@@ -128,15 +125,14 @@ WORK_FIELDS = (
     Field("stiff_n", "N/m", "", "derivative of the axial force"),
     Field("scale", "-", "", "n_pos / n_hat"),
     Field("closure", "m", "", "axial closure"),
+    Field("kept", "-", "", "share of z that the change of the axial force leaves"),
+    Field("kept_n", "1/N", "", "its derivative by the axial force"),
+    Field("pinned", "-", "", "whether that share stays, whatever the axial force", (), "i8"),
     Field("z", "-", "z", "hysteretic variable", (2, 2)),
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
     Field("slid", "m", "", "slipped part of it", _W_PAIR),
-    Field("charge", "N", "c", "charge of the store before slip", _W_PAIR),
-    Field("charge_s", "N", "c_h", "the same of the interface"),
-    Field("way", "-", "c / N", "way to slip over yield displacement", _W_PAIR),
-    Field("way_s", "-", "c_h / N", "the same of the interface"),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
     Field("phi", "-", "", "friction force over axial force", (2, 2)),
@@ -214,7 +210,6 @@ BODY_FIELDS = (
 TOUCH_FIELDS = (
     Field("spot", "m", "", "place of the contact, axes of what carries it", (3,)),
     Field("hysteresis", "-", "z", "hysteretic variable of its friction", (2,)),
-    Field("charge", "N", "c", "of its store before slip; negative: it was open"),
     Field("gap", "m", "", "penetration, negative when open"),
     Field("closure", "m", "pen", "penetration, zero when open"),
     Field("push", "N", "N", "normal force"),
@@ -307,6 +302,6 @@ Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
 
 Mapped: TypeAlias = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float, float
+    float, float, float, float, float, float, float, float, float, float, float, float
 ]
 """What the return map of friction gives: see `kernels.slip.friction_map`."""

@@ -16,7 +16,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import kelvin_voigt
+from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
@@ -56,6 +56,8 @@ def axial(p: Props, old: State, w: Work) -> None:
         w.n_hat, w.scale = w.n_pos, 1.0
     else:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
+    if w.pinned == 0:
+        w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
 
 
 @kernel

@@ -83,11 +83,17 @@ def taken(old: State, new: State, side: int, work: float) -> float:
 
 
 @kernel
+def pressing(p: Props, at: State) -> float:
+    """Return the axial force that counts for the stores of friction: a fixed load as it is."""
+    return p.fixed_load if p.fixed_load > 0.0 else at.axial_force
+
+
+@kernel
 def spring_energy(p: Props, at: State, k: int) -> float:
     """Return the energy in the elastic sliding of surface `k` in the state `at`."""
     low = p.friction_max[k] - p.friction_drop[k]
     z = at.hysteresis[k]
-    return stored(low, at.charge[k], p.yield_displacement[k], z[0], z[1])
+    return stored(low, pressing(p, at), p.yield_displacement[k], z[0], z[1])
 
 
 @kernel
@@ -96,7 +102,7 @@ def interface_energy(p: Props, at: State) -> float:
     if p.fused:
         return 0.0
     z = at.interface_hysteresis
-    return stored(p.interface_friction, at.interface_charge, p.interface_yield, z[0], z[1])
+    return stored(p.interface_friction, pressing(p, at), p.interface_yield, z[0], z[1])
 
 
 @kernel
@@ -119,7 +125,7 @@ def twist_energy(p: Props, at: State) -> float:
     for k in range(2):
         low = min(low, p.friction_max[k] - p.friction_drop[k])
     low *= p.torsion_lever
-    return stored(low, at.twist_charge, p.torsion_yield, at.twist_hysteresis, 0.0)
+    return stored(low, pressing(p, at), p.torsion_yield, at.twist_hysteresis, 0.0)
 
 
 @kernel
