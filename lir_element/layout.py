@@ -69,7 +69,7 @@ STATE_FIELDS = (
     Field("slip_total", "m", "s", "interface slip in global axes, top slider on bottom", (3,)),
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
     Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
-    Field("slid", "m", "", "slipped part of the last step's sliding: bottom, top", (2,)),
+    Field("slid", "m", "", "part of the last step's sliding past the old z: bottom, top", (2,)),
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
     Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
     Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
@@ -132,7 +132,7 @@ WORK_FIELDS = (
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
-    Field("slid", "m", "", "slipped part of it", _W_PAIR),
+    Field("slid", "m", "", "part of it past the old z", _W_PAIR),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
     Field("phi", "-", "", "friction force over axial force", (2, 2)),
@@ -214,7 +214,7 @@ TOUCH_FIELDS = (
     Field("closure", "m", "pen", "penetration, zero when open"),
     Field("push", "N", "N", "normal force"),
     Field("friction", "-", "mu", "friction coefficient"),
-    Field("slid", "m", "", "slipped part of the last step"),
+    Field("slid", "m", "", "part of the last step's sliding past the old z"),
     Field("speed", "m/s", "v", "speed of slip"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
 )
@@ -302,6 +302,6 @@ Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
 
 Mapped: TypeAlias = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float
+    float, float, float, float, float, float, float, float, float, float, float
 ]
 """What the return map of friction gives: see `kernels.slip.friction_map`."""

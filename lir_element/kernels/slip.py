@@ -139,9 +139,10 @@ def friction_map(
 ) -> Mapped:  # fmt: skip
     """Return what `return_map` does where a share of z is kept, and more.
 
-    Twelve numbers: the nine of `return_map`, the derivatives of z (2) and of the slip by the axial
-    force. `kept` and `by_push` are those of `kept_share`; the sliding counts with the mean of the
-    roots of both axial forces over the last one, ``(1 + kept) / 2``.
+    Eleven numbers: z (2), dz/d(dw) (2 x 2, by rows), the sliding that goes on past the old z (>= 0)
+    and its derivative by dw (2), and the derivative of z by the axial force (2). `kept` and
+    `by_push` are those of `kept_share`; the sliding counts with the mean of the roots of both axial
+    forces over the last one, ``(1 + kept) / 2``.
 
     The return map leaves z along the mean direction of the step: half a step late where the path
     bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
@@ -160,15 +161,20 @@ def friction_map(
             by_push * old_1, by_push * old_2, more * dw_1, more * dw_2,
         )  # fmt: skip
         s_n = u * (s_n - more * slip)
+    slid, a_1, a_2 = sliding_on(old_1, old_2, dw_1, dw_2, u_y)
+    flat = (z_1, z_2, h_11, h_12, h_21, h_22, slid, a_1, a_2, n_1, n_2)
+    if share == 0.0 or slip == 0.0 or slid == 0.0:
+        return flat
     cross = before_1 * dw_2 - before_2 * dw_1
     dot = before_1 * dw_1 + before_2 * dw_2
-    flat = (z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n)
-    if share == 0.0 or slip == 0.0 or not dot > 0.0:
+    if not dot > 0.0:
         return flat
     angle = math.atan2(cross, dot)
     q = (angle / _BEND) ** 2
     if not q < 1.0:
         return flat
+    if slid < slip:  # what a falling axial force takes from z is no sliding
+        slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part  # (3.7)
@@ -186,13 +192,28 @@ def friction_map(
         c * h_12 - s * h_22 - r_2 * turn_2,
         s * h_11 + c * h_21 + r_1 * turn_1,
         s * h_12 + c * h_22 + r_1 * turn_2,
-        slip,
-        s_1,
-        s_2,
+        slid,
+        a_1,
+        a_2,
         c * n_1 - s * n_2 - r_2 * turn_n,
         s * n_1 + c * n_2 + r_1 * turn_n,
-        s_n,
     )
+
+
+@kernel
+def sliding_on(
+    old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
+) -> tuple[float, float, float]:
+    """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
+
+    It gives the friction its speed. What unloads z has none; neither has what a changing axial
+    force takes from z or asks to be filled, so that it does not switch the friction.
+    """
+    b_1, b_2 = old_1 + dw_1 / u_y, old_2 + dw_2 / u_y
+    size, before = math.sqrt(b_1 * b_1 + b_2 * b_2), math.sqrt(old_1 * old_1 + old_2 * old_2)
+    if size <= before:
+        return 0.0, 0.0, 0.0
+    return u_y * (size - before), b_1 / size, b_2 / size  # (3.9)
 
 
 @kernel

@@ -66,13 +66,13 @@ def sphere(
     push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
     before = old.increment
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, z_n1, z_n2, s_n = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
         p.yield_displacement[side], kept, by_push, before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
-        speed, by_slip = speed_at_end(slip, dt, old.slid, w.step_before, w.share)
+        speed, by_slip = speed_at_end(slid, dt, old.slid, w.step_before, w.share)
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
@@ -80,7 +80,7 @@ def sphere(
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = size - radius, closure, push
-    new.friction, new.slid, new.speed = mu, slip, speed
+    new.friction, new.slid, new.speed = mu, slid, speed
     f_1, f_2 = mu * z_1, mu * z_2
     m = new.spot
     for a in range(3):
@@ -88,9 +88,8 @@ def sphere(
         w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
-    f_n1 = f_1 + push * (mu * z_n1 + z_1 * by_n)
-    f_n2 = f_2 + push * (mu * z_n2 + z_2 * by_n)
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
+    f_n1, f_n2 = f_1 + push * mu * z_n1, f_2 + push * mu * z_n2
     g_11, g_12 = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
     g_21, g_22 = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
     k, inv = 1.0 / (1.0 + n_2), 1.0 / size
@@ -121,7 +120,7 @@ def plane(
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, z_n1, z_n2, _ = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
         p.interface_yield, kept, by_push, old.increment[0], old.increment[1], w.share,
     )  # fmt: skip
@@ -130,8 +129,8 @@ def plane(
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = -d[2], closure, push
-    new.friction, new.slid = mu, slip
-    new.speed = slip / dt if dt > 0.0 else 0.0
+    new.friction, new.slid = mu, slid
+    new.speed = slid / dt if dt > 0.0 else 0.0
     w.normal[2] = push  # (7.2)
     w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
     w.slope[2, 2] = -stiff

@@ -153,21 +153,21 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
     before = old.sliding_increment[k]
     share = step_share(w.dt, old.step)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
         p.yield_displacement[k], w.kept, w.kept_n, before[0], before[1], share,
     )  # fmt: skip
-    w.slid[k] = slip
-    # the speed of slip, not of the elastic part: friction must not grow while it unloads
+    w.slid[k] = slid
+    # sliding that unloads has no speed: friction must not grow meanwhile
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
-        w.speed[k], by_slip = speed_at_end(slip, w.dt, old.slid[k], old.step, share)
+        w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, share)
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.mu[k] = mu
-    w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1 + z_1 * by_n, mu * n_2 + z_2 * by_n
+    w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1, mu * n_2
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
     w.h[k, 0, 0], w.h[k, 0, 1] = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
@@ -178,7 +178,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
     before = old.slip_increment
-    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2, _ = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
         w.kept, w.kept_n, before[0], before[1], step_share(w.dt, old.step),

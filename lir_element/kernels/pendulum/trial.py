@@ -73,7 +73,7 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    z, _, slope, _, _, _, _, _, _, by_n, _, _ = friction_map(
+    z, _, slope, _, _, _, _, _, _, by_n, _ = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
         p.torsion_yield, w.kept, w.kept_n, 0.0, 0.0, 0.0,
     )  # fmt: skip
