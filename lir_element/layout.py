@@ -69,13 +69,10 @@ STATE_FIELDS = (
     Field("slip_total", "m", "s", "interface slip in global axes, top slider on bottom", (3,)),
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
     Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
-    Field("slid", "m", "", "slipped part of the last step's sliding: bottom, top", (2,)),
+    Field("slid", "m", "", "part of the last step's sliding past the old z: bottom, top", (2,)),
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
     Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
     Field("interface_hysteresis", "-", "z_h", "hysteretic variable of the interface", (2,)),
-    Field("charge", "N", "c", "of the store before slip: bottom, top; negative: landed", (2,)),
-    Field("interface_charge", "N", "c_h", "the same of the interface"),
-    Field("twist_charge", "N", "c_t", "the same of the torsional friction"),
     Field("friction_force", "N", "F", "friction force, tangent plane: bottom, top", (2, 2)),
     Field("interface_force", "N", "F_h", "friction force of the interface, in its plane", (2,)),
     Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
@@ -126,18 +123,16 @@ WORK_FIELDS = (
     Field("n_pos", "N", "", "axial force, not below zero"),
     Field("n_hat", "N", "", "axial force, not below its floor"),
     Field("stiff_n", "N/m", "", "derivative of the axial force"),
-    Field("pressing", "N", "", "force that presses the contacts: committed, now", _W_PAIR),
-    Field("pressing_rate", "-", "", "derivative of the latter by the axial force"),
     Field("scale", "-", "", "n_pos / n_hat"),
     Field("closure", "m", "", "axial closure"),
+    Field("kept", "-", "", "share of z that the change of the axial force leaves"),
+    Field("kept_n", "1/N", "", "its derivative by the axial force"),
+    Field("pinned", "-", "", "whether that share stays, whatever the axial force", (), "i8"),
     Field("z", "-", "z", "hysteretic variable", (2, 2)),
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
-    Field("slid", "m", "", "slipped part of it", _W_PAIR),
-    Field("slid_s", "m", "", "slipped part of the interface's"),
-    Field("way", "-", "c / N", "way to slip over yield displacement", _W_PAIR),
-    Field("way_s", "-", "c_h / N", "the same of the interface"),
+    Field("slid", "m", "", "part of it past the old z", _W_PAIR),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
     Field("phi", "-", "", "friction force over axial force", (2, 2)),
@@ -216,12 +211,11 @@ BODY_FIELDS = (
 TOUCH_FIELDS = (
     Field("spot", "m", "", "place of the contact, axes of what carries it", (3,)),
     Field("hysteresis", "-", "z", "hysteretic variable of its friction", (2,)),
-    Field("charge", "N", "c", "of its store before slip; negative: it was open"),
     Field("gap", "m", "", "penetration, negative when open"),
     Field("closure", "m", "pen", "penetration, zero when open"),
     Field("push", "N", "N", "normal force"),
     Field("friction", "-", "mu", "friction coefficient"),
-    Field("slid", "m", "", "slipped part of the last step"),
+    Field("slid", "m", "", "part of the last step's sliding past the old z"),
     Field("speed", "m/s", "v", "speed of slip"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
 )
@@ -311,6 +305,6 @@ Touch: TypeAlias = Any
 """One record of dtype TOUCH."""
 
 Mapped: TypeAlias = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float, float
+    float, float, float, float, float, float, float, float, float, float, float
 ]
 """What the return map of friction gives: see `kernels.slip.friction_map`."""

@@ -10,10 +10,9 @@ Friction is ``F = mu N z``. Both regularisations share one form. With the trial 
 
 The second becomes the first as eta grows without bound. ``|z| <= 1`` holds for both.
 
-The elastic sliding before slip stores ``mu c u_y |z|^2 / 2``. Its charge c [N] is the axial force
-where nothing changes; a rising axial force leaves the store as it is, so that the way to slip
-shortens to ``u = u_y c / N``; a falling one takes from it (c <= N); slip fills it up again. No
-cycle of the axial force then makes energy. docs/theory.md, section 3.
+The elastic sliding before slip stores ``mu N u_y |z|^2 / 2``. A change of the axial force N does no
+work on it: at rest z goes with ``N^(-1/2)``, and the friction force with ``N^(1/2)``. No cycle of
+the axial force then makes energy. docs/theory.md, section 3.
 """
 
 from __future__ import annotations
@@ -27,72 +26,29 @@ if TYPE_CHECKING:
     from lir_element.layout import Mapped
 
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
-_SHORTEST = 0.3  # of u_y: the way to slip that a rising axial force leaves at least
-_NO_FORCE = 1e-6  # N, what round-off makes of none
-_LITTLE = 1e-3  # hysteretic variable so small that it may give way to a full charge
-LANDED = -1.0  # charge of a contact that has been open: it lands with nothing stored
+_FALL = 1e12  # of the axial force in a step, beyond which nothing but slip can follow
 
 
 @kernel
-def charge_at(
-    charge: float, z_1: float, z_2: float, push_old: float, push: float, floor: float, dt: float
-) -> tuple[float, float, float, float]:
-    """Return how the store enters a step in which the axial force goes from `push_old` to `push`.
+def kept_share(push_old: float, push: float, floor: float) -> tuple[float, float]:
+    """Return the share of z that a changing axial force leaves, and its derivative by `push`.
 
-    Four numbers: the way to slip over u_y, the derivative of its logarithm by `push`, the share of
-    z that is left, and that one's derivative; one of both derivatives is zero. The mean axial force
-    of the step counts: with the trapezoidal rule for works the store then changes by what friction
-    does, whatever the axial force does. A contact that was open forgets z as it lands, over the
-    first `floor` of axial force. In a static step (`dt` zero) z gives way to a rising force, and
-    the way to slip stays: how permanent loads came about leaves no trace.
+    ``(N_old / N)^(1/2)``: the store stays what it is. Contacts that were open have none as they
+    land. Below `floor` the axial force changes nothing.
     """
-    mean = 0.5 * (push_old + push) if dt > 0.0 else push
-    if charge < 0.0:
-        if push <= 0.0:
-            return 1.0, 0.0, 1.0, 0.0
-        return (
-            (1.0, 0.0, 1.0 - push / floor, -1.0 / floor) if push < floor else (1.0, 0.0, 0.0, 0.0)
-        )
-    if charge == 0.0 or charge >= mean:
-        return 1.0, 0.0, 1.0, 0.0
-    way = charge / mean  # (3.5)
-    if dt == 0.0 and push > push_old:
-        kept = min(charge / push_old, 1.0) if push_old > 0.0 else 1.0
-        left = math.sqrt(way / kept)
-        return kept, 0.0, left, -0.5 * left / push
-    if dt == 0.0:
-        return way, -1.0 / push, 1.0, 0.0
-    if z_1 * z_1 + z_2 * z_2 < _LITTLE * _LITTLE:
-        left = math.sqrt(way)
-        return 1.0, 0.0, left, -0.25 * left / mean
-    if way >= _SHORTEST:
-        return way, -0.5 / mean, 1.0, 0.0
-    left = math.sqrt(way / _SHORTEST)  # as much is stored, under a larger force a unit of z
-    return _SHORTEST, 0.0, left, -0.25 * left / mean
+    before, after = max(push_old, floor), max(push, floor)
+    if after <= 0.0:
+        return 1.0, 0.0
+    if before > _FALL * after:
+        return math.sqrt(_FALL), 0.0
+    kept = math.sqrt(before / after)  # (3.5)
+    return kept, -0.5 * kept / after if push > floor else 0.0
 
 
 @kernel
-def charge_after(
-    charge: float, way: float, push_old: float, push: float, z_1: float, z_2: float,
-    slip: float, u_y: float, dt: float,
-) -> float:  # fmt: skip
-    """Return the charge at the end of a step: what slip dissipates fills the store first.
-
-    A contact that has never carried a force (`charge` zero) is charged by its first one.
-    """
-    if push <= _NO_FORCE:
-        return LANDED if dt > 0.0 else 0.0
-    if charge == 0.0:
-        return push
-    mean = 0.5 * (push_old + push) if dt > 0.0 else push
-    filled = 2.0 * mean * slip * math.sqrt(z_1 * z_1 + z_2 * z_2) / u_y  # (3.6)
-    return min(way * mean + filled, push)
-
-
-@kernel
-def stored(mu: float, charge: float, u_y: float, z_1: float, z_2: float) -> float:
+def stored(mu: float, push: float, u_y: float, z_1: float, z_2: float) -> float:
     """Return the energy [J] in the elastic sliding of a contact."""
-    return 0.5 * mu * max(charge, 0.0) * u_y * (z_1 * z_1 + z_2 * z_2)  # (3.4)
+    return 0.5 * mu * max(push, 0.0) * u_y * (z_1 * z_1 + z_2 * z_2)  # (3.4)
 
 
 @kernel
@@ -126,16 +82,14 @@ def return_map(
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     e_1, e_2 = b_1 / size, b_2 / size
     kappa = e_1 * d_1 + e_2 * d_2
-    if bouc_wen:
-        if kappa <= 0.0:
-            return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
+    if size <= 1.0 and (not bouc_wen or kappa <= 0.0):
+        return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
+    if bouc_wen and size < 1.0 + kappa and kappa > 0.0:
         rho, by_size = bouc_wen_radius(size, kappa, exponent)
         across = (d_2 * e_1 - d_1 * e_2) / size  # turn of the direction, times dw
         power = rho**exponent
         grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
         grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
-    elif size <= 1.0:
-        return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     else:
         rho, grad_1, grad_2 = 1.0, 0.0, 0.0
     hoop = rho / size
@@ -153,74 +107,78 @@ def return_map(
 
 
 @kernel
-def map_rate(
-    bouc_wen: int, exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
-    c_1: float, c_2: float,
+def bouc_wen_rate(
+    exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
+    by_old_1: float, by_old_2: float, by_d_1: float, by_d_2: float,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Return the derivative of z (2) and of ``|b| - rho`` in a direction c of z_old."""
+    """Return the derivative of z (2) and of ``|b| - rho`` in a direction of z_old and dw / u."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2
+    c_1, c_2 = by_old_1 + by_d_1, by_old_2 + by_d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     if size == 0.0:
         return c_1, c_2, 0.0
     e_1, e_2 = b_1 / size, b_2 / size
     along = e_1 * c_1 + e_2 * c_2
     w_1, w_2 = (c_1 - along * e_1) / size, (c_2 - along * e_2) / size  # derivative of e
-    if bouc_wen:
-        kappa = e_1 * d_1 + e_2 * d_2
-        if kappa <= 0.0:
-            return c_1, c_2, 0.0
-        rho, by_size = bouc_wen_radius(size, kappa, exponent)
-        radial = by_size * (along - rho**exponent * (w_1 * d_1 + w_2 * d_2))
-    elif size <= 1.0:
+    kappa = e_1 * d_1 + e_2 * d_2
+    if size <= 1.0 and kappa <= 0.0:
         return c_1, c_2, 0.0
-    else:
-        rho, radial = 1.0, 0.0
+    rho, radial = 1.0, 0.0
+    if size < 1.0 + kappa and kappa > 0.0:
+        rho, by_size = bouc_wen_radius(size, kappa, exponent)
+        by_kappa = w_1 * d_1 + w_2 * d_2 + e_1 * by_d_1 + e_2 * by_d_2
+        radial = by_size * (along - rho**exponent * by_kappa)
     return radial * e_1 + rho * w_1, radial * e_2 + rho * w_2, along - radial
 
 
 @kernel
 def friction_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
-    u_y: float, charge: float, push_old: float, push: float, floor: float, dt: float,
-    before_1: float, before_2: float, share: float,
+    u_y: float, kept: float, by_push: float, before_1: float, before_2: float, share: float,
 ) -> Mapped:  # fmt: skip
-    """Return what `return_map` does with the way to slip that the store leaves, and more.
+    """Return what `return_map` does where a share of z is kept, and more.
 
-    Thirteen numbers: the nine of `return_map`, the derivatives of z (2) and of the slip by the
-    axial force `push`, and the way to slip over u_y. The axial force changes the way u or what is
-    left of z, never both; z is a function of dw / u, so that the former needs nothing but the
-    derivative by dw.
+    Eleven numbers: z (2), dz/d(dw) (2 x 2, by rows), the sliding that goes on past the old z (>= 0)
+    and its derivative by dw (2), and the derivative of z by the axial force (2). `kept` and
+    `by_push` are those of `kept_share`; the sliding counts with the mean of the roots of both axial
+    forces over the last one, ``(1 + kept) / 2``.
 
     The return map leaves z along the mean direction of the step: half a step late where the path
     bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
-    way, rate, left, by_left = charge_at(charge, old_1, old_2, push_old, push, floor, dt)
-    u = way * u_y
+    k_1, k_2, u = kept * old_1, kept * old_2, 2.0 * u_y / (1.0 + kept)  # (3.6)
     z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
-        bouc_wen, exponent, left * old_1, left * old_2, dw_1, dw_2, u
+        bouc_wen, exponent, k_1, k_2, dw_1, dw_2, u
     )
     n_1, n_2, s_n = 0.0, 0.0, 0.0
-    if rate != 0.0:
-        n_1 = -rate * (h_11 * dw_1 + h_12 * dw_2)
-        n_2 = -rate * (h_21 * dw_1 + h_22 * dw_2)
-        s_n = rate * (slip - (s_1 * dw_1 + s_2 * dw_2))
-    elif by_left != 0.0:
-        n_1, n_2, s_n = map_rate(
-            bouc_wen, exponent, left * old_1, left * old_2, dw_1 / u, dw_2 / u,
-            by_left * old_1, by_left * old_2,
-        )  # fmt: skip
-        s_n *= u
+    if by_push != 0.0:
+        more = 0.5 * by_push / u_y  # derivative of 1 / u
+        c_1, c_2, e_1, e_2 = by_push * old_1, by_push * old_2, more * dw_1, more * dw_2
+        if bouc_wen:
+            n_1, n_2, s_n = bouc_wen_rate(
+                exponent, k_1, k_2, dw_1 / u, dw_2 / u, c_1, c_2, e_1, e_2
+            )
+        else:  # a function of b alone
+            c_1, c_2 = c_1 + e_1, c_2 + e_2
+            n_1, n_2 = u * (h_11 * c_1 + h_12 * c_2), u * (h_21 * c_1 + h_22 * c_2)
+            s_n = s_1 * c_1 + s_2 * c_2
+        s_n = u * (s_n - more * slip)
+    slid, a_1, a_2 = sliding_on(old_1, old_2, dw_1, dw_2, u_y)
+    flat = (z_1, z_2, h_11, h_12, h_21, h_22, slid, a_1, a_2, n_1, n_2)
+    if share == 0.0 or slip == 0.0 or slid == 0.0:
+        return flat
     cross = before_1 * dw_2 - before_2 * dw_1
     dot = before_1 * dw_1 + before_2 * dw_2
-    flat = (z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way)
-    if share == 0.0 or slip == 0.0 or not dot > 0.0:
+    if not dot > 0.0:
         return flat
     angle = math.atan2(cross, dot)
     q = (angle / _BEND) ** 2
     if not q < 1.0:
         return flat
+    if slid < slip:  # what a falling axial force takes from z is no sliding
+        slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
     square = dw_1 * dw_1 + dw_2 * dw_2
     part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
     turn = share * angle * (1.0 - q) ** 2 * part  # (3.7)
@@ -238,14 +196,28 @@ def friction_map(
         c * h_12 - s * h_22 - r_2 * turn_2,
         s * h_11 + c * h_21 + r_1 * turn_1,
         s * h_12 + c * h_22 + r_1 * turn_2,
-        slip,
-        s_1,
-        s_2,
+        slid,
+        a_1,
+        a_2,
         c * n_1 - s * n_2 - r_2 * turn_n,
         s * n_1 + c * n_2 + r_1 * turn_n,
-        s_n,
-        way,
     )
+
+
+@kernel
+def sliding_on(
+    old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
+) -> tuple[float, float, float]:
+    """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
+
+    It gives the friction its speed. What unloads z has none; neither has what a changing axial
+    force takes from z or asks to be filled, so that it does not switch the friction.
+    """
+    b_1, b_2 = old_1 + dw_1 / u_y, old_2 + dw_2 / u_y
+    size, before = math.sqrt(b_1 * b_1 + b_2 * b_2), math.sqrt(old_1 * old_1 + old_2 * old_2)
+    if size <= before:
+        return 0.0, 0.0, 0.0
+    return u_y * (size - before), b_1 / size, b_2 / size  # (3.9)
 
 
 @kernel

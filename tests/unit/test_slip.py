@@ -1,5 +1,6 @@
 """Return map, friction law and contact law, one by one."""
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -14,12 +15,14 @@ from lir_element.kernels.slip import (
     friction_coefficient,
     friction_map,
     kelvin_voigt,
+    kept_share,
     return_map,
     speed_at_end,
+    stored,
 )
 
 U_Y = 0.25e-3
-FULL = (1e5, 1e5, 1e5, 1e2, 0.005)  # N, s: charge, axial force before and after, floor, step
+KEPT = (1.0, 0.0)  # share of z that a constant axial force leaves, and its derivative
 STEP = st.floats(-5e-3, 5e-3)
 ANGLE = st.floats(-math.pi, math.pi)
 LAWS = [(0, 2.0), (1, 1.0), (1, 2.0), (1, 5.5), (1, 40.0)]
@@ -272,7 +275,7 @@ def test_derivative_half_a_step_ahead(
     h = 1e-3 * min(U_Y * min(far, 1.0), step)
 
     def at(x: float, y: float) -> np.ndarray:
-        return np.array(friction_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y, *FULL, *last, share))
+        return np.array(friction_map(bouc_wen, eta, *z, d_1 + x, d_2 + y, U_Y, *KEPT, *last, share))
 
     columns = []
     for x, y in ((h, 0.0), (0.0, h)):
@@ -299,7 +302,7 @@ def test_direction_on_a_circle(steps: int) -> None:
         z, last = np.zeros(2), np.zeros(2)
         for dw in increments:
             last_share = 0.5 if name == "ahead" and last.any() else 0.0
-            z = np.array(friction_map(0, 2.0, *z, *dw, U_Y, *FULL, *last, last_share)[:2])
+            z = np.array(friction_map(0, 2.0, *z, *dw, U_Y, *KEPT, *last, last_share)[:2])
             last = dw
         direction = math.atan2(z[1], z[0])
         lags[name] = (phase[-1] - direction + np.pi) % (2.0 * np.pi) - np.pi
@@ -321,3 +324,91 @@ def test_speed_at_the_end() -> None:
     assert ahead == pytest.approx(speeds[1] + 0.5 * times[1] * rate)
     assert by_slip == pytest.approx((1.0 + share) / times[1])
     assert speed_at_end(1e-5, 0.01, 5e-3, 0.01, 0.5) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@given(
+    size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, before=st.floats(0.0, 1e7),
+    push=st.floats(-1e5, 1e7), floor=st.floats(0.0, 1e3),
+)  # fmt: skip
+def test_never_beyond_the_cone_under_a_changing_force(
+    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, before: float,
+    push: float, floor: float,
+) -> None:  # fmt: skip
+    """Whatever the axial force does, lift-off and landing among it; numbers stay finite."""
+    kept = kept_share(before, push, floor)
+    out = np.array(
+        friction_map(bouc_wen, eta, *turned(size, 0.0, angle), d_1, d_2, U_Y, *kept, 0.0, 0.0, 0.0)
+    )
+    assert np.isfinite(out).all()
+    assert math.hypot(out[0], out[1]) <= 1.0 + 1e-15
+    assert out[6] >= 0.0
+    if before == 0.0 and floor == 0.0 < push:
+        assert kept == (0.0, 0.0)  # it lands with nothing stored
+    if max(before, push) <= floor:
+        assert kept == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
+@pytest.mark.parametrize("seed", range(12))
+def test_derivative_by_the_axial_force(seed: int, bouc_wen: int, eta: float, share: float) -> None:
+    """Of z and of the slip, against differences of fourth order, away from the corners."""
+    rng = np.random.default_rng(seed)
+    z = np.array(turned(rng.uniform(0.0, 0.95), 0.0, rng.uniform(-math.pi, math.pi)))
+    d = np.array(turned(rng.choice([0.1, 0.6, 4.0]) * U_Y, 0.0, rng.uniform(-math.pi, math.pi)))
+    last = np.array(turned(*d, rng.uniform(-0.5, 0.5)))
+    old, push = 1e5, 1e5 * rng.uniform(0.3, 3.0)
+
+    def at(force: float) -> np.ndarray:
+        kept = kept_share(old, force, 1e2)
+        return np.array(friction_map(bouc_wen, eta, *z, *d, U_Y, *kept, *last, share))
+
+    kept = kept_share(old, push, 1e2)[0]
+    b = kept * z + 0.5 * (1.0 + kept) * d / U_Y
+    kappa = float(b @ d) / math.hypot(*b) / U_Y
+    corner = min(abs(math.hypot(*b) - 1.0), abs(kappa), abs(math.hypot(*b) - 1.0 - kappa))
+    if corner < 2e-2 or math.hypot(*b) < 5e-2:
+        pytest.skip("at a corner")
+    h = 1e-3 * push
+    near, wide = (at(push + m * h) - at(push - m * h) for m in (1, 2))
+    by_push = (8.0 * near - wide) / (12.0 * h)
+    out, scale = at(push), np.array([1.0, 1.0, U_Y])
+    limit = max(1e-8, 1e-10 * eta**4)
+    found = push * out[9:12] / scale
+    assert_allclose(found, push * by_push[[0, 1, 6]] / scale, rtol=0.0, atol=limit)
+
+
+def test_store_takes_up_the_work() -> None:
+    """Stuck under any axial force: what friction takes is stored, whatever the axial force does.
+
+    z follows dz = du / u_y - z dN / (2 N); with steps halved the errors fall by four.
+    """
+    mu = 0.07
+
+    def force(t: float) -> float:
+        return 1e5 * (1.0 + 0.6 * math.sin(9.0 * t) + 0.2 * math.sin(23.0 * t))
+
+    def place(t: float) -> np.ndarray:
+        return 0.2 * U_Y * np.array([math.sin(3.0 * t), math.sin(4.0 * t + 0.3) - math.sin(0.3)])
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        h = 1e-5
+        du = (place(t + h) - place(t - h)) / (2.0 * h)
+        fall = (force(t + h) - force(t - h)) / (4.0 * h * force(t))
+        return np.array([*(du / U_Y - y[:2] * fall), mu * force(t) * y[:2] @ du])
+
+    exact = solve_ivp(rate, (0.0, 4.0), np.zeros(3), rtol=1e-10, atol=1e-12).y[:, -1]
+    assert exact[2] == pytest.approx(stored(mu, force(4.0), U_Y, exact[0], exact[1]), rel=1e-6)
+    errors = []
+    for count in (800, 1600):
+        z, work = np.zeros(2), 0.0
+        times = np.linspace(0.0, 4.0, count + 1)
+        for before, after in itertools.pairwise(times):
+            old, new, du = force(before), force(after), place(after) - place(before)
+            share = kept_share(old, new, 0.0)
+            last, z = z, np.array(friction_map(0, 2.0, *z, *du, U_Y, *share, 0.0, 0.0, 0.0)[:2])
+            work += 0.5 * mu * float((old * last + new * z) @ du)
+        errors.append([*(z - exact[:2]), work / exact[2] - 1.0])
+    assert np.abs(errors[1]).max() < 1e-3
+    assert (np.array(errors[0]) / errors[1] > 3.8).all()

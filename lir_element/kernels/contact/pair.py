@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.slip import (
-    charge_after,
     friction_coefficient,
     friction_map,
     kelvin_voigt,
+    kept_share,
     speed_at_end,
 )
 
@@ -64,23 +64,23 @@ def sphere(
     o_n = n_0 * o[0] + n_1 * o[1] + n_2 * o[2]
     dw_1, dw_2 = -radius * o_1, -radius * o_2
     push, stiff, closure = kelvin_voigt(size - radius, old.closure, stiffness, damping, dt)
-    before, u_y = old.increment, p.yield_displacement[side]
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, z_n1, z_n2, s_n, way = friction_map(
+    before = old.increment
+    kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        u_y, old.charge, old.push, push, 0.0, dt, before[0], before[1], w.share,
+        p.yield_displacement[side], kept, by_push, before[0], before[1], w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
-        speed, by_slip = speed_at_end(slip, dt, old.slid, w.step_before, w.share)
+        speed, by_slip = speed_at_end(slid, dt, old.slid, w.step_before, w.share)
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
-    new.charge = charge_after(old.charge, way, old.push, push, z_1, z_2, slip, u_y, dt)
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = size - radius, closure, push
-    new.friction, new.slid, new.speed = mu, slip, speed
+    new.friction, new.slid, new.speed = mu, slid, speed
     f_1, f_2 = mu * z_1, mu * z_2
     m = new.spot
     for a in range(3):
@@ -88,9 +88,8 @@ def sphere(
         w.tangential[a] = -push * (f_1 * t[a] + f_2 * s[a])
     if push == 0.0:
         return
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
-    f_n1 = f_1 + push * (mu * z_n1 + z_1 * by_n)
-    f_n2 = f_2 + push * (mu * z_n2 + z_2 * by_n)
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
+    f_n1, f_n2 = f_1 + push * mu * z_n1, f_2 + push * mu * z_n2
     g_11, g_12 = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
     g_21, g_22 = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
     k, inv = 1.0 / (1.0 + n_2), 1.0 / size
@@ -120,21 +119,18 @@ def plane(
     d, o = w.d, old.spot
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, z_n1, z_n2, _, way = friction_map(
+    kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.interface_yield, old.charge, old.push, push, 0.0, dt, old.increment[0], old.increment[1],
-        w.share,
+        p.interface_yield, kept, by_push, old.increment[0], old.increment[1], w.share,
     )  # fmt: skip
     mu = p.interface_friction
-    new.charge = charge_after(
-        old.charge, way, old.push, push, z_1, z_2, slip, p.interface_yield, dt
-    )
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2
     new.gap, new.closure, new.push = -d[2], closure, push
-    new.friction, new.slid = mu, slip
-    new.speed = slip / dt if dt > 0.0 else 0.0
+    new.friction, new.slid = mu, slid
+    new.speed = slid / dt if dt > 0.0 else 0.0
     w.normal[2] = push  # (7.2)
     w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
     w.slope[2, 2] = -stiff
@@ -159,7 +155,7 @@ def bond(
     new.gap = -w.d[2]  # bonded: it neither opens nor closes
     new.closure = new.gap
     new.push = max(w.normal[2], 0.0)
-    new.hysteresis[0], new.hysteresis[1], new.charge = 0.0, 0.0, 0.0
+    new.hysteresis[0], new.hysteresis[1] = 0.0, 0.0
     new.increment[0], new.increment[1] = 0.0, 0.0
     new.friction, new.slid, new.speed = 0.0, 0.0, 0.0
 

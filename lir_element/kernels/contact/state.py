@@ -54,7 +54,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     set_averages(s.points, s.touch_new, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
-    new.twist_hysteresis, new.twist_charge = 0.0, 0.0
+    new.twist_hysteresis = 0.0
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
 
@@ -111,18 +111,16 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
 @kernel
 def set_averages(points: Records, touch: Records, new: State) -> None:
     """Set friction states and forces of the three interfaces from their points."""
-    new.axial_force, new.interface_charge = 0.0, 0.0
+    new.axial_force = 0.0
     for a in range(2):
         new.slid[a], new.friction_coefficient[a], new.sliding_speed[a] = 0.0, 0.0, 0.0
         new.interface_hysteresis[a], new.interface_force[a] = 0.0, 0.0
-        new.charge[a] = 0.0
         for b in range(2):
             new.hysteresis[a, b], new.friction_force[a, b] = 0.0, 0.0
             new.sliding_increment[a, b] = 0.0
     for j in range(points.shape[0]):
         t, share, pair = touch[j], points[j].share, points[j].pair
         if pair == 1:
-            new.interface_charge += t.charge
             for a in range(2):
                 new.interface_hysteresis[a] += share * t.hysteresis[a]
                 new.interface_force[a] += t.push * t.friction * t.hysteresis[a]
@@ -132,7 +130,6 @@ def set_averages(points: Records, touch: Records, new: State) -> None:
         if pair == 2:
             new.axial_force += t.push
         new.slid[side] += share * t.slid
-        new.charge[side] += t.charge
         new.friction_coefficient[side] += share * t.friction
         new.sliding_speed[side] += share * t.speed
         for a in range(2):
@@ -197,8 +194,8 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         mu, u_y = store_law(s.props, side)
         before, after = s.touch_old[j], s.touch_new[j]
         y, z = before.hysteresis, after.hysteresis
-        gain = stored(mu, after.charge, u_y, z[0], z[1])
-        gain -= stored(mu, before.charge, u_y, y[0], y[1])
+        gain = stored(mu, after.push, u_y, z[0], z[1])
+        gain -= stored(mu, before.push, u_y, y[0], y[1])
         if side == 0:
             bottom += gain
         elif side == 1:

@@ -16,7 +16,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.slip import kelvin_voigt
+from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
@@ -37,11 +37,8 @@ def fix_length(p: Props, w: Work) -> None:
 def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike).
 
-    With it the forces that press the contacts at both ends of the step. Under a fixed load they
-    differ by what the slider's lean makes of it, which is not known yet: that of the committed
-    state counts, and nothing of the step follows from it.
+    With it the share of friction's z that its change leaves, unless that is pinned.
     """
-    before = max(old.axial_force, 0.0)
     gap = (w.l if w.fixed_length == 0.0 else -w.height) - p.length
     if p.bilateral:
         force, slope = p.axial_stiffness * gap, p.axial_stiffness
@@ -56,16 +53,14 @@ def axial(p: Props, old: State, w: Work) -> None:
     w.vertical, w.stiff_vertical = 0.0, 0.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
-        load = before if before > 0.0 else p.fixed_load
-        w.pressing[0], w.pressing[1], w.pressing_rate = load, load, 0.0
         return
     w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
-    w.pressing[0], w.pressing[1] = before, w.n_pos
-    w.pressing_rate = 1.0 if force >= 0.0 else 0.0
     if w.n_pos > p.axial_floor:
         w.n_hat, w.scale = w.n_pos, 1.0
     else:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
+    if w.pinned == 0:
+        w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
 
 
 @kernel

@@ -87,16 +87,21 @@ def turn_axis(w: Work, x: float, y: float, z: float, eta_1: float, eta_2: float)
 
 
 @kernel
-def aim_axis(p: Props, old: State, w: Work) -> None:
-    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused."""
+def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
+    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused.
+
+    With a share `kept` of its hysteretic variable other than one, the axis that keeps its z.
+    """
     if p.fused:
         set_axis(w, -w.c[0], -w.c[1], -w.c[2])
         w.sigma[0], w.sigma[1] = 0.0, 0.0
         return
     set_axis(w, -w.c[0], -w.c[1], -w.c[2])
+    back = 2.0 * p.interface_yield * (1.0 - kept) / (1.0 + kept)
+    s_1 = old.slip[0] + back * old.interface_hysteresis[0]
+    s_2 = old.slip[1] + back * old.interface_hysteresis[1]
     for _ in range(8):
-        e_1 = (old.slip[0] - w.sigma[0]) / w.l
-        e_2 = (old.slip[1] - w.sigma[1]) / w.l
+        e_1, e_2 = (s_1 - w.sigma[0]) / w.l, (s_2 - w.sigma[1]) / w.l
         turn_axis(w, w.n[0], w.n[1], w.n[2], e_1, e_2)
         if abs(e_1) + abs(e_2) < 1e-10:
             break
@@ -150,22 +155,21 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
     before = old.sliding_increment[k]
     share = step_share(w.dt, old.step)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2, n_1, n_2, s_n, way = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], old.charge[k], w.pressing[0], w.pressing[1], p.axial_floor, w.dt,
-        before[0], before[1], share,
+        p.yield_displacement[k], w.kept, w.kept_n, before[0], before[1], share,
     )  # fmt: skip
-    w.slid[k], w.way[k] = slip, way
-    # the speed of slip, not of the elastic part: friction must not grow while it unloads
+    w.slid[k] = slid
+    # sliding that unloads has no speed: friction must not grow meanwhile
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
-        w.speed[k], by_slip = speed_at_end(slip, w.dt, old.slid[k], old.step, share)
+        w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, share)
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
-    by_1, by_2, by_n = slope * by_slip * s_1, slope * by_slip * s_2, slope * by_slip * s_n
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.mu[k] = mu
-    w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1 + z_1 * by_n, mu * n_2 + z_2 * by_n
+    w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1, mu * n_2
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
     w.h[k, 0, 0], w.h[k, 0, 1] = mu * h_11 + z_1 * by_1, mu * h_12 + z_1 * by_2
@@ -176,14 +180,13 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N."""
     before = old.slip_increment
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, _, _, n_1, n_2, _, way = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
         w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
-        old.interface_charge, w.pressing[0], w.pressing[1], p.axial_floor, w.dt,
-        before[0], before[1], step_share(w.dt, old.step),
+        w.kept, w.kept_n, before[0], before[1], step_share(w.dt, old.step),
     )  # fmt: skip
     mu = p.interface_friction
-    w.z_s[0], w.z_s[1], w.slid_s, w.way_s = z_1, z_2, slip, way
+    w.z_s[0], w.z_s[1] = z_1, z_2
     w.phi_sn[0], w.phi_sn[1] = mu * n_1, mu * n_2
     w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
@@ -264,9 +267,9 @@ def evaluate(p: Props, old: State, w: Work) -> None:
 def elastic_jacobian(p: Props, w: Work) -> None:
     """Set the slider's jacobian as if nothing slipped: a safe direction when Newton's is not."""
     friction = w.n_hat * (
-        w.l * w.l * p.interface_friction / (w.way_s * p.interface_yield)
-        + p.radius[0] ** 2 * w.mu[0] / (w.way[0] * p.yield_displacement[0])
-        + p.radius[1] ** 2 * w.mu[1] / (w.way[1] * p.yield_displacement[1])
+        w.l * w.l * p.interface_friction / p.interface_yield
+        + p.radius[0] ** 2 * w.mu[0] / p.yield_displacement[0]
+        + p.radius[1] ** 2 * w.mu[1] / p.yield_displacement[1]
     )
     for a in range(2):
         for b in range(2):

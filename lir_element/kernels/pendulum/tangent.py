@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
 @kernel
 def friction_rate(
-    w: Work, k: int, d_hat: float, d_push: float, dw_1: float, dw_2: float
+    w: Work, k: int, d_hat: float, d_pos: float, dw_1: float, dw_2: float
 ) -> tuple[float, float]:
     """Return the derivative of the friction force of surface `k`."""
-    f_1 = w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2 + w.phi_n[k, 0] * d_push
-    f_2 = w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2 + w.phi_n[k, 1] * d_push
+    f_1 = w.h[k, 0, 0] * dw_1 + w.h[k, 0, 1] * dw_2 + w.phi_n[k, 0] * d_pos
+    f_2 = w.h[k, 1, 0] * dw_1 + w.h[k, 1, 1] * dw_2 + w.phi_n[k, 1] * d_pos
     return w.n_hat * f_1 + w.phi[k, 0] * d_hat, w.n_hat * f_2 + w.phi[k, 1] * d_hat
 
 
@@ -82,11 +82,11 @@ def direction(
     d_n = w.stiff_n * d_l
     if p.fixed_load > 0.0 and not p.fused:
         d_n = held_rate(w, e_1, e_2, d_s1, d_s2)
-    d_push = w.pressing_rate * d_n
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
     # surfaces
     f_11, f_12 = friction_rate(
-        w, 0, d_hat, d_push,
+        w, 0, d_hat, d_pos,
         p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1]),
         p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0]),
     )  # fmt: skip
@@ -94,15 +94,15 @@ def direction(
     o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
     t = w.t
     f_21, f_22 = friction_rate(
-        w, 1, d_hat, d_push,
+        w, 1, d_hat, d_pos,
         p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1]
                        + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3),
         p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
                        + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
     )  # fmt: skip
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
-        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_push, w.scale * f_12 + w.phi[0, 1] * d_push
-        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_push, w.scale * f_22 + w.phi[1, 1] * d_push
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
     # rims
@@ -136,8 +136,8 @@ def direction(
         g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     g_d1, g_d2 = 0.0, 0.0
     if not p.fused:
-        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.phi_sn[0] * d_push
-        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_push
+        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.phi_sn[0] * d_pos
+        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_pos
         g_d1 = w.n_hat * g_d1 + w.phi_s[0] * d_hat
         g_d2 = w.n_hat * g_d2 + w.phi_s[1] * d_hat
     cross = s_2 * g_1 - s_1 * g_2

@@ -14,11 +14,12 @@ from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
 from lir_element.kernels.pendulum.string import (
     aim_axis,
+    evaluate,
     place_plates,
     set_axis,
     static_speeds,
 )
-from lir_element.kernels.slip import charge_after, friction_map
+from lir_element.kernels.slip import friction_map
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Words, Work
@@ -74,18 +75,14 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     committed state.
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
-    push_old, push = w.pressing[0], w.pressing[1]
-    z, _, slope, _, _, _, slip, _, _, by_n, _, _, way = friction_map(
+    z, _, slope, _, _, _, _, _, _, by_n, _ = friction_map(
         p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
-        p.torsion_yield, old.twist_charge, push_old, push, p.axial_floor, w.dt, 0.0, 0.0, 0.0,
+        p.torsion_yield, w.kept, w.kept_n, 0.0, 0.0, 0.0,
     )  # fmt: skip
-    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * w.pressing_rate * by_n)
+    w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * by_n)
     w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
     new.twist_hysteresis = z
-    new.twist_charge = charge_after(
-        old.twist_charge, way, push_old, push, z, 0.0, slip, p.torsion_yield, w.dt
-    )
     new.torque = w.torque
 
 
@@ -108,23 +105,6 @@ def keep_works(old: State, new: State) -> None:
 
 
 @kernel
-def set_charges(p: Props, old: State, w: Work, new: State) -> None:
-    """Set the charges of the stores before slip at the end of the step."""
-    before, after = w.pressing[0], w.pressing[1]
-    for k in range(2):
-        new.charge[k] = charge_after(
-            old.charge[k], w.way[k], before, after, w.z[k, 0], w.z[k, 1], w.slid[k],
-            p.yield_displacement[k], w.dt,
-        )  # fmt: skip
-    new.interface_charge = 0.0
-    if not p.fused:
-        new.interface_charge = charge_after(
-            old.interface_charge, w.way_s, before, after, w.z_s[0], w.z_s[1], w.slid_s,
-            p.interface_yield, w.dt,
-        )  # fmt: skip
-
-
-@kernel
 def set_state(p: Props, old: State, w: Work, new: State) -> None:
     """Fill what the record keeps of the sliders."""
     n, t, q = w.n, w.t, w.q_i
@@ -139,7 +119,6 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     keep_works(old, new)
-    set_charges(p, old, w, new)
     new.string = w.l
     new.closure = w.closure
     new.axial_force = w.n_true
@@ -206,6 +185,26 @@ def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
 
 
 @kernel
+def pin(p: Props, w: Work) -> None:
+    """Let friction's z not follow the axial force: neither under a fixed load nor in a static step.
+
+    How permanent loads came about then leaves no trace.
+    """
+    w.pinned = 1 if w.dt == 0.0 or p.fixed_load > 0.0 else 0
+    if w.pinned:
+        w.kept, w.kept_n = 1.0, 0.0
+
+
+@kernel
+def solve_with_share(p: Props, old: State, w: Work) -> int:
+    """Search the axis from where the interface's z stays, though the axial force changes much."""
+    aim_axis(p, old, w, 1.0)
+    evaluate(p, old, w)
+    aim_axis(p, old, w, w.kept)
+    return solve_axis(p, old, w)
+
+
+@kernel
 def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
     """Search the axis again from between the committed one and the one that keeps the slip.
 
@@ -214,7 +213,7 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
     """
     count = -1
     for share in _STARTS:
-        aim_axis(p, old, w)
+        aim_axis(p, old, w, 1.0)
         a, n = old.axis, w.n
         set_axis(
             w,
@@ -224,8 +223,8 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
         )
         count = solve_axis(p, old, w)
         if count >= 0:
-            break
-    return count
+            return count
+    return -1 if w.pinned else solve_with_share(p, old, w)
 
 
 @kernel
@@ -241,6 +240,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
+    pin(p, w)
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
@@ -253,7 +253,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         w.old_top[a] = (
             w.a[a, 0] * old.axis_top[0] + w.a[a, 1] * old.axis_top[1] + w.a[a, 2] * old.axis_top[2]
         )
-    aim_axis(p, old, w)
+    aim_axis(p, old, w, 1.0)
     count = solve_axis(p, old, w)
     if count < 0:
         count = solve_from_elsewhere(p, old, w)

@@ -93,11 +93,17 @@ def store_law(p: Props, side: int) -> tuple[float, float]:
 
 
 @kernel
+def pressing(p: Props, at: State) -> float:
+    """Return the axial force that counts for the stores of friction: a fixed load as it is."""
+    return p.fixed_load if p.fixed_load > 0.0 else at.axial_force
+
+
+@kernel
 def spring_energy(p: Props, at: State, k: int) -> float:
     """Return the energy in the elastic sliding of surface `k` in the state `at`."""
     low, u_y = store_law(p, k)
     z = at.hysteresis[k]
-    return stored(low, at.charge[k], u_y, z[0], z[1])
+    return stored(low, pressing(p, at), u_y, z[0], z[1])
 
 
 @kernel
@@ -107,7 +113,7 @@ def interface_energy(p: Props, at: State) -> float:
         return 0.0
     mu, u_y = store_law(p, 2)
     z = at.interface_hysteresis
-    return stored(mu, at.interface_charge, u_y, z[0], z[1])
+    return stored(mu, pressing(p, at), u_y, z[0], z[1])
 
 
 @kernel
@@ -129,7 +135,8 @@ def twist_energy(p: Props, at: State) -> float:
     low = p.interface_friction
     for k in range(2):
         low = min(low, store_law(p, k)[0])
-    return stored(low * p.torsion_lever, at.twist_charge, p.torsion_yield, at.twist_hysteresis, 0.0)
+    low *= p.torsion_lever
+    return stored(low, pressing(p, at), p.torsion_yield, at.twist_hysteresis, 0.0)
 
 
 @kernel
