@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
+_LOWER = 5  # times that a height without a state is lowered ...
+_PRESS = 0.2  # ... by this share of the load's settlement (choices)
 _MAX_ITERATIONS = 60  # of Newton's method with bisection, which alone halves to round-off in 52
 _TOLERANCE = 1e-9  # of the axial load
 
@@ -26,10 +28,15 @@ def hold_actuator(run: RigRun, contacts: Contacts | None, time: float, load: flo
     p, u, k = run.props[0], run.u, run.tangent
     new = run.new[0]
     low, high = -math.inf, math.inf  # heights that carry too much, too little
+    lower = 0
     for _ in range(_MAX_ITERATIONS):
         code = bearing_trial(run.props, run.old, run.new, run.work, contacts, 0, u, run.v, time)
-        if has_no_state(code):
-            return code
+        if has_no_state(code):  # a bearing pressed harder may have one
+            lower += 1
+            if lower > _LOWER:
+                return code
+            u[8] -= _PRESS * load / p.axial_stiffness
+            continue
         excess = new.force[8] + load
         if abs(excess) <= _TOLERANCE * load:
             return new.status
