@@ -28,7 +28,7 @@ NAMES = (
     "random-2",
 )  # fmt: skip
 EACH = pytest.mark.parametrize("name", NAMES)
-UPSIDE = 4e-4  # of N
+UPSIDE = 8e-4  # of N: elastic slip of 0.4 mm, as the axial force swings
 pytestmark = pytest.mark.meant("slider_density")
 WEIGHTLESS = {"slider_density": 1e-3}  # 8 micrograms a slider
 # Newton's method stops at 1e-10 of the normal forces; carried along some hundred steps.
@@ -433,7 +433,7 @@ def test_whole_bearing_is_in_equilibrium(name: str, lab: SimpleNamespace) -> Non
 @EACH
 def test_sliders_without_mass_pass_on_forces_and_moments(name: str, lab: SimpleNamespace) -> None:
     bearing = lab.make(name, **WEIGHTLESS)
-    u, time = lab.smooth_path(bearing, 31, 240, tilt=0.02, twist=0.04)
+    u, time = lab.smooth_path(bearing, 31, 480, tilt=0.02, twist=0.04)
     r = walk(bearing, u, time)
     scale = np.abs(r.resisting[:, 8]).max()
     assert scale > 1e4
