@@ -62,14 +62,16 @@ def lagging(model: Model, run: Run, k: int) -> float:
     if p.bouc_wen == 0:
         return total
     for side in range(2):
-        slid, size = new.slid[side], math.hypot(new.hysteresis[side, 0], new.hysteresis[side, 1])
-        if slid > 0.0 and size > 0.0:
+        size = math.hypot(new.hysteresis[side, 0], new.hysteresis[side, 1])
+        gain = size - math.hypot(old.hysteresis[side, 0], old.hysteresis[side, 1])
+        slipped = new.slid[side] - p.yield_displacement[side] * max(gain, 0.0)
+        if slipped > 0.0 and size > 0.0:
             along = 0.0
             for axis in range(2):
                 along += old.hysteresis[side, axis] * new.hysteresis[side, axis] / size
             d_1, d_2 = new.sliding_increment[side, 0], new.sliding_increment[side, 1]
             force = new.friction_coefficient[side] * new.axial_force * abs(size - along)
-            force *= slid / max(slid, math.hypot(d_1, d_2))
+            force *= slipped / max(slipped, math.hypot(d_1, d_2))
             total += 0.5 * p.radius[side] / p.length * force
     return total
 
