@@ -20,7 +20,7 @@ from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SENSITIVE_ERROR
 from validation.page import table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
 Entry = dict[str, Any]
 """A report as it is kept: `Report.as_dict`."""
@@ -172,23 +172,37 @@ def _given(scenes: Iterable[Entry], name: str) -> list[Entry]:
     return [entry for entry in scenes if entry[name] is not None]
 
 
+PARTS: dict[str, Callable[[Entry], bool]] = {
+    "": lambda _: True,
+    ", not `inaccurate`": lambda entry: entry["outcome"] != INACCURATE,
+    ", pendulum": lambda entry: entry["level"] == "pendulum",
+    ", contact": lambda entry: entry["level"] == "contact",
+}
+"""Which scenes the errors of the chosen step are shown of."""
+
+
 def _errors(scenes: Sequence[Entry]) -> str:
-    measured = _given(scenes, "peak_error")
     rows = []
     for lifts, words in ((False, "without uplift"), (True, "with uplift")):
-        own = [entry for entry in measured if entry["has_uplift"] == lifts]
-        if not own:
-            continue
+        measured = [e for e in _given(scenes, "peak_error") if e["has_uplift"] == lifts]
         share, limit = GOALS[lifts]
-        peaks = np.array([entry["peak_error"] for entry in own])
-        within = float((peaks <= limit).mean())
-        goal = f"{100.0 * within:.3g} % within {100.0 * limit:g} % (goal {100.0 * share:g} %)"
-        for what, name in (("peak", "peak_error"), ("path", "path_error")):
-            values = 100.0 * np.quantile([entry[name] for entry in own], SHARES)
-            cells = [f"{value:.2g}" for value in values]
-            rows.append([words, what, str(len(own)), *cells, goal if what == "peak" else ""])
+        for part, belongs in PARTS.items():
+            own = [entry for entry in measured if belongs(entry)]
+            if not own:
+                continue
+            within = float(np.mean([entry["peak_error"] <= limit for entry in own]))
+            result = f"{100.0 * within:.3g} % within {100.0 * limit:g} %"
+            goal = "" if part else f" (goal {100.0 * share:g} %)"
+            rows.append([words + part, "peak", *_shares(own, "peak_error"), result + goal])
+            if not part:
+                rows.append([words, "path", *_shares(own, "path_error"), ""])
     head = ["scenes", "error of", "number", "median", "90 %", "95 %", "99 %", "worst", "result"]
     return table(head, rows)
+
+
+def _shares(own: Sequence[Entry], name: str) -> list[str]:
+    values = 100.0 * np.quantile([entry[name] for entry in own], SHARES)
+    return [str(len(own)), *(f"{value:.2g}" for value in values)]
 
 
 def _gravity(buildings: Sequence[Entry]) -> str:
