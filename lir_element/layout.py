@@ -127,7 +127,6 @@ WORK_FIELDS = (
     Field("closure", "m", "", "axial closure"),
     Field("kept", "-", "", "share of z that the change of the axial force leaves"),
     Field("kept_n", "1/N", "", "its derivative by the axial force"),
-    Field("pinned", "-", "", "whether that share stays, whatever the axial force", (), "i8"),
     Field("z", "-", "z", "hysteretic variable", (2, 2)),
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
@@ -216,7 +215,7 @@ TOUCH_FIELDS = (
     Field("push", "N", "N", "normal force"),
     Field("friction", "-", "mu", "friction coefficient"),
     Field("slid", "m", "", "part of the last step's sliding past the old z"),
-    Field("speed", "m/s", "v", "speed of slip"),
+    Field("speed", "m/s", "v", "speed of sliding"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
 )
 

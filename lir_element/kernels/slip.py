@@ -230,7 +230,7 @@ def step_share(dt: float, before: float) -> float:
 def speed_at_end(
     slip: float, dt: float, slip_before: float, dt_before: float, share: float
 ) -> tuple[float, float]:
-    """Return the speed of slip at the end of the step and its derivative by the slip.
+    """Return the speed of sliding at the end of the step and its derivative by the sliding.
 
     The mean speed of a step is that of its middle; the step before tells how it changes. `share`
     is ``dt / (dt + dt_before)``.

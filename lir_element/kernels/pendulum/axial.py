@@ -37,7 +37,8 @@ def fix_length(p: Props, w: Work) -> None:
 def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike).
 
-    With it the share of friction's z that its change leaves, unless that is pinned.
+    With it the share of friction's z that its change leaves: all of it under a fixed load, and in
+    a static step, so that how permanent loads came about leaves no trace.
     """
     gap = (w.l if w.fixed_length == 0.0 else -w.height) - p.length
     if p.bilateral:
@@ -51,6 +52,7 @@ def axial(p: Props, old: State, w: Work) -> None:
             gap, old.closure, p.axial_stiffness, p.axial_damping, w.dt
         )
     w.vertical, w.stiff_vertical = 0.0, 0.0
+    w.kept, w.kept_n = 1.0, 0.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
         return
@@ -59,7 +61,7 @@ def axial(p: Props, old: State, w: Work) -> None:
         w.n_hat, w.scale = w.n_pos, 1.0
     else:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
-    if w.pinned == 0:
+    if w.dt > 0.0:
         w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
 
 

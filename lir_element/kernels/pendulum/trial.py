@@ -185,17 +185,6 @@ def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
 
 
 @kernel
-def pin(p: Props, w: Work) -> None:
-    """Let friction's z not follow the axial force: neither under a fixed load nor in a static step.
-
-    How permanent loads came about then leaves no trace.
-    """
-    w.pinned = 1 if w.dt == 0.0 or p.fixed_load > 0.0 else 0
-    if w.pinned:
-        w.kept, w.kept_n = 1.0, 0.0
-
-
-@kernel
 def solve_with_share(p: Props, old: State, w: Work) -> int:
     """Search the axis from where the interface's z stays, though the axial force changes much."""
     aim_axis(p, old, w, 1.0)
@@ -224,7 +213,9 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
         count = solve_axis(p, old, w)
         if count >= 0:
             return count
-    return -1 if w.pinned else solve_with_share(p, old, w)
+    if w.dt == 0.0 or p.fixed_load > 0.0:  # z stays in any case
+        return -1
+    return solve_with_share(p, old, w)
 
 
 @kernel
@@ -240,7 +231,6 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
-    pin(p, w)
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
