@@ -290,8 +290,12 @@ def look_at_committed(s: BodyStep, old: State) -> None:
 
 @kernel
 def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
-    """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed."""
-    w = s.scratch
+    """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed.
+
+    Plates on surfaces without friction meet nothing as they turn about the vertical: in a static
+    state they are held as loose sliders are, else round-off would say how far they turn.
+    """
+    c, w = s.sliders, s.scratch
     set_system(s, dt)
     for row in range(12):
         for col in range(12):
@@ -306,3 +310,9 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
             k[row, col] = -total
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
+    if dt == 0.0:
+        hold = _HOLD * c.stiffness * c.radius**2
+        k[5, 5] += hold
+        k[5, 11] -= hold
+        k[11, 5] -= hold
+        k[11, 11] += hold
