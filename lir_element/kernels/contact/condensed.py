@@ -86,9 +86,9 @@ def follow_string(p: Props, c: Sliders, new: Bodies, w: Scratch, pen: Work) -> N
     for a in range(3):
         w.axis[a] = q[a, 0] * pen.n[0] + q[a, 1] * pen.n[1] + q[a, 2] * pen.n[2]
     share_bottom, share_top = _RESTING * closure, _RESTING * closure
-    if not closure > 0.0:  # lifted off: both rest on the bottom plate
+    if not closure > 0.0:  # lifted off: one rests on the other, and both on the bottom plate
         share_bottom = (c.mass[0] + c.mass[1]) * c.gravity / c.stiffness
-        share_top = closure - share_bottom
+        share_top = closure - share_bottom - c.mass[1] * c.gravity / c.stiffness
     centre = w.spare_vector
     for a in range(3):
         centre[a] = w.x[0, a] + p.lever[0] * w.q[0][a, 2] - share_bottom * w.axis[a]
