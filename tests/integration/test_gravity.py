@@ -79,6 +79,19 @@ def test_axial_forces_sum_to_the_weight(newhall_bearing, storeys):
     assert_allclose(vertical.sum(), -weight, rtol=1e-8)  # Newton's tolerance 1e-9
 
 
+@pytest.mark.parametrize("points", [5, 16])
+@pytest.mark.parametrize("interface", [0.3, math.inf])
+def test_a_mass_that_nothing_holds_against_a_twist_rests_untwisted(points, interface):
+    """Surfaces without friction: no twist is told from another, and round-off must not choose."""
+    bearing = smooth_bearing(contact_points=points, interface_friction=interface)
+    frame = lumped_mass(bearing, 3e4, inertia=(800.0, 800.0, 500.0))
+    state = gravity(frame, level="contact")
+    free = [label.split()[-1] for label in state.system.dof_labels]
+    turns = state.displacement[[free.index(dof) for dof in ("rx", "ry", "rz")]]
+    assert_allclose(turns, 0.0, rtol=0.0, atol=1e-9)
+    assert_allclose(state.axial_forces, 3e4 * G, rtol=0.01, atol=0.0)
+
+
 def test_indeterminate_frame_against_linear_springs():
     frame = moment_frame(bays=(2, 1), storeys=2, bearing=smooth_bearing())
     frame.add_load("floor-1-0-0", (0.0, 0.0, -3e5, 0.0, 0.0, 0.0))
