@@ -43,8 +43,9 @@ METHODS = ("direct",)
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
+_CONTACT_TOLERANCE = 3e-5  # the same with a bearing at the level 'contact': its sliders' own motion
 _SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from the start
-_ERROR_VERTICAL = 0.03  # share of a vertical error, which friction passes on, while pressed
+_ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
@@ -96,7 +97,8 @@ def time_history(
         Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
     tolerance : float, optional
         Error of a step over the displacement reached where the program controls it: 1e-4 by
-        default. At the level "rigid_body" over the effective radius: 1e-8.
+        default, 3e-5 where a bearing is at the level "contact". At the level "rigid_body" over the
+        effective radius: 1e-8.
     record_every : int
         Record every so many steps.
     on_failure : {"warn", "raise"}
@@ -142,12 +144,11 @@ def time_history(
             record_every=int(record_every), progress=progress,
         )  # fmt: skip
         return report(data, *outcome, on_failure=on_failure)
-    error = _ERROR_TOLERANCE if tolerance is None else tolerance
     options = Options(
         duration=length,
         base=float(base),
         steps=steps,
-        tolerance=error if dt is None else math.inf,
+        tolerance=tolerance if dt is None else math.inf,
         method=method,
         integrator=integrator or "newmark",
         spectral_radius=float(spectral_radius),
@@ -176,7 +177,7 @@ class Options(NamedTuple):
     duration: float
     base: float
     steps: int
-    tolerance: float  # error of a step over the displacement reached; infinite: fixed step
+    tolerance: float | None  # error of a step; infinite: fixed step; None: by level
     method: str
     integrator: str
     spectral_radius: float
@@ -197,6 +198,7 @@ def _run(
         coupling = plane_coupling(model)
     state = gravity(model, features, level)
     settings = _settings(state, options)
+    tolerance = settings.error_tolerance
     count = options.steps // options.record_every + 1
     require_memory(state, count)
     out, states, bodies = output_arrays(state.model, state.contacts, count)
@@ -219,8 +221,8 @@ def _run(
         "integrator": options.integrator,
         "spectral_radius": options.spectral_radius,
         "dt": float(options.base),
-        "step_control": "error" if math.isfinite(options.tolerance) else "fixed",
-        "tolerance": options.tolerance if math.isfinite(options.tolerance) else math.nan,
+        "step_control": "error" if math.isfinite(tolerance) else "fixed",
+        "tolerance": tolerance if math.isfinite(tolerance) else math.nan,
         "steps": int(counts["steps"]),
         "newton_iterations": int(counts["iterations"]),
         "halvings": int(counts["halvings"]),
@@ -289,6 +291,9 @@ def _settings(state: GravityState, options: Options) -> Setup:
     if options.integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
     length = min(bearing.effective_radius for _, _, _, bearing in state.system.bearings)
+    tolerance = options.tolerance
+    if tolerance is None:
+        tolerance = _ERROR_TOLERANCE if state.contacts is None else _CONTACT_TOLERANCE
     return Setup(
         dt=float(options.base),
         alpha_m=float(alpha_m),
@@ -299,7 +304,7 @@ def _settings(state: GravityState, options: Options) -> Setup:
         max_iterations=_MAX_ITERATIONS,
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
-        error_tolerance=float(options.tolerance),
+        error_tolerance=float(tolerance),
         smallest_reach=float(_SMALLEST_REACH * length),
         error_time=float(math.sqrt(length / state.system.gravity)),
         error_vertical=float(_ERROR_VERTICAL),

@@ -89,7 +89,7 @@ def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> 
     """
     clock = run.clock[0]
     damps = settings.gamma - 0.5
-    factor = 1.0 / 12.0 + 0.375 * damps * damps
+    factor = 1.0 / 12.0 + 0.5 * damps * damps
     wrong, mass = 0.0, 0.0
     for k in range(run.old.shape[0]):
         x, y, z = bend(run, k, 0), bend(run, k, 1), bend(run, k, 2)
