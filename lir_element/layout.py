@@ -222,6 +222,8 @@ TOUCH_FIELDS = (
 SCRATCH_FIELDS = (
     Field("share", "-", "", "time step over the sum of this one and the one before"),
     Field("step_before", "s", "", "the one before"),
+    Field("soft_low", "m", "", "least way to slip in a search by softer friction: surfaces", (2,)),
+    Field("soft_high", "m", "", "the same: interface"),
     Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
     Field("q", "-", "", "their rotations", (4, 3, 3)),
     Field("g", "N, N m", "", "forces and moments on them", (24,)),

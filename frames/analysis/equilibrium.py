@@ -92,7 +92,7 @@ def find_equilibrium(
         return RunStatus(status), run, contacts
 
     status, run, contacts = solve(guess)
-    if status is not RunStatus.OK and not _is_beyond(run):
+    if status is not RunStatus.OK:
         softer = _softened(model, solve, guess)
         if softer is not None:
             status, run, contacts = softer
@@ -175,23 +175,18 @@ def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> 
         props[name] = np.maximum(values, soft[name])
 
 
-def _is_beyond(run: Run) -> bool:
-    # Whether a bearing lifted or passed a limit of its own: no way of solving changes that.
-    return bool((run.new["axial_force"] <= 0.0).any())
-
-
 def _raise_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
-    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits.
-    lifted = np.flatnonzero(run.new["axial_force"] <= 0.0)
-    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
+    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits. What
+    # Newton's last trial lifted where it failed says nothing: the linear solution does.
+    moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
     props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
+    pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
+    lifted = run.new["axial_force"] <= 0.0 if status is RunStatus.OK else pull > 0.0
+    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
     place = int(run.counts["bearing"][0])
     detail = ""
-    if len(lifted):
-        # Newton's last trial may lift others: the linear solution tells which one is pulled
-        moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
-        pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
-        status, place = RunStatus.UPLIFTED, int(np.argmax(pull))
+    if lifted.any():
+        status, place = RunStatus.UPLIFTED, int(np.argmax(np.where(lifted, pull, -np.inf)))
         none = node_geometric_stiffness(system, np.zeros(len(system.members.names)))
         detail = load_path(system, none, linear, -pull).sentence()
     elif len(beyond):

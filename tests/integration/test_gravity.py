@@ -18,8 +18,10 @@ from frames import (
     moment_frame,
 )
 from frames.analysis import equilibrium
+from frames.analysis.springs import guessed_springs
 from frames.assembly.basis import bearing_rows
 from frames.kernels.stepping import solve_gravity
+from frames.model.parts import bearing_axial_stiffness
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 
 G = 9.80665
@@ -292,6 +294,31 @@ def test_heavy_load_on_stiff_friction(elastic, load):
     shear = np.linalg.norm(state.run.old["force"][:, 6:8], axis=1)
     assert (shear < mu * state.axial_forces).all()
     assert_allclose(state.model.props["yield_displacement"], elastic, rtol=0.0, atol=0.0)
+
+
+@pytest.mark.meant("the sliders carry", "times their design_load", "buildings have", "design_load")
+@pytest.mark.parametrize("load", [0.0, 3e6, 2e7])
+@pytest.mark.parametrize("elastic", [1e-5, 1e-6, 1e-7])
+def test_stiff_friction_under_sliders_as_bodies(elastic, load):
+    """Base plates that tilt do not slide over their long radii: the sliders rock."""
+    bearing = LIRBearing(
+        radius=3.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+        friction=CoulombFriction(0.08), interface_friction=0.2, yield_displacement=elastic,
+        interface_yield_displacement=elastic, design_load=1e6,
+    )  # fmt: skip
+    frame = moment_frame(bays=(2, 1), storeys=2, bearing=bearing, bay_width=(11.0, 7.0))
+    for node in list(frame.nodes)[-3:]:
+        frame.add_load(node, [0.0, 0.0, -load, 0.0, 0.0, 0.0])
+    state = gravity(frame, level="contact")
+    weight = -state.system.node_load[2::6].sum()
+    assert_allclose(state.run.old["force"][:, 8].sum(), -weight, rtol=1e-8, atol=0.0)
+    # on vertical springs: plates that carry moments and friction shift parts of a percent
+    onto = spsolve(sparse.csc_array(state.system.stiffness + guessed_springs(state.system)),
+                   state.system.load)  # fmt: skip
+    moves = (bearing_rows(state.system) @ onto).reshape(-1, 12)
+    expected = -bearing_axial_stiffness(bearing) * (moves[:, 8] - moves[:, 2])
+    assert_allclose(state.axial_forces, expected, rtol=0.05, atol=0.0)
+    assert np.array_equal(state.model.props["yield_displacement"][0], [elastic, elastic])
 
 
 def test_the_way_over_softer_friction_leads_to_the_same_equilibrium(newhall_bearing, monkeypatch):

@@ -397,7 +397,9 @@ def test_a_database_is_refused(route: str, tmp_path: Path) -> None:
         """,
         route,
     )
-    assert errors.count("neither saved to a database nor restored from one") == 2
+    told = errors.count("neither saved to a database nor restored from one")
+    # OpenSees 3.8 looks no further where nothing was saved: it refuses to restore before we do
+    assert told == 2 or (told == 1 and "failed to restore state" in errors)
     assert "What to try: run the analysis again" in errors
 
 

@@ -10,6 +10,7 @@ import os
 import subprocess  # noqa: S404
 import sys
 from collections.abc import Callable
+from itertools import product
 from types import SimpleNamespace
 from typing import Any
 
@@ -238,6 +239,31 @@ def test_landing_on_an_edge(points: int, way: float) -> None:
     error = tangent_error(element, u, time, 1e-7)
     assert error is not None
     assert error < 3e-6
+
+
+def test_sliders_rock_under_a_tilted_plate() -> None:
+    """In full contact both surfaces would slide by up to 3 mm; the sliders rock instead."""
+    closure, radius = 1e-3, 0.1
+    rest = 1e-7  # of the load: round-off under a way to slip of 0.1 micrometres
+    for reach, elastic, tilt in product((1.0, 3.0), (1e-4, 1e-7), (1e-5, 1e-4, 3e-4, 1e-3)):
+        bearing = LIRBearing(
+            radius=reach, slider_height=0.1, slider_radius=radius, capacity=0.2,
+            friction=CoulombFriction(0.08), interface_friction=0.2, yield_displacement=elastic,
+            interface_yield_displacement=min(elastic, 1e-5), axial_stiffness=2e9,
+            **WEIGHTLESS,
+        )  # fmt: skip
+        element, u = Element(bearing, "contact"), np.zeros(12)
+        u[6], u[8], u[9] = 1e-5, -closure, tilt
+        element.set_trial(u, STILL, 0.0)
+        force = element.resisting_force()
+        size = -force[8]
+        assert_allclose(force[:3], -force[6:9], rtol=0.0, atol=rest * size)
+        # edges that open carry nothing: the rest is pressed further
+        assert 0.99 < size / (2e9 * closure) < 1.0 + tilt * radius / closure
+        arm = u[6:9] + np.array([0.0, 0.0, bearing.height])
+        whole = force[3:6] + force[9:] + np.cross(arm, force[6:9])
+        assert_allclose(whole, 0.0, rtol=0.0, atol=rest * size)
+        assert np.hypot(*force[6:8]) < 0.2 * size
 
 
 def test_sliders_follow_a_slow_tilt() -> None:

@@ -7,10 +7,13 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
+from numpy.testing import assert_allclose
 
-from lir_element import LIRBearing
+from frames import gravity, moment_frame
+from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 from validation.fuzzing import trial
-from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.buildings import try_building
+from validation.fuzzing.checks import Report, check_gravity, check_result, same, spring_forces
 from validation.fuzzing.ends import LATE, left_over, same_end
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
@@ -288,6 +291,31 @@ def test_scenes_have_everything_in_them():
     assert any(np.isinf(b.lateral_capacity) for b in bearings)
     assert any(not np.isclose(*np.divide(b.rim_displacement, b.radii)) for b in bearings)
     assert all(isinstance(b, LIRBearing) for b in bearings)
+
+
+@pytest.mark.parametrize(("lift", "is_found"), [(0.5, True), (1.5, False)])
+def test_uplift_is_believed_where_springs_pull(lift, is_found):
+    bearing = LIRBearing(
+        radius=1.185, slider_height=0.12, slider_radius=0.1, capacity=0.25,
+        friction=CoulombFriction(0.05), interface_friction=0.1,
+    )  # fmt: skip
+    model = moment_frame(bays=(1, 1), storeys=1, bearing=bearing)
+    own = spring_forces(model)
+    assert_allclose(own, own.mean(), rtol=1e-9, atol=0.0)  # four corners alike
+    assert_allclose(own, gravity(model).axial_forces, rtol=1e-6, atol=0.0)
+    model.add_load("base-0-0", (0.0, 0.0, lift * own[0], 0.0, 0.0, 0.0))
+    report = Report(0, "", "frame", "contact")
+    check_gravity(report, model, AnalysisError(RunStatus.UPLIFTED, 0.0, "gravity"))
+    assert report.outcome == "uplifted"
+    assert bool(report.findings) is is_found
+    check_gravity(report, model, AnalysisError(RunStatus.NO_REST, 0.0, "gravity"))
+    assert report.findings
+
+
+@pytest.mark.parametrize("number", [225, 309])
+def test_buildings_on_stiff_friction_rest_on_their_sliders(number):
+    report = try_building(SEED, number)
+    assert (report.level, report.outcome, report.findings) == ("contact", "ok", [])
 
 
 def test_turns_and_mirrors():

@@ -6,8 +6,14 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
 
 from frames import energy_error
+from frames.analysis.springs import guessed_springs
+from frames.assembly.assemble import assemble
+from frames.assembly.basis import bearing_rows
+from frames.model.parts import bearing_axial_stiffness
 from lir_element import RunStatus
 from validation.fuzzing.ends import FAILED_BEARINGS, INACCURATE
 
@@ -18,6 +24,7 @@ if TYPE_CHECKING:
 
     from frames import Frame
     from frames._types import FloatArray
+    from lir_element import AnalysisError
     from validation.fuzzing.scenes import Scene
 
 LEDGER = 1e-3
@@ -76,6 +83,25 @@ class Report:
     def as_dict(self) -> dict[str, Any]:
         """Return what goes into a file of results."""
         return asdict(self)
+
+
+def check_gravity(report: Report, model: Frame, failure: AnalysisError) -> None:
+    """Write an equilibrium that was not found into the report; a bearing that is pulled has none.
+
+    Uplift is believed where a bearing is in tension with all of them as linear springs.
+    """
+    report.outcome, report.message = failure.status.name.lower(), str(failure)
+    if failure.status is not RunStatus.UPLIFTED or spring_forces(model).min() >= 0.0:
+        report.found("gravity", 1.0, report.message)
+
+
+def spring_forces(model: Frame) -> FloatArray:
+    """Return the bearings' axial forces with springs in their place, compression positive [N]."""
+    system = assemble(model)
+    stiffness = sparse.csc_array(system.stiffness + guessed_springs(system))
+    moves = (bearing_rows(system) @ spsolve(stiffness, system.load)).reshape(-1, 12)
+    axial = np.array([bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings])
+    return np.asarray(axial * (moves[:, 2] - moves[:, 8]))
 
 
 def check_result(report: Report, scene: Scene, model: Frame, data: xr.Dataset) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from frames import GroundMotion, ModelError, time_history
 from lir_element import AnalysisError, AnalysisWarning
-from validation.fuzzing.checks import Report, check_result, same
+from validation.fuzzing.checks import Report, check_gravity, check_result, same
 from validation.fuzzing.ends import end_of, same_end
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.scenes import random_scene
@@ -81,8 +81,7 @@ def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True)
         report.outcome, report.message = "refused", f"{type(refusal).__name__}: {refusal}"
         report.found("refused", 1.0, report.message)
     except AnalysisError as failure:
-        report.outcome, report.message = failure.status.name.lower(), str(failure)
-        report.found("gravity", 1.0, report.message)
+        check_gravity(report, scene.build(False), failure)
     else:
         strange = [entry for entry in caught if not issubclass(entry.category, AnalysisWarning)]
         report.doubts = [str(entry.message) for entry in (*doubts, *strange)]

@@ -2,7 +2,8 @@
 
 Twelve unknowns: displacement and spin of the bottom and of the top slider. Their inertia enters by
 the implicit Euler rule over the step, so that the system stays regular where contacts open. The
-start of the search is what the level 'pendulum' says. docs/theory.md, section 7.
+start of the search is what the level 'pendulum' says; where none leads to a static state, softer
+friction does. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -46,6 +47,8 @@ LARGEST_TURN = 0.1  # rad, of a body in one iteration
 SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
 _GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
+_SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, where it is softened first
+_STIFFER = 0.3  # by which it is brought down: some three iterations a stage (a choice)
 _RESTING = 1.0 / 3.0  # of the closure in each of the three interfaces, which are equally stiff
 
 
@@ -236,6 +239,38 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
 
 
 @kernel
+def soften(p: Props, w: Scratch, softness: float) -> bool:
+    """Set the least way to slip of all contacts by (5.4); return whether any is above its own."""
+    way = softness * p.length
+    is_softer = False
+    for side in range(2):
+        w.soft_low[side] = way * (p.friction_max[side] - p.friction_drop[side])
+        is_softer = is_softer or w.soft_low[side] > p.yield_displacement[side]
+    w.soft_high = 0.0 if p.fused else way * p.interface_friction
+    return is_softer or w.soft_high > p.interface_yield
+
+
+@kernel
+def balance_by_softer_friction(s: BodyStep, pen: Work) -> int:
+    """Bring the sliders into static equilibrium by way of softer friction; -1 if none.
+
+    Full contact makes both surfaces slide where plates tilt, by their radius times the tilt. Bodies
+    rock instead where that is more than the way to slip: from there the search starts too far off.
+    """
+    p, w = s.props, s.scratch
+    softness = _SOFTEST
+    is_softer = soften(p, w, softness)
+    follow_string(p, s.sliders, s.new, w, pen)
+    count = 0
+    while is_softer and count >= 0:
+        count = balance_sliders(s, 0.0, pen.static_speed)
+        softness *= _STIFFER
+        is_softer = soften(p, w, softness)
+    soften(p, w, 0.0)
+    return balance_sliders(s, 0.0, pen.static_speed) if count >= 0 else -1
+
+
+@kernel
 def contact_trial(
     s: BodyStep, old: State, new: State, pen: Work, u: Floats, v: Floats, time: float
 ) -> int:
@@ -263,6 +298,11 @@ def contact_trial(
         else:
             follow_string(p, c, b_new, w, pen)
         count = balance_sliders(s, dt, pen.static_speed)
+    if count < 0 and dt == 0.0:
+        for k in range(2):
+            for a in range(4):
+                b_new.turn[k, a] = b_old.turn[k, a]
+        count = balance_by_softer_friction(s, pen)
     fill_state(s, old, new, u)
     new.time, new.step = time, dt
     new.iterations = count

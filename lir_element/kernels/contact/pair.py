@@ -68,7 +68,8 @@ def sphere(
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.yield_displacement[side], kept, by_push, before[0], before[1], w.share,
+        max(p.yield_displacement[side], w.soft_low[side]), kept, by_push, before[0], before[1],
+        w.share,
     )  # fmt: skip
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
@@ -122,7 +123,8 @@ def plane(
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, z_n1, z_n2 = friction_map(
         p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        p.interface_yield, kept, by_push, old.increment[0], old.increment[1], w.share,
+        max(p.interface_yield, w.soft_high), kept, by_push, old.increment[0], old.increment[1],
+        w.share,
     )  # fmt: skip
     mu = p.interface_friction
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]

@@ -94,8 +94,9 @@ class Channel:
         clock = float(self._inbox[self._time])
         if not clock and not self._inbox[1 : self._time].any():
             hosted.restart()  # `reset` has no message: no motion at all, at time 0
-        # the model's clock may have been set back: then the step is not known, and counts as none
-        self._status = hosted.trial(*self._motion, clock - hosted.committed_time, clock)
+        # no message says that the model's clock was set back: to zero, as `loadConst` does it
+        before = hosted.committed_time if clock >= hosted.committed_time else 0.0
+        self._status = hosted.trial(*self._motion, clock - before, clock)
         text = hosted.told()
         if text:
             print(text, end="", file=sys.stderr, flush=True)
