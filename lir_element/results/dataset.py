@@ -95,6 +95,9 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             vector, states["slip_total"].copy(), "m", "top slider relative to bottom slider"
         ),
         "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
+        "slider_spin": labelled(
+            each, states["spin"].copy(), "rad", "spin of the sliders about their axis, mean of both"
+        ),
         "interface_force": labelled(
             each,
             np.linalg.norm(states["interface_force"], axis=-1),

@@ -55,6 +55,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis = 0.0
+    new.spin, new.spin_rate = old.spin, 0.0
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
 
@@ -229,6 +230,10 @@ def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None
     for k in range(2):
         d = new.sliding_increment[k]
         new.travel[k] += math.sqrt(d[0] * d[0] + d[1] * d[1])
+    q = s.scratch.q
+    for k in range(2):  # the mean of both sliders, about their axes and against the bottom plate
+        for a in range(3):
+            new.spin += 0.5 * (moves[6 * k + 9 + a] - moves[3 + a]) * q[k + 1][a, 2]
     d, slip = new.slip_increment, new.slip
     new.interface_travel += math.sqrt(d[0] * d[0] + d[1] * d[1])
     size = math.sqrt(slip[0] * slip[0] + slip[1] * slip[1])

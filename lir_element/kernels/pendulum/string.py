@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
+from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rotation import rotate
 from lir_element.kernels.slip import (
     friction_coefficient,
@@ -178,14 +179,31 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 
 @kernel
 def interface(p: Props, old: State, w: Work) -> None:
-    """Set the friction of the plane interface: force and derivative over N."""
+    """Set the friction of the plane interface: force and derivative over N.
+
+    It slides as the sliders see it, whose spin in the step turns the slip and z with them.
+    """
     before = old.slip_increment
+    spins = w.spin != 0.0
+    x, y = w.sigma[0], w.sigma[1]
+    if spins:
+        x, y = turn_with_sliders(-w.spin, x, y)
+    d_1, d_2 = x - old.slip[0], y - old.slip[1]
     z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_map(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
-        w.sigma[0] - old.slip[0], w.sigma[1] - old.slip[1], p.interface_yield,
+        d_1, d_2, p.interface_yield,
         w.kept, w.kept_n, before[0], before[1], step_share(w.dt, old.step),
     )  # fmt: skip
+    if spins:
+        d_1, d_2 = turn_with_sliders(w.spin, d_1, d_2)
+        z_1, z_2 = turn_with_sliders(w.spin, z_1, z_2)
+        n_1, n_2 = turn_with_sliders(w.spin, n_1, n_2)
+        h_11, h_21 = turn_with_sliders(w.spin, h_11, h_21)
+        h_12, h_22 = turn_with_sliders(w.spin, h_12, h_22)
+        h_11, h_12 = turn_with_sliders(w.spin, h_11, h_12)
+        h_21, h_22 = turn_with_sliders(w.spin, h_21, h_22)
     mu = p.interface_friction
+    w.slip_step[0], w.slip_step[1] = d_1, d_2
     w.z_s[0], w.z_s[1] = z_1, z_2
     w.phi_sn[0], w.phi_sn[1] = mu * n_1, mu * n_2
     w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2

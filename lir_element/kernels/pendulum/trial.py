@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
+from lir_element.kernels.pendulum.spin import spin_rate
 from lir_element.kernels.pendulum.string import (
     aim_axis,
     evaluate,
@@ -119,13 +120,15 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     keep_works(old, new)
+    new.spin = old.spin + w.spin
+    new.spin_rate = spin_rate(p, w) if w.dt > 0.0 and not p.fused else 0.0
     new.string = w.l
     new.closure = w.closure
     new.axial_force = w.n_true
     new.vertical_force = w.vertical
     for k in range(2):
         new.slip[k] = w.sigma[k]
-        new.slip_increment[k] = w.sigma[k] - old.slip[k]
+        new.slip_increment[k] = w.slip_step[k]
         new.interface_hysteresis[k] = w.z_s[k]
         new.interface_force[k] = w.f_s[k]
         new.friction_coefficient[k] = w.mu[k]
@@ -231,6 +234,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
+    w.spin = old.spin_rate * w.dt
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.kernels.pendulum.spin import spin_work
 from lir_element.kernels.slip import open_work, stored, surplus
 
 if TYPE_CHECKING:
@@ -124,8 +125,9 @@ def interface_work(p: Props, old: State, new: State) -> float:
     """
     before = p.interface_friction * max(old.axial_force, 0.0)
     after = p.interface_friction * max(new.axial_force, 0.0)
-    y, z, d = old.interface_hysteresis, new.interface_hysteresis, new.slip_increment
-    along = (before * y[0] + after * z[0]) * d[0] + (before * y[1] + after * z[1]) * d[1]
+    y, z = old.interface_hysteresis, new.interface_hysteresis
+    d_1, d_2 = new.slip[0] - old.slip[0], new.slip[1] - old.slip[1]
+    along = (before * y[0] + after * z[0]) * d_1 + (before * y[1] + after * z[1]) * d_2
     return 0.5 * along
 
 
@@ -149,22 +151,25 @@ def accumulate(p: Props, old: State, new: State) -> None:
     """
     gain = twist_energy(p, new) - twist_energy(p, old)
     turned = 0.5 * (old.torque + new.torque) * (new.twist - old.twist) - gain
+    spun = spin_work(old, new)
     for k in range(2):
         f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
         spring = spring_energy(p, new, k) - spring_energy(p, old, k)
         work = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1]) - spring
         gain += spring
-        new.work_friction[k] = old.work_friction[k] + taken(old, new, k, work + 0.5 * turned)
+        work += 0.5 * (turned + spun)
+        new.work_friction[k] = old.work_friction[k] + taken(old, new, k, work)
         new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
     f, g, d, s = old.interface_force, new.interface_force, new.slip_increment, new.slip
+    d_1, d_2 = s[0] - old.slip[0], s[1] - old.slip[1]
     held = 0.0
     if not p.fused:
         spring = interface_energy(p, new) - interface_energy(p, old)
-        total = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1])
+        total = 0.5 * ((f[0] + g[0]) * d_1 + (f[1] + g[1]) * d_2)
         held = total - interface_work(p, old, new)
-        work = total - held - spring
+        work = total - held - spring - spun
         gain += spring
         new.work_interface = old.work_interface + taken(old, new, 2, work)
     new.work_elastic = old.work_elastic + gain
