@@ -15,10 +15,12 @@ from lir_element._jit import kernel
 if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
 
-_TORQUE = 2.0 / 3.0  # (2.4): of friction on a disc that spins, over friction force and radius
-_CREEP = 3.0 / 8.0  # radius over 4 times that lever: torque of a disc that slides and spins slowly
+_TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and radius
+_SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
+_FAST = 27.0 / 256.0  # what sliding takes from the torque of a disc that spins fast (2.4)
+_BLEND = 4.7  # exponent between both, within 3 % of the integral over the disc
 _NARROW = 16.0 / 3.0  # how eccentric pressure lowers it: a quarter at a quarter of the radius
-_MOST = 0.9  # of the torque of spinning alone: what a couple beyond it is taken for (a choice)
+_MOST = 0.95  # of the torque of spinning alone: what a couple beyond it is taken for (a choice)
 
 
 @kernel
@@ -26,6 +28,17 @@ def turn_with_sliders(spin: float, x: float, y: float) -> tuple[float, float]:
     """Return (x, y) of the interface's plane turned by `spin` about the axis."""
     c, s = math.cos(spin), math.sin(spin)
     return c * x - s * y, s * x + c * y
+
+
+@kernel
+def relative_spin(part: float) -> float:
+    """Return the spin of a disc of radius a that slides with v, omega a / v, under a couple.
+
+    `part` is the couple over the torque of spinning alone, 0 to below 1.
+    """
+    slow, fast = part / (1.0 - part**4), math.sqrt(_FAST / (1.0 - part))
+    both = (slow**_BLEND + fast**_BLEND) ** (1.0 / _BLEND)
+    return slow * fast / (both * _SLOW)  # (2.4)
 
 
 @kernel
@@ -57,9 +70,9 @@ def spin_rate(p: Props, w: Work) -> float:
         creep += share / w.speed[k]
     if held == 0.0:
         return 0.0
-    part = couple / (_TORQUE * p.slider_radius * held)
-    part = min(max(part, -_MOST), _MOST)
-    return part / math.sqrt(1.0 - part * part) * held / (creep * _CREEP * p.slider_radius)  # (2.6)
+    part = min(abs(couple) / (_TORQUE * p.slider_radius * held), _MOST)
+    rate = relative_spin(part) * held / (creep * p.slider_radius)  # (2.6)
+    return math.copysign(rate, couple)
 
 
 @kernel
