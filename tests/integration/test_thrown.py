@@ -46,7 +46,7 @@ def test_a_slider_that_tumbles_is_not_ok() -> None:
     """At level contact it rocks to 48 degrees and lands somewhere: finer steps see it topple."""
     model = lumped_mass(ONE_PIECE, 3e4)
     with pytest.warns(AnalysisWarning, match="tumbled"):
-        data = time_history(model, toss(20.0), dt=None, level="contact")
+        data = time_history(model, toss(20.0), dt=None, level="contact", tolerance=1e-4)
     assert data.attrs["status"] == "inaccurate"
     assert "degrees (at its rim it lies at 6)" in data.attrs["audit"]
     assert energy_error(data) < 1e-3
