@@ -38,6 +38,9 @@ PRESSED = 0.05
 KERN = 0.25
 """Eccentricity over slider radius up to which a circular contact is closed all over."""
 
+HOLDS = 0.8
+"""Slip over the one that holds without rims, `slip_stability`, from which a run says so."""
+
 CONTACT = 0.5
 """Eccentricity over slider radius beyond which the level 'contact' is asked for."""
 
@@ -49,7 +52,8 @@ class Finding:
     Attributes
     ----------
     feature : str
-        Of `Features.names()`, or "full_contact": what the level 'pendulum' takes for granted.
+        Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
+        "slip_stability": whether the slip that is left holds.
     left_out : bool
         Whether the run left it out.
     mattered : bool
@@ -78,7 +82,8 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     Returns
     -------
     tuple of Finding
-        One for each feature, in the order of `Features.names()`, and one on full contact.
+        One for each feature, in the order of `Features.names()`, one on full contact, one on the
+        slip that holds.
 
     Notes
     -----
@@ -86,7 +91,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     """
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
-    return (*found, _full_contact(data))
+    return (*found, _full_contact(data), _slip_stability(data))
 
 
 def audit_report(data: xr.Dataset) -> str:
@@ -100,7 +105,8 @@ def audit_report(data: xr.Dataset) -> str:
     Returns
     -------
     str
-        Lines that begin with "!" tell of something left out that mattered.
+        Lines that begin with "!" tell of something left out that mattered, or of a slip that the
+        interface may not hold.
     """
     return report_of(audit(data))
 
@@ -108,7 +114,10 @@ def audit_report(data: xr.Dataset) -> str:
 def report_of(findings: tuple[Finding, ...]) -> str:
     """Return findings as text: what was left out first, then what was modelled."""
     lines = [("! " if is_missing(f) else "  ") + f.sentence for f in findings if f.left_out]
-    lines += ["  " + f.sentence for f in findings if not f.left_out]
+    for f in findings:
+        if not f.left_out:
+            doubtful = f.feature == "slip_stability" and f.mattered
+            lines.append(("! " if doubtful else "  ") + f.sentence)
     return "\n".join(lines)
 
 
@@ -291,6 +300,32 @@ def _full_contact(data: xr.Dataset) -> Finding:
         mattered=share > CONTACT,
         number=share,
         sentence=text,
+    )
+
+
+def _slip_stability(data: xr.Dataset) -> Finding:
+    # docs/theory.md (2.3), with the friction of high speed
+    friction, slip = data["interface_friction"], data["interface_slip_size"]
+    held = data["length"] * friction - (data["friction_max"] * data["radius"]).sum("surface")
+    largest = slip.max("time").to_numpy()
+    split = np.isfinite(friction.to_numpy())
+    shares = np.where(split & (largest > 0.0), largest / np.maximum(held.to_numpy(), 1e-12), 0.0)
+    worst = int(np.argmax(shares))
+    share, mattered = float(shares[worst]), bool(shares[worst] > HOLDS)
+    text = "slip stability: not needed, "
+    if not split.any():
+        text += "the sliders are in one piece"
+    elif not mattered:
+        text += f"the slip reached {_share(share)} of what holds without rims"
+    else:
+        name, limit = str(data["bearing"].to_numpy()[worst]), float(held[worst])
+        text = (
+            f"slip stability: {name} slipped {1e3 * largest[worst]:.3g} mm, without rims the "
+            f"interface holds {1e3 * max(limit, 0.0):.3g} mm: where the motion turns again in that "
+            "direction, the sliders slip on; raise mu_h"
+        )
+    return Finding(
+        feature="slip_stability", left_out=False, mattered=mattered, number=share, sentence=text
     )
 
 

@@ -144,6 +144,7 @@ class LIRBearing(Specification):
             ("pendulum period", f"{self.period:.3g}", "s"),
             ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
             ("sliding force / load", f"{self.effective_friction:.4g}", "-"),
+            ("slip that holds", f"{self.slip_stability:.4g}", "m"),
         ]
         for f in fields(self):
             value, note = getattr(self, f.name), ""

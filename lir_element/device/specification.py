@@ -88,6 +88,16 @@ class Specification:
         return moment / self.effective_radius
 
     @property
+    def slip_stability(self) -> float:
+        """Interface slip that holds without rims [m]: ``L mu_h - mu1 R1 - mu2 R2``, high speed.
+
+        Where the motion turns again in the direction of a larger slip, the interface slides before
+        the surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.3). Infinite with
+        the slider in one piece.
+        """
+        return self.effective_radius * (self.interface_friction - self.effective_friction)
+
+    @property
     def period(self) -> float:
         """Period of the pendulum, 2 pi sqrt(L / g) [s]."""
         return 2.0 * math.pi * math.sqrt(self.effective_radius / STANDARD_GRAVITY)

@@ -57,7 +57,7 @@ def found(data: xr.Dataset) -> dict[str, Finding]:
 
 def test_one_finding_a_feature():
     names = [finding.feature for finding in audit(run(device()))]
-    assert names == [*Features.names(), "full_contact"]
+    assert names == [*Features.names(), "full_contact", "slip_stability"]
 
 
 def test_rims_left_out_that_were_not_needed():
@@ -243,7 +243,7 @@ def test_audit_survives_a_file(tmp_path):
     assert again.attrs["audit"] == data.attrs["audit"] == audit_report(again)
     assert audit(again) == audit(data)
     lines = data.attrs["audit"].splitlines()
-    assert len(lines) == len(Features.names()) + 1
+    assert len(lines) == len(Features.names()) + 2
     assert sum("left out" in line for line in lines) == 3
 
 
@@ -303,3 +303,19 @@ def test_auto_asks_for_another_level(monkeypatch):
 def test_findings_are_data():
     finding = audit(run(device()))[0]
     assert replace(finding, mattered=True) != finding
+
+
+def test_a_slip_near_the_one_that_holds_is_marked():
+    """L mu_h - (mu1 R1 + mu2 R2) is 14 mm with 0.06, 133 mm with 0.12."""
+    for mu_h, marked in ((0.06, True), (0.12, False)):
+        bearing = device(capacity=0.08, interface_friction=mu_h)
+        assert_allclose(bearing.slip_stability, 1.9 * mu_h - 0.1, rtol=1e-12)
+        data = run(bearing)
+        finding = found(data)["slip_stability"]
+        slip = float(data["interface_slip_size"].max())
+        assert slip > 1e-3
+        assert_allclose(finding.number, slip / bearing.slip_stability, rtol=1e-9)
+        assert finding.mattered is (slip > 0.8 * bearing.slip_stability) is marked
+        assert ("! slip stability: bearing slipped" in data.attrs["audit"]) is marked
+    whole = found(run(device().as_dcfp()))["slip_stability"]
+    assert (whole.number, whole.mattered) == (0.0, False)
