@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames.analysis.springs import spring_forces
 from frames.assembly.assemble import node_geometric_stiffness
-from frames.assembly.basis import bearing_rows
 from frames.assembly.supports import load_path
 from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
 from frames.kernels.stepping import solve_gravity
@@ -178,20 +178,23 @@ def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> 
 def _raise_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
     # A bearing that lifts is the cause, whatever Newton's method made of it; then limits. What
     # Newton's last trial lifted where it failed says nothing: the linear solution does.
-    moves = np.asarray(bearing_rows(system) @ linear).reshape(-1, 12)
-    props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
-    pull = props["axial_stiffness"] * (moves[:, 8] - moves[:, 2])
-    lifted = run.new["axial_force"] <= 0.0 if status is RunStatus.OK else pull > 0.0
+    lifted = run.new["axial_force"] <= 0.0
     beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
+    if status is RunStatus.OK and not (lifted.any() or len(beyond)):
+        return
+    forces = spring_forces(system, linear)
+    if status is not RunStatus.OK:
+        lifted = forces < 0.0
     place = int(run.counts["bearing"][0])
     detail = ""
     if lifted.any():
-        status, place = RunStatus.UPLIFTED, int(np.argmax(np.where(lifted, pull, -np.inf)))
+        status, place = RunStatus.UPLIFTED, int(np.argmin(np.where(lifted, forces, np.inf)))
         none = node_geometric_stiffness(system, np.zeros(len(system.members.names)))
-        detail = load_path(system, none, linear, -pull).sentence()
+        detail = load_path(system, none, linear, forces).sentence()
     elif len(beyond):
         place = int(beyond[0])
         status = RunStatus(int(run.new["status"][place]))
+        props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
         detail = limit_detail(props, run.new, place)
     if status in {RunStatus.NEWTON_FAILED, RunStatus.NO_EQUILIBRIUM, RunStatus.SINGULAR}:
         status = RunStatus.NO_REST

@@ -41,6 +41,26 @@ def guessed_springs(system: System, with_points: Collection[str] = ()) -> Sparse
     return spring_matrix(system, values)
 
 
+def spring_forces(system: System, displacement: FloatArray) -> FloatArray:
+    """Return the axial forces of the bearings as linear springs, compression positive.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    displacement : ndarray, (n_free,)
+        Of the free DOFs [m, rad].
+
+    Returns
+    -------
+    ndarray, (n_bearings,)
+        Axial forces [N].
+    """
+    moves = np.asarray(bearing_rows(system) @ displacement).reshape(-1, 12)
+    axial = np.array([bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings])
+    return np.asarray(axial * (moves[:, 2] - moves[:, 8]))
+
+
 def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
     """Return springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs."""
     rows = bearing_rows(system)

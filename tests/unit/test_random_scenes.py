@@ -13,7 +13,7 @@ from frames import gravity, moment_frame
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 from validation.fuzzing import trial
 from validation.fuzzing.buildings import try_building
-from validation.fuzzing.checks import Report, check_gravity, check_result, same, spring_forces
+from validation.fuzzing.checks import Report, check_gravity, check_result, forces_on_springs, same
 from validation.fuzzing.ends import LATE, left_over, same_end
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
@@ -300,7 +300,7 @@ def test_uplift_is_believed_where_springs_pull(lift, is_found):
         friction=CoulombFriction(0.05), interface_friction=0.1,
     )  # fmt: skip
     model = moment_frame(bays=(1, 1), storeys=1, bearing=bearing)
-    own = spring_forces(model)
+    own = forces_on_springs(model)
     assert_allclose(own, own.mean(), rtol=1e-9, atol=0.0)  # four corners alike
     assert_allclose(own, gravity(model).axial_forces, rtol=1e-6, atol=0.0)
     model.add_load("base-0-0", (0.0, 0.0, lift * own[0], 0.0, 0.0, 0.0))

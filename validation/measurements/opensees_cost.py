@@ -167,8 +167,9 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
         + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
         "An element of the portable route waits for some four answers of another process an "
         "iteration; the smaller the rest of the model, the more that counts. \"stops\": plain "
-        "Newton finds no equilibrium in some step (the "
-        "macro-model asks for smaller ones, [opensees_macro_model.md](opensees_macro_model.md)). "
+        "Newton runs in circles in some step, as friction turns round or slips under a rim; "
+        "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "
+        "smaller steps, [opensees_macro_model.md](opensees_macro_model.md)). "
         "The last row is the driver of this package with the same step.",
     ]) + "\n"  # fmt: skip
 

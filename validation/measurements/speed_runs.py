@@ -35,7 +35,7 @@ LOAD = 150e3
 STATIC_SPEED = 0.02
 BUILDING_STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 1e-3)
 BUILDING_REFERENCE = 2.5e-4
-WIDTHS = (1.0, 1.5, 2.0)
+WIDTHS = (1.0, 1.25, 1.5)
 """Factors on the slider's radius for the study of eccentric pressure."""
 STUDIED = ("oblique rim contact", "unequal rims", "uplift and landing")
 CORNERS = {f"bearing-{i}-{j}": "contact" for i in (0, 2) for j in (0, 2)}

@@ -15,10 +15,10 @@ from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import OWN, place_bodies, press, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
-from lir_element.kernels.contact.start import fly_on, follow_string, place_nodes
+from lir_element.kernels.contact.start import fly_on, follow_string, place_nodes, turn_back
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.linear import solve_many
-from lir_element.kernels.pendulum.nodes import apply_spin
+from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
 from lir_element.kernels.pendulum.trial import has_no_state, trial
 
 if TYPE_CHECKING:
@@ -230,18 +230,14 @@ def contact_trial(
     for attempt in range(2):
         if count >= 0:
             break
-        for k in range(2):
-            for a in range(4):
-                b_new.turn[k, a] = b_old.turn[k, a]
+        turn_back(b_old, b_new)
         if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
             fly_on(b_old, b_new, dt)
         else:
             follow_string(p, c, b_new, w, pen)
         count = balance_sliders(s, dt, pen.static_speed)
     if count < 0 and dt == 0.0:
-        for k in range(2):
-            for a in range(4):
-                b_new.turn[k, a] = b_old.turn[k, a]
+        turn_back(b_old, b_new)
         count = balance_by_softer_friction(s, pen)
     fill_state(s, old, new, u)
     new.time, new.step = time, dt
@@ -291,8 +287,4 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:
-        hold = _HOLD * c.stiffness * c.radius**2
-        k[5, 5] += hold
-        k[5, 11] -= hold
-        k[11, 5] -= hold
-        k[11, 11] += hold
+        add_twist(k, _HOLD * c.stiffness * c.radius**2)

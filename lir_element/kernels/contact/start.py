@@ -30,6 +30,14 @@ def place_nodes(p: Props, c: Sliders, w: Scratch, u: Floats) -> None:
 
 
 @kernel
+def turn_back(old: Bodies, new: Bodies) -> None:
+    """Turn the sliders as they were."""
+    for b in range(2):
+        for a in range(4):
+            new.turn[b, a] = old.turn[b, a]
+
+
+@kernel
 def put_slider(c: Sliders, w: Scratch, new: Bodies, b: int, centre: Floats, depth: float) -> None:
     """Put slider `b` (1, 2) with its sphere's centre at `centre`, axis ``w.axis``.
 

@@ -118,10 +118,16 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     axial_torsion(p, w, k)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
-    k[11, 11] += w.torque_stiffness  # its twist is a difference of rotation vectors
-    k[11, 5] -= w.torque_stiffness
-    k[5, 11] -= w.torque_stiffness
-    k[5, 5] += w.torque_stiffness
+    add_twist(k, w.torque_stiffness)
+
+
+@kernel
+def add_twist(k: Floats, stiffness: float) -> None:
+    """Add a stiffness against the twist of the nodes, a difference of rotation vectors."""
+    k[5, 5] += stiffness
+    k[5, 11] -= stiffness
+    k[11, 5] -= stiffness
+    k[11, 11] += stiffness
 
 
 @kernel
