@@ -116,18 +116,9 @@ def audit_report(data: xr.Dataset) -> str:
 
 def report_of(findings: tuple[Finding, ...]) -> str:
     """Return findings as text: what was left out first, then what was modelled."""
-<<<<<<< HEAD
-    lines = [("! " if is_missing(f) else "  ") + f.sentence for f in findings if f.left_out]
-    for f in findings:
-        if not f.left_out:
-            doubtful = f.feature == "slip_stability" and f.mattered
-            lines.append(("! " if doubtful else "  ") + f.sentence)
-    return "\n".join(lines)
-=======
     ordered = sorted(findings, key=lambda finding: not finding.left_out)
     marks = ("! " if is_missing(finding) or finding.doubtful else "  " for finding in ordered)
     return "\n".join(m + finding.sentence for m, finding in zip(marks, ordered, strict=True))
->>>>>>> main
 
 
 def is_missing(finding: Finding) -> bool:
@@ -313,32 +304,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
 
 
 def _slip_stability(data: xr.Dataset) -> Finding:
-<<<<<<< HEAD
-    # docs/theory.md (2.7), with the friction of high speed
-    friction, slip = data["interface_friction"], data["interface_slip_size"]
-    held = data["length"] * friction - (data["friction_max"] * data["radius"]).sum("surface")
-    largest = slip.max("time").to_numpy()
-    split = np.isfinite(friction.to_numpy())
-    shares = np.where(split & (largest > 0.0), largest / np.maximum(held.to_numpy(), 1e-12), 0.0)
-    worst = int(np.argmax(shares))
-    share, mattered = float(shares[worst]), bool(shares[worst] > HOLDS)
-    text = "slip stability: not needed, "
-    if not split.any():
-        text += "the sliders are in one piece"
-    elif not mattered:
-        text += f"the slip reached {_share(share)} of what holds without rims"
-    else:
-        name, limit = str(data["bearing"].to_numpy()[worst]), float(held[worst])
-        text = (
-            f"slip stability: {name} slipped {1e3 * largest[worst]:.3g} mm, without rims the "
-            f"interface holds {1e3 * max(limit, 0.0):.3g} mm: where the motion turns again in that "
-            "direction, the sliders slip on; raise mu_h"
-        )
-    return Finding(
-        feature="slip_stability", left_out=False, mattered=mattered, number=share, sentence=text
-    )
-=======
-    # docs/theory.md (2.3), with the friction of high speed; one piece holds without end
+    # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
     friction = data["interface_friction"]
     held = data["length"] * friction - (data["friction_max"] * data["radius"]).sum("surface")
     largest = data["interface_slip_size"].max("time").to_numpy()
@@ -359,7 +325,6 @@ def _slip_stability(data: xr.Dataset) -> Finding:
         )
     finding = _finding("slip_stability", False, doubtful, share, text)
     return replace(finding, doubtful=doubtful)
->>>>>>> main
 
 
 def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:

@@ -92,11 +92,7 @@ class Specification:
         """Interface slip that holds without rims [m]: ``L mu_h - mu1 R1 - mu2 R2``, high speed.
 
         Where the motion turns again in the direction of a larger slip, the interface slides before
-<<<<<<< HEAD
         the surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.7). Infinite with
-=======
-        the surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.3). Infinite with
->>>>>>> main
         the slider in one piece.
         """
         return self.effective_radius * (self.interface_friction - self.effective_friction)
