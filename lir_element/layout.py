@@ -68,7 +68,7 @@ STATE_FIELDS = (
     Field("slip", "m", "s", "interface slip in the plane of the interface", (2,)),
     Field("slip_total", "m", "s", "interface slip in global axes, top slider on bottom", (3,)),
     Field("slider_displacement", "m", "d", "sliding on the bottom, top surface, global", (2, 3)),
-    Field("sliding_increment", "m", "dw", "tangential sliding of the last step", (2, 2)),
+    Field("sliding_increment", "m", "dw", "tangential sliding of the last step, where the pressure is", (2, 2)),
     Field("slid", "m", "", "part of the last step's sliding past the old z: bottom, top", (2,)),
     Field("slip_increment", "m", "ds", "interface slip of the last step", (2,)),
     Field("hysteresis", "-", "z", "hysteretic variable of the surfaces: bottom, top", (2, 2)),
@@ -84,7 +84,9 @@ STATE_FIELDS = (
     Field("twist_hysteresis", "-", "z_t", "hysteretic variable of the torsional friction"),
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("spin", "rad", "chi", "spin of both sliders about their axis since the start"),
-    Field("spin_rate", "rad/s", "omega", "its rate"),
+    Field("spin_rate", "rad/s", "omega", "its rate in the last step"),
+    Field("spin_arm", "m", "e", "centre of pressure about the axis: bottom, - top", (2, 2)),
+    Field("axis_speed", "m/s", "v", "sliding speed of the slider's axis: bottom, top", (2,)),
     Field("work_friction", "J", "", "dissipated by low friction: bottom, top", (2,)),
     Field("work_interface", "J", "", "dissipated by the high-friction interface"),
     Field("work_elastic", "J", "", "stored in the elastic sliding before slip, all friction"),
@@ -99,6 +101,9 @@ STATE_FIELDS = (
     Field("status", "-", "", "a RunStatus code", (), "i8"),
     Field("iterations", "-", "", "iterations of the last state determination", (), "i8"),
 )
+
+SPIN_BALANCE = 12
+"""Where what `direction` returns has the sum of the moments that spin the sliders."""
 
 _W_VECTOR, _W_MATRIX, _W_PAIR = (3,), (3, 3), (2,)
 WORK_FIELDS = (
@@ -133,6 +138,7 @@ WORK_FIELDS = (
     Field("mu", "-", "mu", "friction coefficient", _W_PAIR),
     Field("speed", "m/s", "v", "sliding speed", _W_PAIR),
     Field("dw", "m", "dw", "sliding increment", (2, 2)),
+    Field("rubbed", "m", "", "the same where the pressure is: the sliders spin", (2, 2)),
     Field("slid", "m", "", "part of it past the old z", _W_PAIR),
     Field("old", "-", "", "old axis in the basis t, and along n", (2, 3)),
     Field("old_top", "-", "", "old axis as the top plate carries it", _W_VECTOR),
@@ -144,6 +150,18 @@ WORK_FIELDS = (
     Field("phi_s", "-", "", "interface force over axial force", _W_PAIR),
     Field("h_s", "1/m", "", "its derivative by the slip", (2, 2)),
     Field("spin", "rad", "chi", "spin of the sliders in the step"),
+    Field("spins", "-", "", "1 where the spin is an unknown of the trial, else 0"),
+    Field("shift", "m", "e", "centres of pressure at the step's start: bottom, - top", (2, 2)),
+    Field("left", "-", "", "share of the surfaces' friction that the spin leaves", _W_PAIR),
+    Field("left_rate", "1/rad", "", "its derivative by the spin over itself", _W_PAIR),
+    Field("arm", "m", "e", "centres of pressure: bottom, - top", (2, 2)),
+    Field("plain", "-", "", "friction along the axis' sliding, over N", (2, 2)),
+    Field("along_sliding", "1/m", "", "its size over that sliding", _W_PAIR),
+    Field("along_size", "m", "", "that sliding", _W_PAIR),
+    Field("torque_spin", "m", "", "torque of the surfaces against the spin, over N"),
+    Field("torque_rate", "m", "", "its derivative by the spin"),
+    Field("spun", "", "", "what `direction` returns, for a unit of spin", (13,)),
+    Field("spun_turn", "-", "", "turn of the axis for a unit of spin", _W_PAIR),
     Field("slip_step", "m", "", "sliding of the interface in the step", _W_PAIR),
     Field("phi_sn", "1/N", "", "its derivative by the axial force", _W_PAIR),
     Field("n_hor", "-", "", "size of the axis' horizontal part", _W_PAIR),
@@ -165,8 +183,8 @@ WORK_FIELDS = (
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("torque_stiffness", "N m", "", "its derivative by the twist"),
     Field("torque_axial", "m", "", "its derivative by the axial force"),
-    Field("turns", "", "", "what `direction` returns, for the two turns of the axis", (2, 12)),
-    Field("rates", "", "", "the same in one direction", (12,)),
+    Field("turns", "", "", "what `direction` returns, for the two turns of the axis", (2, 13)),
+    Field("rates", "", "", "the same in one direction", (13,)),
     Field("start", "-", "", "axis and basis at which a search begins", _W_MATRIX),
     Field("start_circle", "-", "", "unit radial direction and radius of its parallel", _W_VECTOR),
     Field("inverse", "1/(N m)", "", "inverse of the jacobian, by rows", (4,)),

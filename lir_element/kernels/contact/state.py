@@ -55,7 +55,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis = 0.0
-    new.spin, new.spin_rate = old.spin, 0.0
+    new.spin = old.spin
     lever, part = p.lever[1], bodies.parts[LOW_TOP]
     new.torque = -(part[23] + lever * (w.q[3][0, 2] * part[19] - w.q[3][1, 2] * part[18]))
 

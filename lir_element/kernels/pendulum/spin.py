@@ -2,7 +2,7 @@
 
 The forces of the rims on the two sliders are offset by the slip. Their couple about the axis turns
 both sliders, against the torque of the surfaces' friction, and the slip turns with them
-(docs/theory.md, section 2).
+(docs/theory.md, section 2). The spin of a step is a third internal unknown beside the axis.
 """
 
 from __future__ import annotations
@@ -11,16 +11,15 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.layout import SPIN_BALANCE
 
 if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
 
 _TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and radius
 _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
-_FAST = 27.0 / 256.0  # what sliding takes from the torque of a disc that spins fast (2.4)
-_BLEND = 4.7  # exponent between both, within 3 % of the integral over the disc
-_NARROW = 16.0 / 3.0  # how eccentric pressure lowers it: a quarter at a quarter of the radius
-_MOST = 0.95  # of the torque of spinning alone: what a couple beyond it is taken for (a choice)
+_BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
+_ROUND = 1e-3  # of a step's sliding: below it its direction is rounded off (a choice)
 
 
 @kernel
@@ -31,48 +30,164 @@ def turn_with_sliders(spin: float, x: float, y: float) -> tuple[float, float]:
 
 
 @kernel
-def relative_spin(part: float) -> float:
-    """Return the spin of a disc of radius a that slides with v, omega a / v, under a couple.
+def torque_of_spin(ratio: float) -> tuple[float, float]:
+    """Return the torque of a disc over that of spinning alone, and its derivative.
 
-    `part` is the couple over the torque of spinning alone, 0 to below 1.
+    `ratio` is the speed that the spin gives the disc's edge over the speed of sliding, >= 0.
     """
-    slow, fast = part / (1.0 - part**4), math.sqrt(_FAST / (1.0 - part))
-    both = (slow**_BLEND + fast**_BLEND) ** (1.0 / _BLEND)
-    return slow * fast / (both * _SLOW)  # (2.4)
+    if ratio == 0.0:
+        return 0.0, _SLOW
+    square = ratio * ratio
+    slow, d_slow = _SLOW * ratio * (1.0 + _BENDS * square), _SLOW * (1.0 + 3.0 * _BENDS * square)
+    fast = 1.0 - _FAST / (square + _BEFORE)
+    d_fast = 2.0 * _FAST * ratio / (square + _BEFORE) ** 2
+    part = slow * (1.0 + (slow / fast) ** _BLEND) ** (-1.0 / _BLEND)  # (2.4)
+    by_slow, by_fast = (part / slow) ** (_BLEND + 1.0), (part / fast) ** (_BLEND + 1.0)
+    return part, by_slow * d_slow + by_fast * d_fast
 
 
 @kernel
-def spin_rate(p: Props, w: Work) -> float:
-    """Return the rate at which the sliders spin in the state that was found [rad/s].
+def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
+    """Set the spin of the sliders in a step, and what it leaves of the surfaces' friction.
 
-    Zero without a rim force, without slip speed on the surfaces, and at a vanishing axial force.
+    Speeds, friction coefficients and centres of pressure are those of the step's start.
     """
-    if not (w.n_true > p.axial_floor and max(w.rim[0], w.rim[1]) > 0.0):
-        return 0.0
-    couple, held, creep = 0.0, 0.0, 0.0
+    w.spin = spin
+    w.spins = 0.0
     for k in range(2):
-        if w.mu[k] == 0.0:
+        w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
+        w.left[k], w.left_rate[k] = 1.0, 0.0
+        drift = old.axis_speed[k] * w.dt
+        if spin == 0.0 or drift == 0.0:
             continue
-        if w.speed[k] == 0.0:
-            return 0.0
-        x, y = w.n[2] * w.unit[0, 0], w.n[2] * w.unit[0, 1]
+        ratio = p.slider_radius * abs(spin) / drift
+        base = 1.0 + ratio**4
+        w.left[k] = base**-0.25  # (2.5)
+        w.left_rate[k] = -math.copysign(ratio**3 / base * p.slider_radius / drift, spin)
+
+
+@kernel
+def torque(p: Props, old: State, w: Work) -> tuple[float, float]:
+    """Return the torque of the surfaces against the spin over the axial force, and its derivative."""
+    total, rate = 0.0, 0.0
+    for k in range(2):
+        drift = old.axis_speed[k] * w.dt
+        most = _TORQUE * p.slider_radius * old.friction_coefficient[k]
+        if drift == 0.0:
+            total += most if w.spin != 0.0 else 0.0
+            continue
+        part, slope = torque_of_spin(p.slider_radius * abs(w.spin) / drift)
+        total, rate = total + most * part, rate + most * slope * p.slider_radius / drift
+    return math.copysign(total, w.spin), rate
+
+
+@kernel
+def centre_of_pressure(p: Props, w: Work, k: int) -> tuple[float, float]:
+    """Return where the pressure of surface `k` acts, from the axis: bottom e_1, top -e_2 (2.3)."""
+    arm = p.radius[k] * w.rim[k] / w.n_hat
+    x, y = w.n[2] * w.unit[0, 0], w.n[2] * w.unit[0, 1]
+    if k == 1:
+        t, r = w.t, w.r_top
+        x = t[0, 0] * r[0] + t[0, 1] * r[1] + t[0, 2] * r[2]
+        y = t[1, 0] * r[0] + t[1, 1] * r[1] + t[1, 2] * r[2]
+    return (
+        p.radius[k] * (w.phi_s[0] - w.phi[k, 0]) + arm * x,
+        p.radius[k] * (w.phi_s[1] - w.phi[k, 1]) + arm * y,
+    )
+
+
+@kernel
+def spin_balance(p: Props, old: State, w: Work) -> float:
+    """Set the sum of the moments that spin the sliders (2.3) and return it over the axial force.
+
+    With it what its derivative needs: centres of pressure and friction along the axis' sliding.
+    """
+    s, f = w.sigma, w.phi_s
+    couple = s[0] * f[1] - s[1] * f[0]
+    for k in range(2):
+        w.arm[k, 0], w.arm[k, 1] = centre_of_pressure(p, w, k)
+        d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
+        floor = _ROUND * old.axis_speed[k] * w.dt
+        size = math.sqrt(d_1 * d_1 + d_2 * d_2 + floor * floor)
+        drag = w.left[k] * old.friction_coefficient[k]
+        w.along_sliding[k], w.along_size[k] = 0.0, size
+        if size > 0.0:
+            w.plain[k, 0], w.plain[k, 1] = drag * d_1 / size, drag * d_2 / size
+            w.along_sliding[k] = drag / size
+        else:
+            w.plain[k, 0], w.plain[k, 1] = 0.0, 0.0
+        couple -= w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0]
+    held, w.torque_rate = torque(p, old, w)
+    w.torque_spin = held
+    return couple - held
+
+
+@kernel
+def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]:
+    """Return the derivative of the friction along the axis' sliding over N, by that sliding."""
+    if w.along_sliding[k] == 0.0:
+        return 0.0, 0.0
+    size = w.along_size[k]
+    inward = (w.dw[k, 0] * dw_1 + w.dw[k, 1] * dw_2) / (size * size)
+    return w.along_sliding[k] * (dw_1 - inward * w.dw[k, 0]), w.along_sliding[k] * (dw_2 - inward * w.dw[k, 1])
+
+
+@kernel
+def rates_by_spin(p: Props, w: Work) -> None:
+    """Set the derivatives of everything by the spin, whom the axis follows: `w.spun`, as `w.turns`.
+
+    The derivatives by a turn of the axis (`slider_jacobian`) are those of the same state.
+    """
+    h, f, s = w.h_s, w.phi_s, w.sigma
+    for k in range(w.spun.shape[0]):
+        w.spun[k] = 0.0
+    g_1 = w.n_hat * (-f[1] + h[0, 0] * s[1] - h[0, 1] * s[0])
+    g_2 = w.n_hat * (f[0] + h[1, 0] * s[1] - h[1, 1] * s[0])
+    r_1, r_2, balance = w.l * g_1, w.l * g_2, s[0] * g_2 - s[1] * g_1
+    k_n = 1.0 / (1.0 + w.n[2])
+    basis = k_n * (s[1] * g_1 - s[0] * g_2)
+    r_1, r_2 = r_1 + basis * w.n[1], r_2 - basis * w.n[0]
+    for k in range(2):
+        o_1, o_2 = -w.shift[k, 1], w.shift[k, 0]
+        f_1 = w.n_hat * (
+            w.h[k, 0, 0] * o_1 + w.h[k, 0, 1] * o_2 + w.left_rate[k] * w.phi[k, 0]
+        )
+        f_2 = w.n_hat * (
+            w.h[k, 1, 0] * o_1 + w.h[k, 1, 1] * o_2 + w.left_rate[k] * w.phi[k, 1]
+        )
+        r_1, r_2 = r_1 - p.radius[k] * f_1, r_2 - p.radius[k] * f_2
         if k == 1:
-            r = w.r_top
-            x = w.t[0, 0] * r[0] + w.t[0, 1] * r[1] + w.t[0, 2] * r[2]
-            y = w.t[1, 0] * r[0] + w.t[1, 1] * r[1] + w.t[1, 2] * r[2]
-        arm = p.radius[k] * w.rim[k] / w.n_true
-        f_1, f_2 = w.phi_s[0] - w.phi[k, 0], w.phi_s[1] - w.phi[k, 1]
-        couple += arm * (x * f_2 - y * f_1)  # (2.3)
-        e_1, e_2 = p.radius[k] * f_1 + arm * x, p.radius[k] * f_2 + arm * y
-        along = (e_1 * w.phi[k, 0] + e_2 * w.phi[k, 1]) / (w.mu[k] * p.slider_radius)
-        share = w.mu[k] / (1.0 + _NARROW * along * along)  # (2.5)
-        held += share
-        creep += share / w.speed[k]
-    if held == 0.0:
-        return 0.0
-    part = min(abs(couple) / (_TORQUE * p.slider_radius * held), _MOST)
-    rate = relative_spin(part) * held / (creep * p.slider_radius)  # (2.6)
-    return math.copysign(rate, couple)
+            w.spun[5], w.spun[6] = f_1, f_2
+        q_1, q_2 = p.radius[k] * (g_1 - f_1), p.radius[k] * (g_2 - f_2)
+        balance -= q_1 * w.plain[k, 1] - q_2 * w.plain[k, 0]
+        share = w.n_hat * w.left_rate[k]
+        balance -= share * (w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0])
+    w.spun[0], w.spun[1], w.spun[3], w.spun[4] = r_1, r_2, g_1, g_2
+    w.spun[SPIN_BALANCE] = balance - w.n_hat * w.torque_rate
+    j = w.jacobian
+    det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
+    e_1 = -(j[1, 1] * r_1 - j[0, 1] * r_2) / det  # the axis follows (4.1)
+    e_2 = -(j[0, 0] * r_2 - j[1, 0] * r_1) / det
+    w.spun_turn[0], w.spun_turn[1] = e_1, e_2
+    for k in range(w.spun.shape[0]):
+        w.spun[k] += e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
+
+
+@kernel
+def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
+    """Keep in the record `new` what the next step needs of the spin."""
+    new.spin = old.spin + w.spin
+    new.spin_rate = w.spin / w.dt if w.dt > 0.0 else 0.0
+    pressed = not p.fused and w.n_true > p.axial_floor and max(w.rim[0], w.rim[1]) > 0.0
+    for k in range(2):
+        new.axis_speed[k] = w.speed[k]
+        new.spin_arm[k, 0], new.spin_arm[k, 1] = 0.0, 0.0
+        if pressed:
+            new.spin_arm[k, 0], new.spin_arm[k, 1] = centre_of_pressure(p, w, k)
+        if w.spin != 0.0:
+            rubbed = math.sqrt(w.rubbed[k, 0] ** 2 + w.rubbed[k, 1] ** 2)
+            if rubbed > 0.0:
+                new.axis_speed[k] *= math.sqrt(w.dw[k, 0] ** 2 + w.dw[k, 1] ** 2) / rubbed
 
 
 @kernel

@@ -153,7 +153,9 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
         w.old[k, a] = w.t[a, 0] * m[0] + w.t[a, 1] * m[1] + w.t[a, 2] * m[2]
         w.dw[k, a] = p.radius[k] * w.old[k, a]  # (1.6), (1.7)
     w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
-    d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
+    d_1 = w.dw[k, 0] - w.spin * w.shift[k, 1]  # where the pressure is
+    d_2 = w.dw[k, 1] + w.spin * w.shift[k, 0]
+    w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
     share = step_share(w.dt, old.step)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_map(
@@ -168,8 +170,9 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
-    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.mu[k] = mu
+    mu, slope = w.left[k] * mu, w.left[k] * slope
+    by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
     w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1, mu * n_2
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2

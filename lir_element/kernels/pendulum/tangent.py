@@ -17,8 +17,15 @@ from lir_element.kernels.pendulum.axial import (
     tension_rates,
 )
 
+from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin
+from lir_element.layout import SPIN_BALANCE
+
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, Work
+
+Rates = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float, float
+]
 
 
 @kernel
@@ -63,12 +70,21 @@ def basis_rate(
 
 
 @kernel
+def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float) -> float:
+    """Return the derivative of friction's moment about the axis; `m` is that of N times its arm."""
+    q_1, q_2 = plain_rate(w, k, dw_1, dw_2)
+    arm, f = w.arm[k], w.plain[k]
+    return m_1 * f[1] - m_2 * f[0] + w.n_hat * (arm[0] * q_2 - arm[1] * q_1)
+
+
+@kernel
 def direction(
     p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats
-) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
-    """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin.
+) -> Rates:
+    """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin, balance.
 
-    Where the interface is fused its force is left out: it follows from the residual.
+    Where the interface is fused its force is left out: it follows from the residual. The balance is
+    that of the moments that spin the sliders, zero where the spin is no unknown.
     """
     k = 1.0 / (1.0 + w.n[2])
     s_1, s_2 = w.sigma[0], w.sigma[1]
@@ -85,21 +101,16 @@ def direction(
     d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
     # surfaces
-    f_11, f_12 = friction_rate(
-        w, 0, d_hat, d_pos,
-        p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1]),
-        p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0]),
-    )  # fmt: skip
+    w_11 = p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1])
+    w_12 = p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0])
+    f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, w_11, w_12)
     m = w.old_top
     o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
     t = w.t
-    f_21, f_22 = friction_rate(
-        w, 1, d_hat, d_pos,
-        p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1]
-                       + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3),
-        p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0]
-                       + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3),
-    )  # fmt: skip
+    w_21 = -w.old[1, 2] * e_1 + spin * w.old[1, 1] + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3
+    w_22 = -w.old[1, 2] * e_2 - spin * w.old[1, 0] + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3
+    w_21, w_22 = p.radius[1] * w_21, p.radius[1] * w_22
+    f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, w_21, w_22)
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
         f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
         f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
@@ -107,13 +118,15 @@ def direction(
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
     # rims
     d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
+    p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
     if w.stiff_rim[0] > 0.0:
         u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
         rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
         hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
         radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
-        r_1 += p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
-        r_2 += p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
+        p_11 = p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
+        p_12 = p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
+        r_1, r_2 = r_1 + p_11, r_2 + p_12
     if w.stiff_rim[1] > 0.0:
         rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
         d_rim = w.stiff_rim[1] * rate
@@ -123,9 +136,10 @@ def direction(
                 t[a, 0] * w.r_top[0] + t[a, 1] * w.r_top[1] + t[a, 2] * w.r_top[2]
             )
             if a == 0:
-                r_1 += p.radius[1] * part
+                p_21 = p.radius[1] * part
             else:
-                r_2 += p.radius[1] * part
+                p_22 = p.radius[1] * part
+        r_1, r_2 = r_1 + p_21, r_2 + p_22
     if p.fixed_load > 0.0 and p.fused:
         d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
@@ -147,7 +161,16 @@ def direction(
     r_2 += d_l * g_2 + w.l * g_d2 - d_chi * w.n[0] - chi * (e_1 - k * w.n[0] * tilt)
     r_1 -= d_hat * s_1 + w.n_hat * d_s1
     r_2 -= d_hat * s_2 + w.n_hat * d_s2
-    return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin
+    balance = 0.0
+    if w.spins > 0.0:
+        balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
+        balance -= drag_rate(
+            w, 0, w_11, w_12, p.radius[0] * (g_d1 - f_11) + p_11, p.radius[0] * (g_d2 - f_12) + p_12
+        )
+        balance -= drag_rate(
+            w, 1, w_21, w_22, p.radius[1] * (g_d1 - f_21) + p_21, p.radius[1] * (g_d2 - f_22) + p_22
+        )
+    return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
 
 
 @kernel
@@ -155,7 +178,7 @@ def slider_jacobian(p: Props, w: Work) -> None:
     """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
     for a in range(2):
         r = direction(p, w, 1.0 - a, 0.0 + a, w.still, w.still)
-        for k in range(12):
+        for k in range(w.rates.shape[0]):
             w.turns[a, k] = r[k]
         w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
 
@@ -168,15 +191,20 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
         e_1 = -(w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise) / w.l
         e_2 = -(w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise) / w.l
         rates = direction(p, w, e_1, e_2, d, v)
-        for k in range(12):
+        for k in range(w.rates.shape[0]):
             w.rates[k] = rates[k]
         w.rates[3], w.rates[4] = -rates[0] / w.l, -rates[1] / w.l
     else:
         rates = direction(p, w, 0.0, 0.0, d, v)
         e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])  # (4.1)
         e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
-        for k in range(12):
+        for k in range(w.rates.shape[0]):
             w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
+        if w.spins > 0.0:
+            share = -w.rates[SPIN_BALANCE] / w.spun[SPIN_BALANCE]
+            e_1, e_2 = e_1 + share * w.spun_turn[0], e_2 + share * w.spun_turn[1]
+            for k in range(12):
+                w.rates[k] += share * w.spun[k]
     d_n, g_d1, g_d2 = w.rates[2], w.rates[3], w.rates[4]
     d_pos = d_n if w.n_true >= 0.0 else 0.0
     f_1, f_2, d_rim, spin = w.rates[5], w.rates[6], w.rates[7], w.rates[11]
@@ -228,6 +256,8 @@ def condense(p: Props, w: Work) -> None:
         det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
         inv[0], inv[1] = j[1, 1] / det, -j[0, 1] / det
         inv[2], inv[3] = -j[1, 0] / det, j[0, 0] / det
+        if w.spins > 0.0:
+            rates_by_spin(p, w)
     for a in range(3):
         w.along[a] = 1.0
         column(p, w, inv, a, w.along, w.still)

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
-from lir_element.kernels.pendulum.spin import spin_rate
+from lir_element.kernels.pendulum.spin import keep_spin, spin_by
+from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders
 from lir_element.kernels.pendulum.string import (
     aim_axis,
     evaluate,
@@ -120,8 +121,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
     keep_works(old, new)
-    new.spin = old.spin + w.spin
-    new.spin_rate = spin_rate(p, w) if w.dt > 0.0 and not p.fused else 0.0
+    keep_spin(p, old, w, new)
     new.string = w.l
     new.closure = w.closure
     new.axial_force = w.n_true
@@ -140,7 +140,7 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         for a in range(2):
             new.hysteresis[k, a] = w.z[k, a]
             new.friction_force[k, a] = w.n_pos * w.phi[k, a]
-            new.sliding_increment[k, a] = w.dw[k, a]
+            new.sliding_increment[k, a] = w.rubbed[k, a]
 
 
 @kernel
@@ -234,7 +234,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
-    w.spin = old.spin_rate * w.dt
+    spin_by(p, old, w, first_spin(old, w.dt))
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
@@ -250,7 +250,10 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     aim_axis(p, old, w, 1.0)
     count = solve_axis(p, old, w)
     if count < 0:
+        spin_by(p, old, w, 0.0)
         count = solve_from_elsewhere(p, old, w)
+    if count >= 0:
+        spin_sliders(p, old, w)
     for k in range(12):
         new.displacement[k] = u[k]
     new.time = time

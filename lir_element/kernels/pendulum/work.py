@@ -155,11 +155,13 @@ def accumulate(p: Props, old: State, new: State) -> None:
     for k in range(2):
         f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
         spring = spring_energy(p, new, k) - spring_energy(p, old, k)
-        work = 0.5 * ((f[0] + g[0]) * d[0] + (f[1] + g[1]) * d[1]) - spring
+        d_1 = d[0] + (new.spin - old.spin) * old.spin_arm[k, 1]  # of the axis
+        d_2 = d[1] - (new.spin - old.spin) * old.spin_arm[k, 0]
+        work = 0.5 * ((f[0] + g[0]) * d_1 + (f[1] + g[1]) * d_2) - spring
         gain += spring
         work += 0.5 * (turned + spun)
         new.work_friction[k] = old.work_friction[k] + taken(old, new, k, work)
-        new.travel[k] = old.travel[k] + math.sqrt(d[0] * d[0] + d[1] * d[1])
+        new.travel[k] = old.travel[k] + math.sqrt(d_1 * d_1 + d_2 * d_2)
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
     f, g, d, s = old.interface_force, new.interface_force, new.slip_increment, new.slip

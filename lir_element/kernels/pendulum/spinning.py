@@ -1,0 +1,99 @@
+"""Kernels of the level 'pendulum': the spin of the sliders in equilibrium, with the axis.
+
+The axis is found for a spin, then the spin is improved by Newton's method along axes in
+equilibrium, between bounds. docs/theory.md, section 2.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._jit import kernel
+from lir_element.kernels.pendulum.solve import solve_axis
+from lir_element.kernels.pendulum.spin import rates_by_spin, spin_balance, spin_by
+from lir_element.kernels.pendulum.string import set_axis, turn_axis
+from lir_element.kernels.pendulum.tangent import slider_jacobian
+from lir_element.layout import SPIN_BALANCE
+
+if TYPE_CHECKING:
+    from lir_element.layout import Props, State, Work
+
+_MAX_ITERATIONS = 40
+_TOLERANCE = 1e-10  # of the largest torque
+_LARGEST_STEP = 0.1  # rad in one iteration (a choice)
+_LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
+_SMALLEST_STEP = 1e-15  # rad, round-off
+_TRIES = 5  # of a spin for which no axis is found, each a quarter of the last one (a choice)
+
+
+@kernel
+def first_spin(old: State, dt: float) -> float:
+    """Return the spin from which the search begins: that of the step before, at the same rate."""
+    if dt == 0.0 or max(old.rim_force[0], old.rim_force[1]) == 0.0:
+        return 0.0
+    return old.spin_rate * dt
+
+
+@kernel
+def spin_step(p: Props, w: Work, balance: float) -> float:
+    """Return Newton's step of the spin in the state that was found."""
+    w.spins = 1.0
+    slider_jacobian(p, w)
+    rates_by_spin(p, w)
+    slope = w.spun[SPIN_BALANCE] / w.n_hat
+    step = -balance / slope if slope < 0.0 else math.copysign(_LARGEST_STEP, balance)
+    return min(max(step, -_LARGEST_STEP), _LARGEST_STEP)
+
+
+@kernel
+def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
+    """Change the spin by `step`, less where no axis is found; return the iterations, or -1."""
+    x, y, z, spin = w.n[0], w.n[1], w.n[2], w.spin
+    e_1, e_2 = w.spun_turn[0], w.spun_turn[1]
+    for _ in range(_TRIES):
+        set_axis(w, x, y, z)
+        spin_by(p, old, w, spin + step)
+        turn_axis(w, x, y, z, e_1 * step, e_2 * step)
+        count = solve_axis(p, old, w)
+        if count >= 0:
+            return count
+        step *= 0.25
+    spin_by(p, old, w, spin)
+    set_axis(w, x, y, z)
+    return min(solve_axis(p, old, w), -1)
+
+
+@kernel
+def spin_sliders(p: Props, old: State, w: Work) -> None:
+    """Find the spin of the sliders in the step and the axis that belongs to it.
+
+    The axis is in equilibrium at the spin that `w` has. Where none of the neighbouring spins has
+    one, the last one that has is left.
+    """
+    if p.fused or w.dt == 0.0 or not w.n_true > p.axial_floor:
+        return
+    if max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0:
+        return
+    if max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
+        return
+    mu = old.friction_coefficient
+    enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])
+    low, high = -math.inf, math.inf
+    balance = spin_balance(p, old, w)
+    for _ in range(_MAX_ITERATIONS):
+        if abs(balance) <= enough:
+            return
+        if balance > 0.0:
+            low = w.spin
+        else:
+            high = w.spin
+        step = spin_step(p, w, balance)
+        if not low < w.spin + step < high:
+            step = 0.5 * (low + high) - w.spin
+        if abs(step) < _SMALLEST_STEP or abs(w.spin + step) > _LARGEST_SPIN:
+            break
+        if axis_for_spin(p, old, w, step) < 0:
+            break
+        balance = spin_balance(p, old, w)
+    w.spins = 0.0
