@@ -1,0 +1,99 @@
+"""The slip of the interface over random scenes that meet rims: writes docs/validation/slip.md.
+
+    python -m validation.measurements.slip --count 1000 --workers 2
+
+Bearings and motions of two or three components are drawn; each motion is scaled until the slider
+meets its rims. The levels 'pendulum' and 'contact' are compared with 'rigid_body', whose sliders
+have a mass, and with both what `level="auto"` calls sufficient. Scenes are run in child processes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames import audit
+from frames.results.auditing import needed_level
+from validation.fuzzing.pool import in_children
+from validation.fuzzing.rim_scenes import meeting, random_rim_scene
+from validation.page import FOLDER
+from validation.slip_page import page
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+TARGET = FOLDER / "slip.md"
+LEVELS = ("rigid_body", "contact", "pendulum")
+LIMIT = 300.0
+"""Longest time for a scene with all its runs [s]."""
+
+
+def outcome(data: xr.Dataset) -> dict[str, Any]:
+    """Return what is compared of a result, in SI units."""
+    slip = data["interface_slip_size"].to_numpy()[:, 0]
+    across = ("bearing_displacement", "bearing_force")
+    u, f = (np.linalg.norm(data[name].to_numpy()[:, 0, :2], axis=-1).max() for name in across)
+    return {
+        "status": str(data.attrs["status"]), "time": float(data["time"][-1]),
+        "slip": float(slip.max()), "left": float(slip[-1]),
+        "spin": float(data["slider_spin"][-1, 0]), "displacement": float(u), "force": float(f),
+        "lifts": bool((data["axial_force"][1:] <= 0.0).any()),
+        "seconds": float(data.attrs["seconds_loop"]),
+    }  # fmt: skip
+
+
+def perform(number: int, *, seed: int) -> dict[str, Any]:
+    """Run a scene at all levels; a scene whose rims are not met has the factor None."""
+    scene = random_rim_scene(seed, number)
+    found: dict[str, Any] = {"number": number, "factor": meeting(scene)}
+    if found["factor"] is None:
+        return found
+    bearing = scene.bearing
+    reach = [d / r for d, r in zip(bearing.rim_displacement, bearing.radii, strict=True)]
+    found |= {
+        "slider_radius": bearing.slider_radius, "capacity": bearing.lateral_capacity,
+        "holds": bearing.slip_stability, "unequal": abs(reach[0] - reach[1]) > 1e-9,
+    }  # fmt: skip
+    for level in LEVELS:
+        data = scene.run(found["factor"], level)
+        found[level] = outcome(data)
+        if level == "pendulum":
+            findings = audit(data)
+            found["sufficient"] = needed_level(findings) == level
+            found["measures"] = {finding.feature: finding.number for finding in findings}
+    return found
+
+
+def main(given: Sequence[str] | None = None) -> None:
+    """Run the scenes and write the page."""
+    parser = argparse.ArgumentParser(prog="python -m validation.measurements.slip")
+    parser.add_argument("--seed", type=int, default=1, help="series of scenes (default 1)")
+    parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
+    parser.add_argument("--workers", type=int, default=1, help="child processes")
+    parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
+    options = parser.parse_args(given)
+    found, lost = [], []
+    run = partial(perform, seed=options.seed)
+    for number, result, how in in_children(run, range(options.count), options.workers, LIMIT):
+        if how:
+            lost.append(f"{number} ({how})")
+            continue
+        found.append(result)
+        if options.keep:
+            with options.keep.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(result) + "\n")
+    found.sort(key=lambda entry: int(entry["number"]))
+    call = f"python -m validation.measurements.slip --seed {options.seed} --count {options.count}"
+    TARGET.write_text(page(found, lost, call), encoding="utf-8")
+    print(f"written to {TARGET}")
+
+
+if __name__ == "__main__":
+    main()
