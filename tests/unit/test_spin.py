@@ -8,25 +8,41 @@ from lir_element.kernels.pendulum import spin
 RADIUS = np.sqrt((np.arange(400) + 0.5) / 400)  # equal areas
 ANGLE = (np.arange(400) + 0.5) / 400 * 2 * np.pi
 X, Y = (RADIUS[:, None] * part for part in (np.cos(ANGLE), np.sin(ANGLE)))
+RATIOS = [1e-3, 0.3, 0.8, 1.1, 1.5, 2.0, 4.0, 10.0]
 
 
-def torque(omega: float, eccentricity: float = 0.0) -> float:
-    """Return the torque about the centre of pressure over mu N a: it slides along x with 1."""
-    pressure = 1.0 + 4.0 * eccentricity * X
-    v_x, v_y = 1.0 - omega * Y, omega * (X - eccentricity)
-    lever = (X - eccentricity) * v_y - Y * v_x
-    return float((pressure * lever / np.hypot(v_x, v_y)).mean())
+def disc(ratio: float, eccentricity: tuple[float, float] = (0.0, 0.0)) -> tuple[float, ...]:
+    """Return force along and across the sliding over mu N, torque about the axis over mu N a.
+
+    The axis slides along x with 1, the edge spins with `ratio`.
+    """
+    pressure = 1.0 + 4.0 * (eccentricity[0] * X + eccentricity[1] * Y)
+    v_x, v_y = 1.0 - ratio * Y, ratio * X
+    size = np.hypot(v_x, v_y)
+    along, across = v_x / size, v_y / size
+    parts = (along, across, X * across - Y * along)
+    return tuple(float((pressure * part).mean()) for part in parts)
 
 
-@pytest.mark.parametrize("omega", [1e-3, 0.3, 0.8, 1.1, 1.5, 2.0, 4.0, 10.0])
-def test_spin_under_a_couple(omega: float) -> None:
-    part = torque(omega) / spin._TORQUE
-    assert spin.relative_spin(part) == pytest.approx(omega, rel=0.03)
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_torque_of_a_disc_that_spins(ratio: float) -> None:
+    part, slope = spin.torque_of_spin(ratio)
+    assert part * spin._TORQUE == pytest.approx(disc(ratio)[2], rel=0.03)
+    step = 1e-5 * ratio
+    ahead, behind = (spin.torque_of_spin(ratio + d)[0] for d in (step, -step))
+    assert slope == pytest.approx((ahead - behind) / (2 * step), rel=1e-6)
 
 
-@pytest.mark.parametrize("eccentricity", [0.1, 0.25])
-def test_eccentric_pressure(eccentricity: float) -> None:
-    """Eccentric along the sliding: exact at the edge of the kern."""
-    exact = torque(1e-3, eccentricity) / torque(1e-3)
-    share = 1.0 / (1.0 + spin._NARROW * eccentricity**2)
-    assert share == pytest.approx(exact, abs=0.012)
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_friction_that_spin_leaves(ratio: float) -> None:
+    assert (1.0 + ratio**4) ** -0.25 == pytest.approx(disc(ratio)[0], rel=0.02)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.5, 4.0])
+@pytest.mark.parametrize("angle", [0.0, 1.0, 2.5])
+def test_torque_under_eccentric_pressure(ratio: float, angle: float) -> None:
+    """That of an even pressure, and the moment of the force that the axis' sliding gives."""
+    e = (0.2 * np.cos(angle), 0.2 * np.sin(angle))
+    force = (1.0 + ratio**4) ** -0.25
+    torque = spin.torque_of_spin(ratio)[0] * spin._TORQUE
+    assert disc(ratio, e)[2] == pytest.approx(torque - e[1] * force, abs=0.07)

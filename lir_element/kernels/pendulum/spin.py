@@ -54,6 +54,7 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
     """
     w.spin = spin
     w.spins = 0.0
+    w.one_sided = one_sided(p, old)
     for k in range(2):
         w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
         w.left[k], w.left_rate[k] = 1.0, 0.0
@@ -82,17 +83,52 @@ def torque(p: Props, old: State, w: Work) -> tuple[float, float]:
 
 
 @kernel
+def one_sided(p: Props, old: State) -> float:
+    """Return how one-sided the rims press: 0 both alike, 1 as the axis alone has it (2.6).
+
+    A slider that rocks on its caps passes its load on to the other rim, since it rocks more easily
+    than a rim gives way. What the step starts from decides, so that nothing iterates.
+    """
+    first = 0 if old.rim_force[0] >= old.rim_force[1] else 1
+    push = old.rim_force[first]
+    if push == 0.0:
+        return 0.0
+    radius = 0.5 * (p.radius[0] + p.radius[1])
+    rocks = 4.0 / 3.0 * (radius / p.slider_radius) ** 2 * p.rim_stiffness / p.axial_stiffness
+    gap = p.rim_displacement[1 - first] - old.eccentricity[1 - first]
+    return min((1.0 + p.rim_stiffness * max(gap, 0.0) / push) / (1.0 + rocks), 1.0)
+
+
+@kernel
+def shared(p: Props, w: Work, k: int, bottom: float, top: float) -> float:
+    """Return the part of both rims' moments that presses on slider `k`, which rocks."""
+    both = p.radius[0] + p.radius[1]
+    alike = p.radius[k] / both * (bottom + top)
+    apart = w.one_sided * (p.radius[1] * bottom - p.radius[0] * top) / both
+    return alike + apart if k == 0 else alike - apart
+
+
+@kernel
+def rim_moment(p: Props, w: Work, k: int) -> tuple[float, float]:
+    """Return sphere radius times rim force of rim `k`, in the interface's plane."""
+    push = p.radius[k] * w.rim[k]
+    if k == 0:
+        return push * w.n[2] * w.unit[0, 0], push * w.n[2] * w.unit[0, 1]
+    t, r = w.t, w.r_top
+    return (
+        push * (t[0, 0] * r[0] + t[0, 1] * r[1] + t[0, 2] * r[2]),
+        push * (t[1, 0] * r[0] + t[1, 1] * r[1] + t[1, 2] * r[2]),
+    )
+
+
+@kernel
 def centre_of_pressure(p: Props, w: Work, k: int) -> tuple[float, float]:
     """Return where the pressure of surface `k` acts, from the axis: bottom e_1, top -e_2 (2.3)."""
-    arm = p.radius[k] * w.rim[k] / w.n_hat
-    x, y = w.n[2] * w.unit[0, 0], w.n[2] * w.unit[0, 1]
-    if k == 1:
-        t, r = w.t, w.r_top
-        x = t[0, 0] * r[0] + t[0, 1] * r[1] + t[0, 2] * r[2]
-        y = t[1, 0] * r[0] + t[1, 1] * r[1] + t[1, 2] * r[2]
+    a_1, a_2 = rim_moment(p, w, 0)
+    b_1, b_2 = rim_moment(p, w, 1)
     return (
-        p.radius[k] * (w.phi_s[0] - w.phi[k, 0]) + arm * x,
-        p.radius[k] * (w.phi_s[1] - w.phi[k, 1]) + arm * y,
+        p.radius[k] * (w.phi_s[0] - w.phi[k, 0]) + shared(p, w, k, a_1, b_1) / w.n_hat,
+        p.radius[k] * (w.phi_s[1] - w.phi[k, 1]) + shared(p, w, k, a_2, b_2) / w.n_hat,
     )
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _MAX_ITERATIONS = 40
 _TOLERANCE = 1e-10  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
+_LARGEST_SHIFT = 20.0  # yield displacements of the interface that it may turn the slip by (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
 _SMALLEST_STEP = 1e-15  # rad, round-off
 _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last one (a choice)
@@ -42,8 +43,11 @@ def spin_step(p: Props, w: Work, balance: float) -> float:
     slider_jacobian(p, w)
     rates_by_spin(p, w)
     slope = w.spun[SPIN_BALANCE] / w.n_hat
-    step = -balance / slope if slope < 0.0 else math.copysign(_LARGEST_STEP, balance)
-    return min(max(step, -_LARGEST_STEP), _LARGEST_STEP)
+    most, slip = _LARGEST_STEP, math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2)
+    if slip * most > _LARGEST_SHIFT * p.interface_yield:
+        most = _LARGEST_SHIFT * p.interface_yield / slip
+    step = -balance / slope if slope < 0.0 else math.copysign(most, balance)
+    return min(max(step, -most), most)
 
 
 @kernel

@@ -17,7 +17,7 @@ from lir_element.kernels.pendulum.axial import (
     tension_rates,
 )
 
-from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin
+from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE
 
 if TYPE_CHECKING:
@@ -164,12 +164,12 @@ def direction(
     balance = 0.0
     if w.spins > 0.0:
         balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
-        balance -= drag_rate(
-            w, 0, w_11, w_12, p.radius[0] * (g_d1 - f_11) + p_11, p.radius[0] * (g_d2 - f_12) + p_12
-        )
-        balance -= drag_rate(
-            w, 1, w_21, w_22, p.radius[1] * (g_d1 - f_21) + p_21, p.radius[1] * (g_d2 - f_22) + p_22
-        )
+        m_1 = p.radius[0] * (g_d1 - f_11) + shared(p, w, 0, p_11, p_21)
+        m_2 = p.radius[0] * (g_d2 - f_12) + shared(p, w, 0, p_12, p_22)
+        balance -= drag_rate(w, 0, w_11, w_12, m_1, m_2)
+        m_1 = p.radius[1] * (g_d1 - f_21) + shared(p, w, 1, p_11, p_21)
+        m_2 = p.radius[1] * (g_d2 - f_22) + shared(p, w, 1, p_12, p_22)
+        balance -= drag_rate(w, 1, w_21, w_22, m_1, m_2)
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
 
 
