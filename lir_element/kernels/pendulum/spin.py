@@ -20,6 +20,10 @@ _TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and
 _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
 _ROUND = 1e-3  # of a step's sliding: below it its direction is rounded off (a choice)
+_MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
+_MAX_SEARCH, _ENOUGH = 60, 1e-12
+_LAG = 0.005  # s, by which speeds and centres of pressure follow: steps do not answer each other
+_CREEP = 1e-3  # m/s, with which a surface that sticks counts as sliding (a choice)
 
 
 @kernel
@@ -47,6 +51,12 @@ def torque_of_spin(ratio: float) -> tuple[float, float]:
 
 
 @kernel
+def slides_with(old: State, k: int) -> float:
+    """Return the speed of surface `k` at the step's start, against which the sliders spin [m/s]."""
+    return math.sqrt(old.axis_speed[k] ** 2 + _CREEP**2)
+
+
+@kernel
 def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
     """Set the spin of the sliders in a step, and what it leaves of the surfaces' friction.
 
@@ -58,9 +68,9 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
     for k in range(2):
         w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
         w.left[k], w.left_rate[k] = 1.0, 0.0
-        drift = old.axis_speed[k] * w.dt
-        if spin == 0.0 or drift == 0.0:
+        if spin == 0.0:
             continue
+        drift = w.dt * slides_with(old, k)
         ratio = p.slider_radius * abs(spin) / drift
         base = 1.0 + ratio**4
         w.left[k] = base**-0.25  # (2.5)
@@ -68,18 +78,15 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
 
 
 @kernel
-def torque(p: Props, old: State, w: Work) -> tuple[float, float]:
+def torque(p: Props, old: State, w: Work, spin: float) -> tuple[float, float]:
     """Return the torque of the surfaces against the spin over the axial force, and its derivative."""
     total, rate = 0.0, 0.0
     for k in range(2):
-        drift = old.axis_speed[k] * w.dt
+        drift = w.dt * slides_with(old, k)
         most = _TORQUE * p.slider_radius * old.friction_coefficient[k]
-        if drift == 0.0:
-            total += most if w.spin != 0.0 else 0.0
-            continue
-        part, slope = torque_of_spin(p.slider_radius * abs(w.spin) / drift)
+        part, slope = torque_of_spin(p.slider_radius * abs(spin) / drift)
         total, rate = total + most * part, rate + most * slope * p.slider_radius / drift
-    return math.copysign(total, w.spin), rate
+    return math.copysign(total, spin), rate
 
 
 @kernel
@@ -122,6 +129,30 @@ def rim_moment(p: Props, w: Work, k: int) -> tuple[float, float]:
 
 
 @kernel
+def spin_against(p: Props, old: State, w: Work, couple: float) -> float:
+    """Return the spin in a step at which the surfaces' torque over N is `couple`."""
+    most = 0.0
+    for k in range(2):
+        most += _TORQUE * p.slider_radius * old.friction_coefficient[k]
+    wanted = min(abs(couple), _MOST * most)
+    low, high = 0.0, _FASTEST * w.dt * max(slides_with(old, 0), slides_with(old, 1))
+    high /= p.slider_radius
+    spin = 0.0
+    for _ in range(_MAX_SEARCH):
+        held, rate = torque(p, old, w, spin)
+        if abs(held - wanted) <= _ENOUGH * wanted:
+            break
+        if held < wanted:
+            low = spin
+        else:
+            high = spin
+        spin += (wanted - held) / rate if rate > 0.0 else high
+        if not low < spin < high:
+            spin = 0.5 * (low + high)
+    return math.copysign(spin, couple)
+
+
+@kernel
 def centre_of_pressure(p: Props, w: Work, k: int) -> tuple[float, float]:
     """Return where the pressure of surface `k` acts, from the axis: bottom e_1, top -e_2 (2.3)."""
     a_1, a_2 = rim_moment(p, w, 0)
@@ -143,17 +174,13 @@ def spin_balance(p: Props, old: State, w: Work) -> float:
     for k in range(2):
         w.arm[k, 0], w.arm[k, 1] = centre_of_pressure(p, w, k)
         d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
-        floor = _ROUND * old.axis_speed[k] * w.dt
+        floor = _ROUND * w.dt * slides_with(old, k)
         size = math.sqrt(d_1 * d_1 + d_2 * d_2 + floor * floor)
-        drag = w.left[k] * old.friction_coefficient[k]
-        w.along_sliding[k], w.along_size[k] = 0.0, size
-        if size > 0.0:
-            w.plain[k, 0], w.plain[k, 1] = drag * d_1 / size, drag * d_2 / size
-            w.along_sliding[k] = drag / size
-        else:
-            w.plain[k, 0], w.plain[k, 1] = 0.0, 0.0
+        w.along_sliding[k] = w.left[k] * old.friction_coefficient[k] / size
+        w.along_size[k] = size
+        w.plain[k, 0], w.plain[k, 1] = w.along_sliding[k] * d_1, w.along_sliding[k] * d_2
         couple -= w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0]
-    held, w.torque_rate = torque(p, old, w)
+    held, w.torque_rate = torque(p, old, w, w.spin)
     w.torque_spin = held
     return couple - held
 
@@ -161,8 +188,6 @@ def spin_balance(p: Props, old: State, w: Work) -> float:
 @kernel
 def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]:
     """Return the derivative of the friction along the axis' sliding over N, by that sliding."""
-    if w.along_sliding[k] == 0.0:
-        return 0.0, 0.0
     size = w.along_size[k]
     inward = (w.dw[k, 0] * dw_1 + w.dw[k, 1] * dw_2) / (size * size)
     return w.along_sliding[k] * (dw_1 - inward * w.dw[k, 0]), w.along_sliding[k] * (dw_2 - inward * w.dw[k, 1])
@@ -179,7 +204,13 @@ def rates_by_spin(p: Props, w: Work) -> None:
         w.spun[k] = 0.0
     g_1 = w.n_hat * (-f[1] + h[0, 0] * s[1] - h[0, 1] * s[0])
     g_2 = w.n_hat * (f[0] + h[1, 0] * s[1] - h[1, 1] * s[0])
-    r_1, r_2, balance = w.l * g_1, w.l * g_2, s[0] * g_2 - s[1] * g_1
+    d_n = 0.0
+    if p.fixed_load > 0.0:  # (9.3)
+        d_n = -(w.n[0] * g_1 + w.n[1] * g_2)
+        d_n /= w.n[2] + w.n[0] * f[0] + w.n[1] * f[1]
+    g_1, g_2 = g_1 + f[0] * d_n, g_2 + f[1] * d_n
+    r_1, r_2, balance = w.l * g_1, w.l * g_2, s[0] * g_2 - s[1] * g_1 - d_n * w.torque_spin
+    r_1, r_2 = r_1 - d_n * s[0], r_2 - d_n * s[1]
     k_n = 1.0 / (1.0 + w.n[2])
     basis = k_n * (s[1] * g_1 - s[0] * g_2)
     r_1, r_2 = r_1 + basis * w.n[1], r_2 - basis * w.n[0]
@@ -187,10 +218,10 @@ def rates_by_spin(p: Props, w: Work) -> None:
         o_1, o_2 = -w.shift[k, 1], w.shift[k, 0]
         f_1 = w.n_hat * (
             w.h[k, 0, 0] * o_1 + w.h[k, 0, 1] * o_2 + w.left_rate[k] * w.phi[k, 0]
-        )
+        ) + w.phi[k, 0] * d_n
         f_2 = w.n_hat * (
             w.h[k, 1, 0] * o_1 + w.h[k, 1, 1] * o_2 + w.left_rate[k] * w.phi[k, 1]
-        )
+        ) + w.phi[k, 1] * d_n
         r_1, r_2 = r_1 - p.radius[k] * f_1, r_2 - p.radius[k] * f_2
         if k == 1:
             w.spun[5], w.spun[6] = f_1, f_2
@@ -198,7 +229,7 @@ def rates_by_spin(p: Props, w: Work) -> None:
         balance -= q_1 * w.plain[k, 1] - q_2 * w.plain[k, 0]
         share = w.n_hat * w.left_rate[k]
         balance -= share * (w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0])
-    w.spun[0], w.spun[1], w.spun[3], w.spun[4] = r_1, r_2, g_1, g_2
+    w.spun[0], w.spun[1], w.spun[2], w.spun[3], w.spun[4] = r_1, r_2, d_n, g_1, g_2
     w.spun[SPIN_BALANCE] = balance - w.n_hat * w.torque_rate
     j = w.jacobian
     det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
@@ -215,15 +246,19 @@ def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
     new.spin = old.spin + w.spin
     new.spin_rate = w.spin / w.dt if w.dt > 0.0 else 0.0
     pressed = not p.fused and w.n_true > p.axial_floor and max(w.rim[0], w.rim[1]) > 0.0
+    share = w.dt / (w.dt + _LAG)
     for k in range(2):
-        new.axis_speed[k] = w.speed[k]
-        new.spin_arm[k, 0], new.spin_arm[k, 1] = 0.0, 0.0
+        e_1, e_2, speed = 0.0, 0.0, w.speed[k]
         if pressed:
-            new.spin_arm[k, 0], new.spin_arm[k, 1] = centre_of_pressure(p, w, k)
+            e_1, e_2 = centre_of_pressure(p, w, k)
         if w.spin != 0.0:
             rubbed = math.sqrt(w.rubbed[k, 0] ** 2 + w.rubbed[k, 1] ** 2)
             if rubbed > 0.0:
-                new.axis_speed[k] *= math.sqrt(w.dw[k, 0] ** 2 + w.dw[k, 1] ** 2) / rubbed
+                speed *= math.sqrt(w.dw[k, 0] ** 2 + w.dw[k, 1] ** 2) / rubbed
+        was = old.spin_arm[k]
+        new.spin_arm[k, 0] = was[0] + share * (e_1 - was[0])
+        new.spin_arm[k, 1] = was[1] + share * (e_2 - was[1])
+        new.axis_speed[k] = old.axis_speed[k] + share * (speed - old.axis_speed[k])
 
 
 @kernel

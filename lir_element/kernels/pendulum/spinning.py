@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.pendulum.solve import solve_axis
-from lir_element.kernels.pendulum.spin import rates_by_spin, spin_balance, spin_by
+from lir_element.kernels.pendulum.spin import rates_by_spin, spin_against, spin_balance, spin_by
 from lir_element.kernels.pendulum.string import set_axis, turn_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.layout import SPIN_BALANCE
@@ -19,6 +19,7 @@ from lir_element.layout import SPIN_BALANCE
 if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
 
+_LEAST_STEP = 1e-6  # s: a shorter one, taken where no other succeeds, does not spin (a choice)
 _MAX_ITERATIONS = 40
 _TOLERANCE = 1e-10  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
@@ -31,23 +32,27 @@ _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last o
 @kernel
 def first_spin(old: State, dt: float) -> float:
     """Return the spin from which the search begins: that of the step before, at the same rate."""
-    if dt == 0.0 or max(old.rim_force[0], old.rim_force[1]) == 0.0:
+    if dt < _LEAST_STEP or max(old.rim_force[0], old.rim_force[1]) == 0.0:
         return 0.0
     return old.spin_rate * dt
 
 
 @kernel
-def spin_step(p: Props, w: Work, balance: float) -> float:
-    """Return Newton's step of the spin in the state that was found."""
+def spin_slope(p: Props, w: Work) -> float:
+    """Return the derivative of the spin's balance over N in the state that was found."""
     w.spins = 1.0
     slider_jacobian(p, w)
     rates_by_spin(p, w)
-    slope = w.spun[SPIN_BALANCE] / w.n_hat
-    most, slip = _LARGEST_STEP, math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2)
-    if slip * most > _LARGEST_SHIFT * p.interface_yield:
-        most = _LARGEST_SHIFT * p.interface_yield / slip
-    step = -balance / slope if slope < 0.0 else math.copysign(most, balance)
-    return min(max(step, -most), most)
+    return w.spun[SPIN_BALANCE] / w.n_hat
+
+
+@kernel
+def largest_step(p: Props, w: Work) -> float:
+    """Return the largest change of the spin in one iteration."""
+    slip = math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2)
+    if slip * _LARGEST_STEP > _LARGEST_SHIFT * p.interface_yield:
+        return _LARGEST_SHIFT * p.interface_yield / slip
+    return _LARGEST_STEP
 
 
 @kernel
@@ -72,10 +77,11 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
 def spin_sliders(p: Props, old: State, w: Work) -> None:
     """Find the spin of the sliders in the step and the axis that belongs to it.
 
-    The axis is in equilibrium at the spin that `w` has. Where none of the neighbouring spins has
-    one, the last one that has is left.
+    The axis is in equilibrium without spin. Where spinning on makes the couple larger, the spin is
+    that under the couple without it: a step must not choose another branch. Where none of the
+    neighbouring spins has an axis, the last one that has is left.
     """
-    if p.fused or w.dt == 0.0 or not w.n_true > p.axial_floor:
+    if p.fused or w.dt < _LEAST_STEP or not w.n_true > p.axial_floor:
         return
     if max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0:
         return
@@ -85,14 +91,21 @@ def spin_sliders(p: Props, old: State, w: Work) -> None:
     enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])
     low, high = -math.inf, math.inf
     balance = spin_balance(p, old, w)
-    for _ in range(_MAX_ITERATIONS):
+    for count in range(_MAX_ITERATIONS):
         if abs(balance) <= enough:
+            w.spins = 1.0 if w.spin != 0.0 else 0.0
             return
+        slope = spin_slope(p, w)
+        if count == 0 and slope > 0.0:
+            axis_for_spin(p, old, w, spin_against(p, old, w, balance + w.torque_spin) - w.spin)
+            break
         if balance > 0.0:
             low = w.spin
         else:
             high = w.spin
-        step = spin_step(p, w, balance)
+        most = largest_step(p, w)
+        step = -balance / slope if slope < 0.0 else math.copysign(most, balance)
+        step = min(max(step, -most), most)
         if not low < w.spin + step < high:
             step = 0.5 * (low + high) - w.spin
         if abs(step) < _SMALLEST_STEP or abs(w.spin + step) > _LARGEST_SPIN:
