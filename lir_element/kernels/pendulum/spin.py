@@ -19,11 +19,10 @@ if TYPE_CHECKING:
 _TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and radius
 _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
-_ROUND = 1e-3  # of a step's sliding: below it its direction is rounded off (a choice)
 _MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
 _MAX_SEARCH, _ENOUGH = 60, 1e-12
 _LAG = 0.005  # s, by which speeds and centres of pressure follow: steps do not answer each other
-_CREEP = 1e-3  # m/s, with which a surface that sticks counts as sliding (a choice)
+_CREEP = 1e-5  # m/s, with which a surface that sticks counts as sliding (a choice)
 
 
 @kernel
@@ -164,6 +163,33 @@ def centre_of_pressure(p: Props, w: Work, k: int) -> tuple[float, float]:
 
 
 @kernel
+def set_plain(p: Props, old: State, w: Work, k: int) -> None:
+    """Set the friction over N that the axis' sliding alone would give, as a radial return.
+
+    With it its derivative, in `bends`: ``drag (I - b b)`` over the sliding that it needs.
+    """
+    u_y, z = p.yield_displacement[k], old.plain_hysteresis[k]
+    b_1, b_2 = z[0] + w.dw[k, 0] / u_y, z[1] + w.dw[k, 1] / u_y
+    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
+    over = max(size, 1.0)
+    w.z_plain[k, 0], w.z_plain[k, 1] = b_1 / over, b_2 / over
+    drag = w.left[k] * old.friction_coefficient[k] / over
+    w.plain[k, 0], w.plain[k, 1] = drag * b_1, drag * b_2
+    w.bends[k, 2] = drag / u_y
+    w.bends[k, 0], w.bends[k, 1] = 0.0, 0.0
+    if size > 1.0:
+        w.bends[k, 0], w.bends[k, 1] = b_1 / size, b_2 / size
+
+
+@kernel
+def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]:
+    """Return the derivative of `plain` by the axis' sliding."""
+    b = w.bends[k]
+    inward = b[0] * dw_1 + b[1] * dw_2
+    return b[2] * (dw_1 - inward * b[0]), b[2] * (dw_2 - inward * b[1])
+
+
+@kernel
 def spin_balance(p: Props, old: State, w: Work) -> float:
     """Set the sum of the moments that spin the sliders (2.3) and return it over the axial force.
 
@@ -173,24 +199,11 @@ def spin_balance(p: Props, old: State, w: Work) -> float:
     couple = s[0] * f[1] - s[1] * f[0]
     for k in range(2):
         w.arm[k, 0], w.arm[k, 1] = centre_of_pressure(p, w, k)
-        d_1, d_2 = w.dw[k, 0], w.dw[k, 1]
-        floor = _ROUND * w.dt * slides_with(old, k)
-        size = math.sqrt(d_1 * d_1 + d_2 * d_2 + floor * floor)
-        w.along_sliding[k] = w.left[k] * old.friction_coefficient[k] / size
-        w.along_size[k] = size
-        w.plain[k, 0], w.plain[k, 1] = w.along_sliding[k] * d_1, w.along_sliding[k] * d_2
+        set_plain(p, old, w, k)
         couple -= w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0]
     held, w.torque_rate = torque(p, old, w, w.spin)
     w.torque_spin = held
     return couple - held
-
-
-@kernel
-def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]:
-    """Return the derivative of the friction along the axis' sliding over N, by that sliding."""
-    size = w.along_size[k]
-    inward = (w.dw[k, 0] * dw_1 + w.dw[k, 1] * dw_2) / (size * size)
-    return w.along_sliding[k] * (dw_1 - inward * w.dw[k, 0]), w.along_sliding[k] * (dw_2 - inward * w.dw[k, 1])
 
 
 @kernel
@@ -255,6 +268,10 @@ def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
             rubbed = math.sqrt(w.rubbed[k, 0] ** 2 + w.rubbed[k, 1] ** 2)
             if rubbed > 0.0:
                 speed *= math.sqrt(w.dw[k, 0] ** 2 + w.dw[k, 1] ** 2) / rubbed
+        new.plain_hysteresis[k, 0], new.plain_hysteresis[k, 1] = w.z[k, 0], w.z[k, 1]
+        if pressed and w.dt > 0.0:
+            set_plain(p, old, w, k)
+            new.plain_hysteresis[k, 0], new.plain_hysteresis[k, 1] = w.z_plain[k, 0], w.z_plain[k, 1]
         was = old.spin_arm[k]
         new.spin_arm[k, 0] = was[0] + share * (e_1 - was[0])
         new.spin_arm[k, 1] = was[1] + share * (e_2 - was[1])

@@ -25,6 +25,7 @@ _TOLERANCE = 1e-10  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
 _LARGEST_SHIFT = 20.0  # yield displacements of the interface that it may turn the slip by (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
+_FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
 _SMALLEST_STEP = 1e-15  # rad, round-off
 _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last one (a choice)
 
@@ -59,13 +60,16 @@ def largest_step(p: Props, w: Work) -> float:
 def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
     """Change the spin by `step`, less where no axis is found; return the iterations, or -1."""
     x, y, z, spin = w.n[0], w.n[1], w.n[2], w.spin
+    s_1, s_2 = w.sigma[0], w.sigma[1]
+    slip = math.sqrt(s_1 * s_1 + s_2 * s_2)
     e_1, e_2 = w.spun_turn[0], w.spun_turn[1]
     for _ in range(_TRIES):
         set_axis(w, x, y, z)
         spin_by(p, old, w, spin + step)
         turn_axis(w, x, y, z, e_1 * step, e_2 * step)
         count = solve_axis(p, old, w)
-        if count >= 0:
+        moved = math.sqrt((w.sigma[0] - s_1) ** 2 + (w.sigma[1] - s_2) ** 2)
+        if count >= 0 and moved < _FARTHEST * (abs(step) * slip + p.interface_yield):
             return count
         step *= 0.25
     spin_by(p, old, w, spin)
