@@ -62,7 +62,7 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
     Speeds, friction coefficients and centres of pressure are those of the step's start.
     """
     w.spin = spin
-    w.spins = 0.0
+    w.spins, w.couple = 0.0, 0.0
     w.one_sided = one_sided(p, old)
     for k in range(2):
         w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
@@ -202,7 +202,7 @@ def spin_balance(p: Props, old: State, w: Work) -> float:
         set_plain(p, old, w, k)
         couple -= w.arm[k, 0] * w.plain[k, 1] - w.arm[k, 1] * w.plain[k, 0]
     held, w.torque_rate = torque(p, old, w, w.spin)
-    w.torque_spin = held
+    w.torque_spin, w.couple = held, couple
     return couple - held
 
 
@@ -258,6 +258,7 @@ def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
     """Keep in the record `new` what the next step needs of the spin."""
     new.spin = old.spin + w.spin
     new.spin_rate = w.spin / w.dt if w.dt > 0.0 else 0.0
+    new.spin_couple = w.couple
     pressed = not p.fused and w.n_true > p.axial_floor and max(w.rim[0], w.rim[1]) > 0.0
     share = w.dt / (w.dt + _LAG)
     for k in range(2):

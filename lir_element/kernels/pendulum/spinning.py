@@ -81,9 +81,9 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
 def spin_sliders(p: Props, old: State, w: Work) -> None:
     """Find the spin of the sliders in the step and the axis that belongs to it.
 
-    The axis is in equilibrium without spin. Where spinning on makes the couple larger, the spin is
-    that under the couple without it: a step must not choose another branch. Where none of the
-    neighbouring spins has an axis, the last one that has is left.
+    The axis is in equilibrium at the spin that `w` has. Where spinning on raises the couple by more
+    than the torque, the step is too long for that: the spin is the one under the couple at its
+    start. Where none of the neighbouring spins has an axis, the last one that has is left.
     """
     if p.fused or w.dt < _LEAST_STEP or not w.n_true > p.axial_floor:
         return
@@ -101,7 +101,8 @@ def spin_sliders(p: Props, old: State, w: Work) -> None:
             return
         slope = spin_slope(p, w)
         if count == 0 and slope > 0.0:
-            axis_for_spin(p, old, w, spin_against(p, old, w, balance + w.torque_spin) - w.spin)
+            axis_for_spin(p, old, w, spin_against(p, old, w, old.spin_couple) - w.spin)
+            spin_balance(p, old, w)
             break
         if balance > 0.0:
             low = w.spin
