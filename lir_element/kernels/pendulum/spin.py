@@ -20,8 +20,8 @@ _TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and
 _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
 _MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
-_MAX_SEARCH, _ENOUGH = 60, 1e-12
-_LAG = 0.005  # s, by which speeds and centres of pressure follow: steps do not answer each other
+_MAX_SEARCH, _ENOUGH = 60, 1e-12  # iterations for a torque, and its relative error
+_LAG = 0.005  # s, of speeds and centres of pressure: steps must not answer each other (a choice)
 _CREEP = 1e-5  # m/s, with which a surface that sticks counts as sliding (a choice)
 
 
@@ -78,7 +78,7 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
 
 @kernel
 def torque(p: Props, old: State, w: Work, spin: float) -> tuple[float, float]:
-    """Return the torque of the surfaces against the spin over the axial force, and its derivative."""
+    """Return the torque of the surfaces against the spin over N, and its derivative (2.4)."""
     total, rate = 0.0, 0.0
     for k in range(2):
         drift = w.dt * slides_with(old, k)
@@ -90,7 +90,7 @@ def torque(p: Props, old: State, w: Work, spin: float) -> tuple[float, float]:
 
 @kernel
 def one_sided(p: Props, old: State) -> float:
-    """Return how one-sided the rims press: 0 both alike, 1 as the axis alone has it (2.6).
+    """Return how one-sided the rims press: 0 both alike, 1 as the axis alone has it.
 
     A slider that rocks on its caps passes its load on to the other rim, since it rocks more easily
     than a rim gives way. What the step starts from decides, so that nothing iterates.
@@ -191,7 +191,7 @@ def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]
 
 @kernel
 def spin_balance(p: Props, old: State, w: Work) -> float:
-    """Set the sum of the moments that spin the sliders (2.3) and return it over the axial force.
+    """Set the sum of the moments that spin the sliders (2.6) and return it over the axial force.
 
     With it what its derivative needs: centres of pressure and friction along the axis' sliding.
     """
@@ -229,12 +229,14 @@ def rates_by_spin(p: Props, w: Work) -> None:
     r_1, r_2 = r_1 + basis * w.n[1], r_2 - basis * w.n[0]
     for k in range(2):
         o_1, o_2 = -w.shift[k, 1], w.shift[k, 0]
-        f_1 = w.n_hat * (
-            w.h[k, 0, 0] * o_1 + w.h[k, 0, 1] * o_2 + w.left_rate[k] * w.phi[k, 0]
-        ) + w.phi[k, 0] * d_n
-        f_2 = w.n_hat * (
-            w.h[k, 1, 0] * o_1 + w.h[k, 1, 1] * o_2 + w.left_rate[k] * w.phi[k, 1]
-        ) + w.phi[k, 1] * d_n
+        f_1 = (
+            w.n_hat * (w.h[k, 0, 0] * o_1 + w.h[k, 0, 1] * o_2 + w.left_rate[k] * w.phi[k, 0])
+            + w.phi[k, 0] * d_n
+        )
+        f_2 = (
+            w.n_hat * (w.h[k, 1, 0] * o_1 + w.h[k, 1, 1] * o_2 + w.left_rate[k] * w.phi[k, 1])
+            + w.phi[k, 1] * d_n
+        )
         r_1, r_2 = r_1 - p.radius[k] * f_1, r_2 - p.radius[k] * f_2
         if k == 1:
             w.spun[5], w.spun[6] = f_1, f_2
@@ -272,7 +274,10 @@ def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
         new.plain_hysteresis[k, 0], new.plain_hysteresis[k, 1] = w.z[k, 0], w.z[k, 1]
         if pressed and w.dt > 0.0:
             set_plain(p, old, w, k)
-            new.plain_hysteresis[k, 0], new.plain_hysteresis[k, 1] = w.z_plain[k, 0], w.z_plain[k, 1]
+            new.plain_hysteresis[k, 0], new.plain_hysteresis[k, 1] = (
+                w.z_plain[k, 0],
+                w.z_plain[k, 1],
+            )
         was = old.spin_arm[k]
         new.spin_arm[k, 0] = was[0] + share * (e_1 - was[0])
         new.spin_arm[k, 1] = was[1] + share * (e_2 - was[1])

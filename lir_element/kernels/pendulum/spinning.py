@@ -23,7 +23,9 @@ _LEAST_STEP = 1e-6  # s: a shorter one, taken where no other succeeds, does not 
 _MAX_ITERATIONS = 40
 _TOLERANCE = 1e-10  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
-_LARGEST_SHIFT = 20.0  # yield displacements of the interface that it may turn the slip by (a choice)
+_LARGEST_SHIFT = (
+    20.0  # yield displacements of the interface that it may turn the slip by (a choice)
+)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
 _FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
 _SMALLEST_STEP = 1e-15  # rad, round-off

@@ -16,7 +16,6 @@ from lir_element.kernels.pendulum.axial import (
     held_rate_fused,
     tension_rates,
 )
-
 from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE
 
@@ -70,6 +69,34 @@ def basis_rate(
 
 
 @kernel
+def rim_rates(
+    p: Props, w: Work, e_1: float, e_2: float, v: Floats, spin: float, tilt: float
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return the derivatives of R P u of both rims (2 x 2), of the top rim: force, direction."""
+    d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
+    p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
+    if w.stiff_rim[0] > 0.0:
+        u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
+        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
+        hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
+        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
+        p_11 = p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
+        p_12 = p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
+    if w.stiff_rim[1] > 0.0:
+        rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
+        d_rim = w.stiff_rim[1] * rate
+        t, r = w.t, w.r_top
+        b_1, b_2 = basis_rate(w, r[0], r[1], r[2], e_1, e_2, spin)
+        along_1 = t[0, 0] * r[0] + t[0, 1] * r[1] + t[0, 2] * r[2]
+        along_2 = t[1, 0] * r[0] + t[1, 1] * r[1] + t[1, 2] * r[2]
+        turn_1 = b_1 + t[0, 0] * q_1 + t[0, 1] * q_2 + t[0, 2] * q_3
+        turn_2 = b_2 + t[1, 0] * q_1 + t[1, 1] * q_2 + t[1, 2] * q_3
+        p_21 = p.radius[1] * (w.rim[1] * turn_1 + d_rim * along_1)
+        p_22 = p.radius[1] * (w.rim[1] * turn_2 + d_rim * along_2)
+    return p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3
+
+
+@kernel
 def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float) -> float:
     """Return the derivative of friction's moment about the axis; `m` is that of N times its arm."""
     q_1, q_2 = plain_rate(w, k, dw_1, dw_2)
@@ -78,9 +105,7 @@ def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float)
 
 
 @kernel
-def direction(
-    p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats
-) -> Rates:
+def direction(p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats) -> Rates:
     """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin, balance.
 
     Where the interface is fused its force is left out: it follows from the residual. The balance is
@@ -116,30 +141,8 @@ def direction(
         f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
-    # rims
-    d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
-    p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
-    if w.stiff_rim[0] > 0.0:
-        u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
-        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
-        hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
-        radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
-        p_11 = p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
-        p_12 = p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)
-        r_1, r_2 = r_1 + p_11, r_2 + p_12
-    if w.stiff_rim[1] > 0.0:
-        rate, q_1, q_2, q_3 = top_rates(p, w, e_1, e_2, v)
-        d_rim = w.stiff_rim[1] * rate
-        b_1, b_2 = basis_rate(w, w.r_top[0], w.r_top[1], w.r_top[2], e_1, e_2, spin)
-        for a, b in ((0, b_1), (1, b_2)):
-            part = w.rim[1] * (b + t[a, 0] * q_1 + t[a, 1] * q_2 + t[a, 2] * q_3) + d_rim * (
-                t[a, 0] * w.r_top[0] + t[a, 1] * w.r_top[1] + t[a, 2] * w.r_top[2]
-            )
-            if a == 0:
-                p_21 = p.radius[1] * part
-            else:
-                p_22 = p.radius[1] * part
-        r_1, r_2 = r_1 + p_21, r_2 + p_22
+    p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(p, w, e_1, e_2, v, spin, tilt)
+    r_1, r_2 = r_1 + p_11 + p_21, r_2 + p_12 + p_22
     if p.fixed_load > 0.0 and p.fused:
         d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
@@ -162,7 +165,7 @@ def direction(
     r_1 -= d_hat * s_1 + w.n_hat * d_s1
     r_2 -= d_hat * s_2 + w.n_hat * d_s2
     balance = 0.0
-    if w.spins > 0.0:
+    if w.spins > 0.0:  # of (2.3)
         balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
         m_1 = p.radius[0] * (g_d1 - f_11) + shared(p, w, 0, p_11, p_21)
         m_2 = p.radius[0] * (g_d2 - f_12) + shared(p, w, 0, p_12, p_22)
