@@ -165,7 +165,7 @@ def direction(p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats) -
     r_1 -= d_hat * s_1 + w.n_hat * d_s1
     r_2 -= d_hat * s_2 + w.n_hat * d_s2
     balance = 0.0
-    if w.spins > 0.0:  # of (2.3)
+    if w.spins > 0.0:  # of (2.6)
         balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
         m_1 = p.radius[0] * (g_d1 - f_11) + shared(p, w, 0, p_11, p_21)
         m_2 = p.radius[0] * (g_d2 - f_12) + shared(p, w, 0, p_12, p_22)
