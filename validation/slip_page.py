@@ -22,7 +22,7 @@ PLACED = 0.02
 SHOWN = 12
 NAMES = {
     "slip": "largest slip", "left": "slip left, over the largest",
-    "displacement": "peak displacement", "force": "peak force",
+    "displacement": "peak displacement", "force": "force (99.9 %)",
 }  # fmt: skip
 
 

@@ -67,7 +67,8 @@ def _next(
     wanted = needed_level(findings)
     if wanted == level or level != "pendulum":
         return features, level, "sufficient"
-    why = "; ".join(f.sentence for f in findings if f.feature in {"uplift", "full_contact"})
+    asking = {"uplift", "full_contact", "slip_stability"}
+    why = "; ".join(f.sentence for f in findings if f.feature in asking and f.mattered)
     if wanted in LEVELS:
         return features, wanted, f"again at the level '{wanted}': {why}"
     return features, level, f"the level '{wanted}' would be needed, and is not there: {why}"

@@ -41,6 +41,9 @@ KERN = 0.25
 HOLDS = 0.8
 """Slip over the one that holds without rims, `slip_stability`, from which a run says so."""
 
+ROCKS = 0.15
+"""Slip over slider radius below which the rocking before it counts, which is some millimetres."""
+
 CONTACT = 0.5
 """Eccentricity over slider radius beyond which the level 'contact' is asked for."""
 
@@ -137,12 +140,13 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
     Returns
     -------
     str
-        "contact" where a bearing lifted off, or the resultant between the sliders came further
-        than half a radius off an axis.
+        "contact" where a bearing lifted off, where the resultant between the sliders came further
+        than half a radius off an axis, where a slip is so small that sliders which rock keep much
+        less of it, or so large that a per cent decides whether it holds.
     """
-    by_name = {finding.feature: finding for finding in findings}
-    lifted = by_name["uplift"].mattered
-    return "contact" if lifted or by_name["full_contact"].mattered else "pendulum"
+    asking = {"uplift", "full_contact", "slip_stability"}
+    wanted = any(finding.mattered for finding in findings if finding.feature in asking)
+    return "contact" if wanted else "pendulum"
 
 
 def left_out(data: xr.Dataset) -> tuple[str, ...]:
@@ -294,12 +298,30 @@ def _full_contact(data: xr.Dataset) -> Finding:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
         verdict += ", see the level 'contact'"
     text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
+    rocks = _rocking(data)
+    text += f"; {rocks}" if rocks else ""
     return Finding(
         feature="full_contact",
         left_out=str(data.attrs["level"]) == "pendulum",
-        mattered=share > CONTACT,
+        mattered=share > CONTACT or bool(rocks),
         number=share,
         sentence=text,
+    )
+
+
+def _rocking(data: xr.Dataset) -> str:
+    # A slip so small that sliders which rock before it keep much less, or an empty string.
+    held = data["interface_friction"] * data["axial_force"].clip(min=0.0)
+    slipped = ((data["interface_force"] >= held * (1.0 - 1e-9)) & (held > 0.0)).any("time")
+    slip = data["interface_slip_size"].max("time").where(slipped, np.inf)
+    share = (slip / data["slider_radius"]).to_numpy()
+    worst = int(np.argmin(share))
+    if not share[worst] < ROCKS:
+        return ""
+    name = str(data["bearing"].to_numpy()[worst])
+    return (
+        f"{name} slipped by {1e3 * float(slip[worst]):.2g} mm, of which a slider that rocks first "
+        "may keep some millimetres less, see the level 'contact'"
     )
 
 

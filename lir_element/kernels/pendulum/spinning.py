@@ -23,9 +23,7 @@ _LEAST_STEP = 1e-6  # s: a shorter one, taken where no other succeeds, does not 
 _MAX_ITERATIONS = 40
 _TOLERANCE = 1e-10  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
-_LARGEST_SHIFT = (
-    20.0  # yield displacements of the interface that it may turn the slip by (a choice)
-)
+_LARGEST_SHIFT = 20.0  # yield displacements of the interface, of the slip in one (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
 _FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
 _SMALLEST_STEP = 1e-15  # rad, round-off
@@ -87,11 +85,12 @@ def spin_sliders(p: Props, old: State, w: Work) -> None:
     than the torque, the step is too long for that: the spin is the one under the couple at its
     start. Where none of the neighbouring spins has an axis, the last one that has is left.
     """
-    if p.fused or w.dt < _LEAST_STEP or not w.n_true > p.axial_floor:
+    if p.fused or w.dt < _LEAST_STEP or (max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0):
         return
-    if max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0:
-        return
-    if max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
+    if max(old.axis_speed[0], old.axis_speed[1]) == 0.0 or not w.n_true > p.axial_floor:
+        if w.spin != 0.0:  # nothing that would hold it
+            w.spun_turn[0], w.spun_turn[1] = 0.0, 0.0
+            axis_for_spin(p, old, w, -w.spin)
         return
     mu = old.friction_coefficient
     enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])
