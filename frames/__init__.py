@@ -1,5 +1,6 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
+from frames._errors import AuditWarning as AuditWarning
 from frames._errors import ModelError as ModelError
 from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
@@ -31,6 +32,7 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 
 __all__ = [
     "AnalysisInterrupted",
+    "AuditWarning",
     "Features",
     "Finding",
     "Frame",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from lir_element.errors import AnalysisWarning
+
 
 class ModelError(ValueError):
     """A structural model, or a number of it, that cannot be used; the message names the culprit."""
@@ -17,3 +19,7 @@ class MotionError(ValueError):
 
 class MotionWarning(UserWarning):
     """A ground motion that can be used, with something that its user should know."""
+
+
+class AuditWarning(AnalysisWarning):
+    """An analysis that was completed, in which something that was left out or doubtful mattered."""

@@ -236,6 +236,8 @@ def index(folder: Path = FOLDER) -> str:
         "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
         "[opensees_public_models.md](opensees_public_models.md), public models on bearings in "
         "both programs (`python -m validation.measurements.opensees_public_models`), "
+        "[slip.md](slip.md), the slip of the interface where rims are met "
+        "(`python -m validation.measurements.slip`), "
         "and [random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
         "(`python -m validation.random_scenes`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "

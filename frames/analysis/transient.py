@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from scipy import linalg
 
+from frames._errors import AuditWarning
 from frames.analysis.automatic import settle
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.equilibrium import force_tolerance
@@ -21,7 +23,7 @@ from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Setup, output_arrays
 from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
-from frames.results.auditing import audit_report
+from frames.results.auditing import audit_report, doubts_of
 from lir_element.device.features import Features
 from lir_element.door import require_between, require_choice, require_positive
 from lir_element.element import ALL_LEVELS
@@ -117,6 +119,7 @@ def time_history(
         audit: for each feature left out whether it mattered, with a number. A run whose ledger of
         energy is open by more than 0.1 % of the input has the status "inaccurate" and warns;
         what "generalised-alpha" takes out may reach 1 %, and is named by a warning from 0.1 % on.
+        An AuditWarning tells of a completed run in whose audit a line begins with "!".
 
     Raises
     ------
@@ -143,7 +146,7 @@ def time_history(
             model, motion, length, dt, integrator=integrator, tolerance=tolerance,
             record_every=int(record_every), progress=progress,
         )  # fmt: skip
-        return report(data, *outcome, on_failure=on_failure)
+        return _told(report(data, *outcome, on_failure=on_failure))
     options = Options(
         duration=length,
         base=float(base),
@@ -168,7 +171,16 @@ def time_history(
         data = settle(analyse, exact_features(model, motion))
     else:
         data = analyse(Features.all() if features is None else features, level)
-    return report(data, *outcomes[-1], on_failure=on_failure)
+    return _told(report(data, *outcomes[-1], on_failure=on_failure))
+
+
+def _told(data: xr.Dataset) -> xr.Dataset:
+    # Warns of what the audit of a completed run marks.
+    doubts = doubts_of(data)
+    if doubts and "failed_at" not in data.attrs:
+        what = "the run is complete, but look at its audit: " + "; ".join(doubts)
+        warnings.warn(what, AuditWarning, stacklevel=3)
+    return data
 
 
 class Options(NamedTuple):

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 
 from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
+from frames.results.auditing import doubts_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -212,10 +213,14 @@ def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
 
 
 def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
-    """Return the name of a system; after `space`, a run that stopped early says so."""
-    if data.attrs.get("status", "ok") == "ok":
-        return name
-    return f"{name}{space}(stopped at {data.attrs.get('failed_at', float(data['time'][-1])):.2f} s)"
+    """Return the name of a system; after `space`, that it stopped, or what to look at."""
+    status = data.attrs.get("status", "ok")
+    if status not in {"ok", "inaccurate"}:
+        end = data.attrs.get("failed_at", float(data["time"][-1]))
+        return f"{name}{space}(stopped at {end:.2f} s)"
+    if status != "ok":
+        return f"{name}{space}({status})"
+    return f"{name}{space}(see its audit)" if doubts_of(data) else name
 
 
 def system_handles(systems: Mapping[str, xr.Dataset]) -> list[Artist]:

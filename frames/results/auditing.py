@@ -124,6 +124,23 @@ def report_of(findings: tuple[Finding, ...]) -> str:
     return "\n".join(m + finding.sentence for m, finding in zip(marks, ordered, strict=True))
 
 
+def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
+    """Return what the audit of a result marks with "!", a sentence each.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, also one that was loaded; others have none.
+
+    Returns
+    -------
+    tuple of str
+        Without their marks.
+    """
+    lines = str(data.attrs.get("audit", "")).splitlines()
+    return tuple(line[2:] for line in lines if line.startswith("! "))
+
+
 def is_missing(finding: Finding) -> bool:
     """Return whether the run should be repeated with what it left out."""
     return finding.left_out and finding.mattered

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.results.auditing import doubts_of
 from frames.results.measures import energy_error, floor_acceleration, storey_drift
 from frames.results.storage import save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY
@@ -82,8 +83,10 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
         lines.append(f"{row.text:<{wide}}" + "".join(f"{cell:>20}" for cell in cells))
     cells = [status_of(data) for data in results.values()]
     lines.append(f"{'status':<{wide}}" + "".join(f"{cell:>20}" for cell in cells))
-    failed = {n: d.attrs["message"] for n, d in results.items() if d.attrs["status"] != "ok"}
+    failed = {n: d.attrs["message"] for n, d in results.items() if "failed_at" in d.attrs}
     lines += [f"{name} stopped {message}" for name, message in failed.items()]
+    for name, data in results.items():
+        lines += [f"{name}: look at: {doubt}" for doubt in doubts_of(data)]
     return "\n".join(lines)
 
 
@@ -108,12 +111,12 @@ def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
     table = io.StringIO(newline="")
     writer = csv.writer(table)
     names = [row.name for row in ROWS if row.name]
-    writer.writerow(["system", "status", "failed_at_s", *names])
+    writer.writerow(["system", "status", "failed_at_s", *names, "doubts"])
     for name, data in results.items():
         values = summary_of(data)
         failed_at = data.attrs.get("failed_at", "")
         cells = [f"{values[key]:.6g}" for key in names]
-        writer.writerow([name, data.attrs["status"], failed_at, *cells])
+        writer.writerow([name, data.attrs["status"], failed_at, *cells, "; ".join(doubts_of(data))])
     write_whole(folder / "summary.csv", table.getvalue().encode())
 
 
@@ -123,10 +126,12 @@ def group_of(name: str) -> str:
 
 
 def status_of(data: xr.Dataset) -> str:
-    """Return "completed", or how and when a run stopped."""
-    if data.attrs["status"] == "ok":
-        return "completed"
-    return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
+    """Return "completed", with a mark where the audit has one, or how and when a run stopped."""
+    if "failed_at" in data.attrs:
+        return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
+    if data.attrs["status"] != "ok":
+        return str(data.attrs["status"])
+    return "completed, audit: !" if doubts_of(data) else "completed"
 
 
 def _cell(row: Row, value: float) -> str:

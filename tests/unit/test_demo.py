@@ -35,7 +35,7 @@ def test_quick_run_writes_table_results_and_figures(written: Path) -> None:
     with (written / "summary.csv").open(newline="", encoding="utf-8") as file:
         rows = {row["system"]: row for row in csv.DictReader(file)}
     assert list(rows) == [demo.LIR, demo.DCFP, demo.FREE]
-    assert set(rows[demo.LIR]) == {"system", "status", "failed_at_s"} | {
+    assert set(rows[demo.LIR]) == {"system", "status", "failed_at_s", "doubts"} | {
         row.name for row in ROWS if row.name
     }
     peak = {name: float(row["peak_base_shear_over_weight"]) for name, row in rows.items()}

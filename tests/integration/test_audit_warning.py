@@ -1,0 +1,82 @@
+"""A completed run with a mark in its audit is told apart wherever it is shown."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from frames import (
+    AuditWarning,
+    Features,
+    GroundMotion,
+    audit,
+    audit_report,
+    load,
+    lumped_mass,
+    moment_frame,
+    save,
+    time_history,
+)
+from frames.plots import histories
+from frames.results.auditing import needed_level
+from frames.results.summary import status_of, table_of, write_results
+from validation.cases import EXAMPLE_MASS, example_bearing
+
+TIME = np.arange(0.0, 5.0, 0.005)
+PUSH = GroundMotion(
+    x=2.6 * np.exp(-(((TIME - 2.0) / 1.2) ** 2)) * np.sin(2 * np.pi * TIME / 1.6), dt=0.005
+)
+WITHOUT = Features(rims=False, interface=False)
+
+
+@pytest.fixture(scope="module")
+def model():
+    return lumped_mass(example_bearing(), EXAMPLE_MASS)
+
+
+@pytest.fixture(scope="module")
+def marked(model):
+    with pytest.warns(AuditWarning, match="rims left out: reached"):
+        return time_history(model, PUSH, features=WITHOUT)
+
+
+def test_status_stays(marked):
+    assert marked.attrs["status"] == "ok"
+    assert marked.attrs["message"] == "completed"
+
+
+def test_a_run_without_a_mark_does_not_warn(model):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", AuditWarning)
+        calm = time_history(model, PUSH.scaled(0.2))
+    assert "! " not in calm.attrs["audit"]
+    assert status_of(calm) == "completed"
+
+
+def test_summaries_show_it(tmp_path):
+    building = moment_frame(bays=(1, 1), storeys=1, bearing=example_bearing())
+    marked = time_history(building, PUSH, features=WITHOUT)
+    assert status_of(marked) == "completed, audit: !"
+    line = next(line for line in audit_report(marked).splitlines() if line.startswith("! rims"))
+    assert f"one: look at: {line[2:]}" in table_of({"one": marked}).splitlines()
+    write_results({"one": marked}, tmp_path)
+    assert line[2:] in (tmp_path / "summary.csv").read_text(encoding="utf-8")
+
+
+def test_figures_show_it_after_loading(marked, tmp_path):
+    save(marked, tmp_path / "one.nc")
+    figure = histories({"one": load(tmp_path / "one.nc")})
+    texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    assert "one (see its audit)" in texts
+
+
+def test_auto_hands_a_small_slip_to_the_bodies(model):
+    """A slip of some millimetres, below 0.15 of the slider's radius of 150 mm."""
+    push = PUSH.scaled(0.81)
+    cheap = time_history(model, push)
+    slip = 1e3 * float(cheap["interface_slip_size"].max())
+    assert 1.0 < slip < 22.5
+    assert needed_level(audit(cheap)) == "contact"
+    assert "a slider that rocks first" in cheap.attrs["audit"]
+    kept = time_history(model, push, level="auto")
+    assert "body_rotation" in kept
