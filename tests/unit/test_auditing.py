@@ -233,6 +233,8 @@ def test_full_contact_levels():
         finding = found(other)["full_contact"]
         assert_allclose(finding.number, factor, rtol=1e-9)
         assert text in finding.sentence
+        assert (needed_level(audit(other)) == "contact") == (factor > 0.33)
+        other["rim_force"] = 0.0 * other["rim_force"]
         assert (needed_level(audit(other)) == "contact") == (factor > 0.5)
 
 
