@@ -141,8 +141,11 @@ def direction(p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats) -
         f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1 = -p.radius[0] * f_11 - p.radius[1] * f_21
     r_2 = -p.radius[0] * f_12 - p.radius[1] * f_22
-    p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(p, w, e_1, e_2, v, spin, tilt)
-    r_1, r_2 = r_1 + p_11 + p_21, r_2 + p_12 + p_22
+    d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
+    p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
+    if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
+        p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(p, w, e_1, e_2, v, spin, tilt)
+        r_1, r_2 = r_1 + p_11 + p_21, r_2 + p_12 + p_22
     if p.fixed_load > 0.0 and p.fused:
         d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
