@@ -142,6 +142,20 @@ def twist_energy(p: Props, at: State) -> float:
 
 
 @kernel
+def together(a: float, b: float, c: float) -> tuple[float, float, float]:
+    """Return the works of three contacts with the same sum, none below zero where the sum is not.
+
+    What spinning sliders pass on from contact to contact is theirs together.
+    """
+    least, total = min(a, b, c), a + b + c
+    if least >= 0.0 or total <= 0.0:
+        return a, b, c
+    a, b, c = max(a, 0.0), max(b, 0.0), max(c, 0.0)
+    share = total / (a + b + c)
+    return share * a, share * b, share * c
+
+
+@kernel
 def accumulate(p: Props, old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
@@ -151,16 +165,16 @@ def accumulate(p: Props, old: State, new: State) -> None:
     """
     gain = twist_energy(p, new) - twist_energy(p, old)
     turned = 0.5 * (old.torque + new.torque) * (new.twist - old.twist) - gain
-    spun = spin_work(old, new)
+    spun, spin = spin_work(old, new), new.spin - old.spin
+    works = (0.0, 0.0, 0.0)
     for k in range(2):
         f, g, d = old.friction_force[k], new.friction_force[k], new.sliding_increment[k]
         spring = spring_energy(p, new, k) - spring_energy(p, old, k)
-        d_1 = d[0] + (new.spin - old.spin) * old.spin_arm[k, 1]  # of the axis
-        d_2 = d[1] - (new.spin - old.spin) * old.spin_arm[k, 0]
+        d_1, d_2 = d[0] + spin * old.spin_arm[k, 1], d[1] - spin * old.spin_arm[k, 0]  # of the axis
         work = 0.5 * ((f[0] + g[0]) * d_1 + (f[1] + g[1]) * d_2) - spring
         gain += spring
         work += 0.5 * (turned + spun)
-        new.work_friction[k] = old.work_friction[k] + taken(old, new, k, work)
+        works = (work, 0.0, 0.0) if k == 0 else (works[0], work, 0.0)
         new.travel[k] = old.travel[k] + math.sqrt(d_1 * d_1 + d_2 * d_2)
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))
         new.work_rim[k] = old.work_rim[k] + work
@@ -171,9 +185,14 @@ def accumulate(p: Props, old: State, new: State) -> None:
         spring = interface_energy(p, new) - interface_energy(p, old)
         total = 0.5 * ((f[0] + g[0]) * d_1 + (f[1] + g[1]) * d_2)
         held = total - interface_work(p, old, new)
-        work = total - held - spring - spun
+        works = (works[0], works[1], total - held - spring - spun)
         gain += spring
-        new.work_interface = old.work_interface + taken(old, new, 2, work)
+    if spin != 0.0:
+        works = together(works[0], works[1], works[2])
+    for k in range(2):
+        new.work_friction[k] = old.work_friction[k] + taken(old, new, k, works[k])
+    if not p.fused:
+        new.work_interface = old.work_interface + taken(old, new, 2, works[2])
     new.work_elastic = old.work_elastic + gain
     new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
     new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
