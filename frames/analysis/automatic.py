@@ -5,7 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from frames.results.auditing import audit, is_missing, needed_level
+from frames.results.auditing import asking_for_contact, audit, is_missing, needed_level
 from lir_element.element import LEVELS
 
 if TYPE_CHECKING:
@@ -67,8 +67,7 @@ def _next(
     wanted = needed_level(findings)
     if wanted == level or level != "pendulum":
         return features, level, "sufficient"
-    asking = {"uplift", "full_contact", "slip_stability"}
-    why = "; ".join(f.sentence for f in findings if f.feature in asking and f.mattered)
+    why = "; ".join(f.sentence for f in asking_for_contact(findings))
     if wanted in LEVELS:
         return features, wanted, f"again at the level '{wanted}': {why}"
     return features, level, f"the level '{wanted}' would be needed, and is not there: {why}"

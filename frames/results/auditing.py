@@ -53,6 +53,9 @@ CONTACT = 0.33
 forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
 
 
+_ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
+
+
 @dataclass(frozen=True, kw_only=True)
 class Finding:
     """What the audit found on one feature.
@@ -167,9 +170,12 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
         sliders which rock keep much less of it, or so large that a per cent decides whether it
         holds.
     """
-    asking = {"uplift", "full_contact", "slip_stability"}
-    wanted = any(finding.mattered for finding in findings if finding.feature in asking)
-    return "contact" if wanted else "pendulum"
+    return "contact" if asking_for_contact(findings) else "pendulum"
+
+
+def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings that ask for the level "contact"."""
+    return tuple(f for f in findings if f.mattered and f.feature in _ASKING)
 
 
 def left_out(data: xr.Dataset) -> tuple[str, ...]:

@@ -56,16 +56,22 @@ def slides_with(old: State, k: int) -> float:
 
 
 @kernel
-def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
-    """Set the spin of the sliders in a step, and what it leaves of the surfaces' friction.
-
-    Speeds, friction coefficients and centres of pressure are those of the step's start.
-    """
-    w.spin = spin
-    w.spins, w.couple = 0.0, 0.0
+def start_spin(p: Props, old: State, w: Work) -> None:
+    """Set what the step's start decides: centres of pressure, how one-sided the rims press."""
     w.one_sided = one_sided(p, old)
     for k in range(2):
         w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
+
+
+@kernel
+def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
+    """Set the spin of the sliders in a step, and what it leaves of the surfaces' friction.
+
+    Speeds and friction coefficients are those of the step's start.
+    """
+    w.spin = spin
+    w.spins, w.couple = 0.0, 0.0
+    for k in range(2):
         w.left[k], w.left_rate[k] = 1.0, 0.0
         if spin == 0.0:
             continue

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _LEAST_STEP = 1e-6  # s: a shorter one, taken where no other succeeds, does not spin (a choice)
 _MAX_ITERATIONS = 40
-_TOLERANCE = 1e-10  # of the largest torque
+_TOLERANCE = 1e-12  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
 _LARGEST_SHIFT = 20.0  # yield displacements of the interface, of the slip in one (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)

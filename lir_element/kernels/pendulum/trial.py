@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
-from lir_element.kernels.pendulum.spin import keep_spin, spin_by
+from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin
 from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders
 from lir_element.kernels.pendulum.string import (
     aim_axis,
@@ -234,6 +234,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         if not (math.isfinite(u[k]) and math.isfinite(v[k])):
             return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
+    start_spin(p, old, w)
     spin_by(p, old, w, first_spin(old, w.dt))
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
