@@ -207,6 +207,7 @@ SLIDER_FIELDS = (
     Field("place", "m", "", "reference places of node i, sliders' mass centres, node j", (4, 3)),
     Field("plane", "m", "", "interface from the mass centre: bottom slider, top slider", (2,)),
     Field("vertex", "m", "", "lowest, highest point of the slider from the mass centres", (2,)),
+    Field("grip", "-", "", "friction coefficient of a point over its surface's (7.7)", (2,)),
     Field("stiffness", "N/m", "k", "normal stiffness of one interface"),
     Field("damping", "N s/m", "c", "normal damping of one interface"),
     Field("radius", "m", "a", "slider radius, lever that compares moments with forces"),

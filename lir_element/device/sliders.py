@@ -83,6 +83,31 @@ def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
     return np.concatenate([outer, inner]), shares
 
 
+def gripping(plan: Floats, share: Floats, sphere: float) -> float:
+    """Return the friction of a pressed cap over ``mu N``, if each of its points has mu.
+
+    Pressures point to the sphere's centre, so that their sum exceeds the axial force; the lever of
+    friction about that centre is shorter beside the line of sliding. docs/theory.md, Eq. (7.7).
+
+    Parameters
+    ----------
+    plan : ndarray, shape (n, 2)
+        Places of the points [m].
+    share : ndarray, shape (n,)
+        Their shares of the stiffness [-].
+    sphere : float
+        Radius of the sphere [m].
+
+    Returns
+    -------
+    float
+        About ``1 + (a / R)^2 / 8`` for a slider of radius a.
+    """
+    upright = np.sqrt(1.0 - np.sum(plan**2, axis=1) / sphere**2)
+    lever = np.sqrt(1.0 - plan**2 / sphere**2).mean(axis=1)
+    return float(np.sum(share * upright * lever) / np.sum(share * upright**2))
+
+
 def interface_height(
     radii: ArrayLike, slider_radius: ArrayLike, slider_height: ArrayLike
 ) -> Floats:
@@ -136,6 +161,8 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
     )  # fmt: skip
     record["plane"][0] = interface - bottom, interface - top
     record["vertex"][0] = -first - bottom, -first + bearing.slider_height - top
+    plan, share = ring_points(bearing.contact_points, bearing.slider_radius)
+    record["grip"][0] = [1.0 / gripping(plan, share, sphere) for sphere in bearing.radii]
     options = bearing.resolved()
     record["stiffness"] = INTERFACES * options["axial_stiffness"]
     record["damping"] = INTERFACES * options["axial_damping"]

@@ -146,7 +146,7 @@ def test_sphere_law(side: int, law: str, dt: float) -> None:
         new = one(TOUCH)
         clear_pair(w)
         w.d[:] = d
-        sphere(p, side, w, old, new, STIFF, DAMP, dt, 0.07)
+        sphere(p, side, w, old, new, STIFF, DAMP, dt, 0.07, 1.0)
         expected = plain_sphere(b, side, d, old, dt, 0.07)
         assert expected.push > 1e4
         assert_allclose(w.normal, expected.normal, **CLOSE)
@@ -227,7 +227,7 @@ def test_contacts_never_pull() -> None:
         old.spot[2] = -1.0
         clear_pair(w)
         w.d[:] = (0.0, 0.0, -(b.radii[0] + gap))
-        sphere(p, 0, w, old, new, STIFF, DAMP, dt, 0.0)
+        sphere(p, 0, w, old, new, STIFF, DAMP, dt, 0.0, 1.0)
         assert new.push == 0.0
         assert not w.normal.any()
         assert not w.tangential.any()
@@ -313,7 +313,7 @@ def test_slope_is_the_derivative(pair: str, law: str, dt: float) -> None:
             elif pair == "rim":
                 rim(p, 0, w, before, after, dt)
             else:
-                sphere(p, side, w, old, new, STIFF, DAMP, dt, 0.07)  # noqa: B023
+                sphere(p, side, w, old, new, STIFF, DAMP, dt, 0.07, 1.0)  # noqa: B023
             return w.normal + w.tangential
 
         force(d)

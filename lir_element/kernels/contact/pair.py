@@ -45,11 +45,11 @@ def set_tangents(w: Scratch, x: float, y: float, z: float) -> None:
 @kernel
 def sphere(
     p: Props, side: int, w: Scratch, old: Touch, new: Touch, stiffness: float, damping: float,
-    dt: float, static_speed: float,
+    dt: float, static_speed: float, grip: float,
 ) -> None:  # fmt: skip
     """Set force and derivative of a point on the concave sphere `side` (0 bottom, 1 top).
 
-    `w.d` runs from the sphere's centre. Sliding is measured along the sphere, as the slider's
+    `grip` is its friction coefficient over that of the surface as a whole. `w.d` runs from the sphere's centre. Sliding is measured along the sphere, as the slider's
     motion on the plate; the friction speed is that of sliding past the old z.
     """
     d, radius = w.d, p.radius[side]
@@ -77,6 +77,7 @@ def sphere(
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
+    mu, slope = grip * mu, grip * slope
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
     new.increment[0], new.increment[1] = dw_1, dw_2

@@ -200,11 +200,17 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
         if pair == 0:
             body, carrier, friction = 1, 0, LOW_BOTTOM
             locate(w, 1, 0, arm[0], arm[1], arm[2], p.lever[0])
-            sphere(p, 0, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_bottom)
+            sphere(
+                p, 0, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_bottom,
+                c.grip[0],
+            )  # fmt: skip
         elif pair == 2:
             body, carrier, friction = 2, 3, LOW_TOP
             locate(w, 2, 3, arm[0], arm[1], arm[2], -p.lever[1])
-            sphere(p, 1, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_top)
+            sphere(
+                p, 1, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_top,
+                c.grip[1],
+            )  # fmt: skip
         else:
             body, carrier, friction = 2, 1, HIGH
             locate(w, 2, 1, arm[0], arm[1], arm[2], c.plane[0])

@@ -51,7 +51,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     keep_works(old, new)
     set_axes(p, w, new)
     set_slip(c, w, old, new)
-    set_averages(s.points, s.touch_new, new)
+    set_averages(c, s.points, s.touch_new, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis = 0.0
@@ -110,7 +110,7 @@ def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
 
 
 @kernel
-def set_averages(points: Records, touch: Records, new: State) -> None:
+def set_averages(c: Sliders, points: Records, touch: Records, new: State) -> None:
     """Set friction states and forces of the three interfaces from their points."""
     new.axial_force = 0.0
     for a in range(2):
@@ -131,7 +131,7 @@ def set_averages(points: Records, touch: Records, new: State) -> None:
         if pair == 2:
             new.axial_force += t.push
         new.slid[side] += share * t.slid
-        new.friction_coefficient[side] += share * t.friction
+        new.friction_coefficient[side] += share * t.friction / c.grip[side]
         new.sliding_speed[side] += share * t.speed
         for a in range(2):
             new.hysteresis[side, a] += sign * share * t.hysteresis[a]
@@ -195,6 +195,8 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         mu, u_y = store_law(s.props, side)
         before, after = s.touch_old[j], s.touch_new[j]
         y, z = before.hysteresis, after.hysteresis
+        if side < 2:
+            mu *= s.sliders.grip[side]
         gain = stored(mu, after.push, u_y, z[0], z[1])
         gain -= stored(mu, before.push, u_y, y[0], y[1])
         if side == 0:
