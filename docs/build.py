@@ -96,7 +96,7 @@ def runs() -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
         slider_radius=0.1,
         capacity=0.1,
         friction=CoulombFriction(0.05),
-        interface_friction=0.1,
+        interface_friction=0.12,
     )
     wave = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motion = GroundMotion(x=2.0 * wave, y=wave, z=0.5 * wave, dt=0.01, name="sine")

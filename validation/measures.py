@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 QUANTILE = 0.999
+LEAST_SLIP = 1e-3
+"""Largest slip over the peak displacement, below which it is the elastic sliding of an interface
+that holds."""
 DISSIPATED = ("low_friction_bottom", "low_friction_top", "high_friction")
 
 
@@ -37,7 +41,7 @@ class Response:
 
 @dataclass(frozen=True)
 class Errors:
-    """Errors of a run [%]: of peaks and energy relative to themselves, the rest to the peak."""
+    """Errors of a run [%]: of peaks, energy and slip relative to themselves."""
 
     peak: float
     """Largest displacement of a bearing."""
@@ -48,7 +52,9 @@ class Errors:
     energy: float
     """Energy dissipated by friction, at the end."""
     slip: float
-    """Largest difference of the slip at the end, over the peak displacement."""
+    """Largest slip of an interface; NaN where the reference has next to none."""
+    left: float
+    """Largest difference of the slip at the end, over the largest slip; NaN likewise."""
     residual: float
     """Largest difference of the displacement at the end, over the peak displacement."""
 
@@ -86,6 +92,11 @@ def peak_displacement(run: Response) -> float:
     return float(np.linalg.norm(run.displacement, axis=-1).max())
 
 
+def largest_slip(run: Response) -> float:
+    """Return the largest slip of an interface [m]."""
+    return float(np.linalg.norm(run.slip, axis=-1).max())
+
+
 def common(run: Response, reference: Response) -> tuple[Floats, Floats]:
     """Return the sizes of both forces at the times that both runs recorded."""
     coarse, fine = (run, reference) if len(run.time) <= len(reference.time) else (reference, run)
@@ -104,14 +115,17 @@ def errors(run: Response, reference: Response) -> Errors:
         return Errors(*[float("nan")] * len(NAMES))
     peak = peak_displacement(reference)
     ours, theirs = common(run, reference)
-    slip = np.abs(np.linalg.norm(run.slip[-1] - reference.slip[-1], axis=-1)).max()
+    largest = largest_slip(reference)
+    slipped = largest > LEAST_SLIP * peak
+    kept = np.linalg.norm(run.slip[-1] - reference.slip[-1], axis=-1).max()
     left = np.linalg.norm(run.displacement[-1] - reference.displacement[-1], axis=-1).max()
     return Errors(
         peak=_percent(peak_displacement(run), peak),
         force=_percent(ours.max(), theirs.max()),
         quantile=_percent(np.quantile(ours, QUANTILE), np.quantile(theirs, QUANTILE)),
         energy=_percent(run.dissipated[-1], reference.dissipated[-1]),
-        slip=100.0 * float(slip) / peak,
+        slip=_percent(largest_slip(run), largest) if slipped else math.nan,
+        left=100.0 * float(kept) / largest if slipped else math.nan,
         residual=100.0 * float(left) / peak,
     )
 

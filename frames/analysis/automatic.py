@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from frames.results.auditing import asking_for_contact, audit, is_missing, needed_level
 from lir_element.element import LEVELS
+from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import xarray as xr
 
@@ -51,6 +52,38 @@ def settle(analyse: Callable[[Features, str], xr.Dataset], features: Features) -
         features, level = wider, higher
     data.attrs["auto_runs"] = "\n".join(lines)
     return data
+
+
+def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
+    """Say in the audit of a result of `settle` that an earlier run ended otherwise.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of the last run; its attributes `audit` and `auto_runs` get a line.
+    ends : sequence of (RunStatus, float)
+        How each run ended, and when [s].
+    """
+    last, time = ends[-1]
+    others = [k for k, (status, _) in enumerate(ends[:-1]) if _completes(status) != _completes(last)]
+    if not others:
+        return
+    first, earlier = ends[others[-1]]
+    line = (
+        f"ends: run {others[-1] + 1} {_ended(first, earlier)}, run {len(ends)} "
+        f"{_ended(last, time)} (auto_runs): a little more or less decides whether a bearing fails"
+    )
+    data.attrs["audit"] = f"! {line}\n{data.attrs['audit']}"
+    data.attrs["auto_runs"] += f"\n{line}"
+
+
+def _completes(status: RunStatus) -> bool:
+    return status in {RunStatus.OK, RunStatus.INACCURATE}
+
+
+def _ended(status: RunStatus, time: float) -> str:
+    how = "completed" if _completes(status) else f"stopped ({status.name.lower()})"
+    return f"{how} at t = {time:.4g} s"
 
 
 def _next(

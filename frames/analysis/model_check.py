@@ -57,7 +57,8 @@ class ModelCheck:
     isolated_period : float
         Of the mass on the bearings, as a pendulum [s].
     bearings : tuple of BearingLoad
-        Name, axial force [N], pressure [Pa], settlement [m] and period [s] of each.
+        Name, axial force [N], pressure [Pa], settlement [m], period [s], and slip of the interface
+        that holds without rims beside the one at which the sliders' overlap ends [m], of each.
     motion : tuple of (str, str)
         Facts of the motion in words; empty without one.
     doubts : tuple of str
@@ -123,16 +124,23 @@ class ModelCheck:
         rows: list[tuple[str, ...]] = [
             (
                 load.name, f"{1e-3 * load.axial_force:.4g} kN", f"{1e-6 * load.pressure:.3g} MPa",
-                f"{1e3 * load.settlement:.2g} mm", f"{load.period:.3g} s",
+                f"{1e3 * load.settlement:.2g} mm", f"{load.period:.3g} s", _held(load),
             )
             for load in self.bearings[:SHOWN]
         ]  # fmt: skip
         if len(self.bearings) > SHOWN:
-            rows.append((f"and {len(self.bearings) - SHOWN} more", "", "", "", ""))
+            rows.append((f"and {len(self.bearings) - SHOWN} more", "", "", "", "", ""))
         return rows
 
 
-_HEAD = ("bearing", "axial force", "pressure", "settlement", "pendulum")
+_HEAD = ("bearing", "axial force", "pressure", "settlement", "pendulum", "slip that holds")
+
+
+def _held(load: BearingLoad) -> str:
+    if math.isinf(load.slip_stability):
+        return "one piece"
+    holds = max(load.slip_stability, 0.0)
+    return f"{1e3 * holds:.3g} of {1e3 * load.slip_capacity:.3g} mm"
 
 
 def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> ModelCheck:

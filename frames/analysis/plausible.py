@@ -56,6 +56,10 @@ class BearingLoad(NamedTuple):
         Closure of its axial contact [m].
     period : float
         Of its pendulum [s].
+    slip_stability : float
+        Slip of the interface that holds without rims [m]; infinite with the slider in one piece.
+    slip_capacity : float
+        Slip at which the sliders' overlap ends [m].
     """
 
     name: str
@@ -63,6 +67,8 @@ class BearingLoad(NamedTuple):
     pressure: float
     settlement: float
     period: float
+    slip_stability: float
+    slip_capacity: float
 
 
 def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad, ...]:
@@ -74,6 +80,8 @@ def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad
             pressure=float(force) / (math.pi * bearing.slider_radius**2),
             settlement=float(force) / bearing.resolved()["axial_stiffness"],
             period=bearing.period,
+            slip_stability=bearing.slip_stability,
+            slip_capacity=bearing.resolved()["slip_capacity"],
         )
         for (name, _, _, bearing), force in zip(system.bearings, axial_forces, strict=True)
     )

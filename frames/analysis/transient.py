@@ -11,7 +11,7 @@ import numpy as np
 from scipy import linalg
 
 from frames._errors import AuditWarning
-from frames.analysis.automatic import settle
+from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.equilibrium import force_tolerance
 from frames.analysis.outcome import Outcome, culprit, ended, judged
@@ -169,6 +169,7 @@ def time_history(
 
     if level == "auto":
         data = settle(analyse, exact_features(model, motion))
+        mark_other_end(data, [(outcome[0], outcome[1]) for outcome in outcomes])
     else:
         data = analyse(Features.all() if features is None else features, level)
     return _told(report(data, *outcomes[-1], on_failure=on_failure))

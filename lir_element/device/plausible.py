@@ -51,6 +51,10 @@ LARGEST_SHORTENING, STRANGE_SHORTENING = 1.0, 0.2
 USUAL_PROPORTIONS = (0.02, 10.0)
 """Height over diameter of a slider [-]."""
 
+HOLDS = 0.9
+"""Slip that holds without rims over the sliders' overlap, below which a design counts on more than
+it has (docs/theory.md, Eq. 2.7). Of the published bearings it is 0.92 and 0.99."""
+
 USUAL_DENSITY = (500.0, 25e3)
 LARGEST_FRICTION = 0.4
 SLOWEST_RATES = (1e-4, 0.11)
@@ -147,7 +151,10 @@ def doubts(bearing: Specification) -> tuple[str, ...]:
     tuple of str
         Each names the value, what is usual, and the unit to suspect.
     """
-    return (*_of_geometry(bearing), *_of_loads(bearing), *_of_friction(bearing), *_of_rims(bearing))
+    return (
+        *_of_geometry(bearing), *_of_loads(bearing), *_of_friction(bearing), *_of_rims(bearing),
+        *_of_slip(bearing),
+    )  # fmt: skip
 
 
 def _of_geometry(bearing: Specification) -> list[str]:
@@ -249,6 +256,20 @@ def _of_rims(bearing: Specification) -> list[str]:
             f"{meant(options['rim_stiffness'], 'N/m', STIFFNESSES, least, 200.0 * least)}"
         )
     return found
+
+
+def _of_slip(bearing: Specification) -> list[str]:
+    holds, overlap = bearing.slip_stability, bearing.resolved()["slip_capacity"]
+    without = bearing.allow_weak_interface or math.isinf(bearing.lateral_capacity)
+    if without or not 0.0 < holds < HOLDS * overlap:
+        return []
+    needed = (overlap / bearing.effective_radius) + bearing.effective_friction
+    return [
+        f"interface_friction = {bearing.interface_friction:g} holds a slip of {1e3 * holds:.3g} mm "
+        f"without rims (slip_stability), the sliders overlap up to {1e3 * overlap:.3g} mm: after a "
+        "larger slip they slip off where the motion turns again in its direction; raise it, "
+        f"to {needed:.3g} for the whole overlap, or count on {1e3 * holds:.3g} mm"
+    ]
 
 
 def _area(bearing: Specification) -> float:

@@ -55,6 +55,23 @@ def hold_actuator(run: RigRun, contacts: Contacts | None, time: float, load: flo
 
 
 @kernel
+def hold_by_load(run: RigRun, time: float, load: float) -> int:
+    """Find the state under `load` itself at the level 'pendulum'; return a status code.
+
+    Where the interface slips away, the slip lowers the plate faster than it slides: held at a
+    height, the axial force falls to nothing; held by its load, the bearing slips on
+    (docs/theory.md, section 9).
+    """
+    p, w, new = run.props[0], run.work[0], run.new[0]
+    p.fixed_load = load
+    code = bearing_trial(run.props, run.old, run.new, run.work, None, 0, run.u, run.v, time)
+    run.u[8] += w.c[2] - w.height
+    p.fixed_load = 0.0
+    new.displacement[8], new.closure = run.u[8], new.string - p.length
+    return code
+
+
+@kernel
 def accept(run: RigRun, contacts: Contacts | None) -> None:
     """Commit the trial state."""
     bearing_commit(run.props, run.old, run.new, run.old_words, run.new_words, contacts, 0)
@@ -96,6 +113,8 @@ def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: i
             clock[1] = clock[0] + share * distance / run.velocity
             held = load + share * (run.loads[point] - load)
             code = hold_actuator(run, contacts, clock[1], held)
+            if code == _NEWTON_FAILED and contacts is None:
+                code = hold_by_load(run, clock[1], held)
             if code != _OK:
                 return code
             accept(run, contacts)

@@ -21,9 +21,10 @@ from frames import (
     time_history,
 )
 from frames.analysis import automatic
-from frames.results.auditing import centre_shift, is_missing, needed_level
+from frames.results.auditing import centre_shift, doubts_of, is_missing, needed_level
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
 from lir_element.device.sliders import slider_record
+from lir_element.errors import RunStatus
 from lir_element.results.eccentricity import interface_eccentricity
 
 DT = 0.005
@@ -302,6 +303,27 @@ def test_auto_asks_for_another_level(monkeypatch):
     assert "again at the level 'contact'" in again.attrs["auto_runs"]
 
 
+def test_auto_names_runs_that_end_otherwise():
+    """One completes, the other fails: the audit says so, and with it every summary."""
+    ends = {
+        "alike": [(RunStatus.OK, 3.0), (RunStatus.INACCURATE, 3.0)],
+        "last fails": [(RunStatus.OK, 3.0), (RunStatus.SLIP_EXCEEDED, 1.25)],
+        "first fails": [(RunStatus.STEP_TOO_SMALL, 1.0), (RunStatus.OK, 3.0)],
+    }
+    lines = {}
+    for name, each in ends.items():
+        data = run(device())
+        data.attrs["auto_runs"] = "run 1: pendulum"
+        automatic.mark_other_end(data, each)
+        lines[name] = [line for line in doubts_of(data) if line.startswith("ends:")]
+        assert data.attrs["auto_runs"].count("\n") == len(lines[name])
+    assert lines["alike"] == []
+    assert "run 1 completed at t = 3 s, run 2 stopped (slip_exceeded) at t = 1.25 s" in (
+        lines["last fails"][0]
+    )
+    assert "run 1 stopped (step_too_small) at t = 1 s, run 2 completed" in lines["first fails"][0]
+
+
 def test_findings_are_data():
     finding = audit(run(device()))[0]
     assert replace(finding, mattered=True) != finding
@@ -321,3 +343,17 @@ def test_a_slip_near_the_one_that_holds_is_marked():
         assert ("! slip stability: bearing slipped" in data.attrs["audit"]) is marked
     whole = found(run(device().as_dcfp()))["slip_stability"]
     assert (whole.number, whole.mattered) == (0.0, False)
+
+
+def test_a_slip_near_the_end_of_the_overlap_is_marked():
+    """The slip is the same, the overlap longer."""
+    slip = 1e3 * float(run(device(capacity=0.08))["interface_slip_size"].max())
+    for factor, marked in ((1.05, True), (1.2, False)):
+        data = run(device(capacity=0.08, slip_capacity=1e-3 * factor * slip))
+        assert data.attrs["status"] == "ok"
+        finding = found(data)["slip_stability"]
+        assert finding.doubtful is finding.mattered is marked
+        words = f"bearing slipped {slip:.4g} mm of the {factor * slip:.4g} mm at which"
+        assert (words in finding.sentence) is marked
+    old = run(device(capacity=0.08, slip_capacity=1.05e-3 * slip)).drop_vars("slip_capacity")
+    assert not found(old)["slip_stability"].doubtful  # a file of a version that did not keep it

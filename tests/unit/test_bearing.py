@@ -281,9 +281,27 @@ def test_warning_below_the_effective_friction(unequal: bool) -> None:
             LIRBearing(**(base | {"interface_friction": low}))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", message=".*slip_stability")  # that it hardly holds any
         LIRBearing(**(base | {"interface_friction": max(level, low) * 1.0001}))
         LIRBearing(**(base | {"interface_friction": 0.01, "allow_weak_interface": True}))
     assert_allclose(LIRBearing(**base).effective_friction, level, rtol=1e-14, atol=0.0)
+
+
+@pytest.mark.parametrize(("mu_h", "warns"), [(0.115, True), (0.126, False)])
+def test_warning_where_less_slip_holds_than_overlaps(mu_h: float, warns: bool) -> None:
+    """L mu_h - mu1 R1 - mu2 R2 is 64 mm and 79 mm, the overlap 80 mm: below 0.9 it warns."""
+    holds = 1.415 * mu_h - 0.066 * 1.5
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert_allclose(bearing(interface_friction=mu_h).slip_stability, holds, rtol=1e-12)
+        bearing(interface_friction=mu_h, capacity=math.inf)  # no rims, no slip
+        bearing(interface_friction=mu_h, allow_weak_interface=True)
+    assert len(caught) == int(warns)
+    for warning in caught:
+        assert warning.category is DesignWarning
+        needed = (0.08 + 0.066 * 1.5) / 1.415
+        for words in (f"a slip of {1e3 * holds:.3g} mm", "up to 80 mm", f"to {needed:.3g} for"):
+            assert words in str(warning.message)
 
 
 def test_contradicting_rims_and_capacity() -> None:

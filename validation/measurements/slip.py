@@ -16,9 +16,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from frames import audit
 from frames.results.auditing import needed_level
+from validation import held_slip
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.rim_scenes import meeting, random_rim_scene
 from validation.page import FOLDER
@@ -29,19 +31,31 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames._types import FloatArray
+
 TARGET = FOLDER / "slip.md"
 LEVELS = ("rigid_body", "contact", "pendulum")
 QUANTILE = 0.999
-"""Of the force: the axial force rings after impacts, and steps of 5 ms meet its peaks by chance."""
+"""Of the force, as a spline through its values."""
+FINER = 10
+"""Points of the spline a step: the axial force rings after impacts with periods of some 20 ms, and
+steps of 5 ms alone meet its peaks by chance."""
 LIMIT = 300.0
 """Longest time for a scene with all its runs [s]."""
+
+
+def finer(data: xr.Dataset, name: str) -> FloatArray:
+    """Return the x and y of a bearing's variable between the steps, too, (n, 2)."""
+    time = data["time"].to_numpy()
+    between = np.linspace(time[0], time[-1], FINER * (len(time) - 1) + 1)
+    return np.asarray(CubicSpline(time, data[name].to_numpy()[:, 0, :2])(between))
 
 
 def outcome(data: xr.Dataset) -> dict[str, Any]:
     """Return what is compared of a result, in SI units."""
     slip = data["interface_slip_size"].to_numpy()[:, 0]
     across = ("bearing_displacement", "bearing_force")
-    u, f = (np.linalg.norm(data[name].to_numpy()[:, 0, :2], axis=-1) for name in across)
+    u, f = (np.linalg.norm(finer(data, name), axis=-1) for name in across)
     return {
         "status": str(data.attrs["status"]), "time": float(data["time"][-1]),
         "slip": float(slip.max()), "left": float(slip[-1]),
@@ -62,7 +76,8 @@ def perform(number: int, *, seed: int) -> dict[str, Any]:
     reach = [d / r for d, r in zip(bearing.rim_displacement, bearing.radii, strict=True)]
     found |= {
         "slider_radius": bearing.slider_radius, "capacity": bearing.lateral_capacity,
-        "holds": bearing.slip_stability, "unequal": abs(reach[0] - reach[1]) > 1e-9,
+        "holds": bearing.slip_stability, "overlap": bearing.resolved()["slip_capacity"],
+        "unequal": abs(reach[0] - reach[1]) > 1e-9,
     }  # fmt: skip
     for level in LEVELS:
         data = scene.run(found["factor"], level)
@@ -74,6 +89,12 @@ def perform(number: int, *, seed: int) -> dict[str, Any]:
     return found
 
 
+def _read(path: Path | None) -> list[dict[str, Any]]:
+    if path is None:
+        return []
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+
+
 def main(given: Sequence[str] | None = None) -> None:
     """Run the scenes and write the page."""
     parser = argparse.ArgumentParser(prog="python -m validation.measurements.slip")
@@ -81,6 +102,7 @@ def main(given: Sequence[str] | None = None) -> None:
     parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
     parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
+    parser.add_argument("--before", type=Path, help="such a file of an earlier state of the code")
     options = parser.parse_args(given)
     found, lost = [], []
     run = partial(perform, seed=options.seed)
@@ -94,7 +116,8 @@ def main(given: Sequence[str] | None = None) -> None:
                 file.write(json.dumps(result) + "\n")
     found.sort(key=lambda entry: int(entry["number"]))
     call = f"python -m validation.measurements.slip --seed {options.seed} --count {options.count}"
-    TARGET.write_text(page(found, lost, call), encoding="utf-8")
+    text = page(found, lost, call, _read(options.before), held_slip.rows(), held_slip.HEAD)
+    TARGET.write_text(text, encoding="utf-8")
     print(f"written to {TARGET}")
 
 
