@@ -11,6 +11,8 @@ from validation.page import table
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from frames._types import FloatArray
+
 Entry = dict[str, Any]
 
 LEAST = 0.02
@@ -20,6 +22,8 @@ ALLOWED = {"displacement": 0.05, "force": 0.05, "slip": 0.1, "left": 0.1}
 PLACED = 0.02
 """Slip beside the one that holds, within which the end is a matter of a per cent [-]."""
 SHOWN = 12
+BOUNDS = (3.0, 5.0, 10.0)
+WITHIN = tuple(f"within {bound:g} %" for bound in BOUNDS)
 NAMES = {
     "slip": "largest slip", "left": "slip left, over the largest",
     "displacement": "peak displacement", "force": "force (99.9 %)",
@@ -51,8 +55,7 @@ def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
                 continue
             rows.append((
                 f"{title} ({len(fit)})", f"`{level}`", words, f"{np.median(e):.2g}",
-                f"{np.percentile(e, 90):.2g}", f"{e.max():.3g}", f"{(e <= 5.0).mean():.1%}",
-                f"{(e <= 10.0).mean():.1%}",
+                f"{np.percentile(e, 90):.2g}", f"{e.max():.3g}", *_within(e),
             ))  # fmt: skip
     return rows
 
@@ -76,6 +79,10 @@ def unlike(entries: Sequence[Entry], level: str) -> list[Entry]:
     return [e for e in entries if ends_well(e, level) != ends_well(e, "rigid_body")]
 
 
+def _within(e: FloatArray) -> tuple[str, ...]:
+    return tuple(f"{(e <= bound).mean():.1%}" for bound in BOUNDS)
+
+
 def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
     """Return lines that compare scenes with what 'pendulum' gave earlier; none without that."""
     kept = {entry["number"]: entry["pendulum"] for entry in before if "pendulum" in entry}
@@ -93,7 +100,7 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
             e = 100.0 * np.array([errors(entry, "pendulum")[name] for entry in entries])
             rows.append((
                 words, title, f"{np.median(e):.2g}", f"{np.percentile(e, 90):.2g}",
-                f"{e.max():.3g}", *(f"{(e <= bound).mean():.1%}" for bound in (3.0, 5.0, 10.0)),
+                f"{e.max():.3g}", *_within(e),
             ))  # fmt: skip
     past = [entry for entry in now if entry["number"] in kept]
     past = [entry | {"pendulum": kept[entry["number"]]} for entry in past]
@@ -101,7 +108,7 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
         "## Before the sliders could spin", "",
         f"The level `pendulum` without spin, in the same {len(alike)} scenes with equal rims and "
         "without uplift, against the same rigid bodies.", "",
-        table(("of", "", "median", "90 % below", "worst", "within 3 %", "5 %", "10 %"), rows), "",
+        table(("of", "", "median", "90 % below", "worst", *WITHIN), rows), "",
         f"Another end than the rigid bodies' had then {len(unlike(past, 'pendulum'))} of "
         f"{len(past)} scenes, now {len(unlike(now, 'pendulum'))}.", "",
     ]  # fmt: skip
@@ -126,8 +133,25 @@ def page(
 ) -> str:  # fmt: skip
     """Return the page.
 
-    `before` has what the level 'pendulum' gave earlier in the same scenes, `rig` the rows under
-    `head` on the slip that holds.
+    Parameters
+    ----------
+    found : sequence of dict
+        The scenes' numbers.
+    lost : sequence of str
+        Scenes without a report, and why.
+    call : str
+        What wrote the page.
+    before : sequence of dict
+        What the level 'pendulum' gave in the same scenes, earlier.
+    rig : sequence of tuple
+        Rows on the slip that holds.
+    head : tuple of str
+        Their headings.
+
+    Returns
+    -------
+    str
+        Markdown.
     """
     met = [entry for entry in found if entry["factor"] is not None]
     groups: tuple[tuple[str, Callable[[Entry], bool]], ...] = (
@@ -168,7 +192,7 @@ def page(
     ])  # fmt: skip
 
 
-_HEAD = ("scenes", "level", "of", "median", "90 % below", "worst", "within 5 %", "within 10 %")
+_HEAD = ("scenes", "level", "of", "median", "90 % below", "worst", *WITHIN)
 _ENDS = (
     "scene", "pendulum", "contact", "rigid_body", "largest slip [mm]", "slip that holds [mm]",
     "overlap [mm]", "rims", "called sufficient",

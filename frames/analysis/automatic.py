@@ -65,7 +65,9 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
         How each run ended, and when [s].
     """
     last, time = ends[-1]
-    others = [k for k, (status, _) in enumerate(ends[:-1]) if _completes(status) != _completes(last)]
+    others = [
+        k for k, (status, _) in enumerate(ends[:-1]) if _completes(status) != _completes(last)
+    ]
     if not others:
         return
     first, earlier = ends[others[-1]]

@@ -44,8 +44,9 @@ HOLDS = 0.8
 OVERLAPS = 0.9
 """The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
 
-ROCKS = 0.15
-"""Slip over slider radius below which the rocking before it counts, which is some millimetres."""
+SPUN = 0.5
+"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the slip that is left
+depends on it (docs/validation/slip.md)."""
 
 EDGE = 0.5
 """Eccentricity over slider radius beyond which one edge carries nearly all: the level 'contact' is
@@ -169,9 +170,8 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
     -------
     str
         "contact" where a bearing lifted off; where the resultant between the sliders came further
-        than half a radius off an axis (a third where rims are met); where a slip is so small that
-        sliders which rock keep much less of it, or so large that a per cent decides whether it
-        holds.
+        than half a radius off an axis (a third where rims are met); where the sliders spun by more
+        than half a radian; where a slip is so large that a few per cent decide whether it holds.
     """
     return "contact" if asking_for_contact(findings) else "pendulum"
 
@@ -328,34 +328,21 @@ def _full_contact(data: xr.Dataset) -> Finding:
         verdict = "partial contact, no tipping"
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
-    asked = share > (CONTACT if (data["rim_force"] > 0.0).any() else EDGE)
-    if asked:
-        verdict += ", see the level 'contact'"
+    met = bool((data["rim_force"] > 0.0).any())
     text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
-    rocks = _rocking(data)
-    text += f"; {rocks}" if rocks else ""
+    spin = float(np.abs(data["slider_spin"].to_numpy()).max()) if "slider_spin" in data else 0.0
+    if spin > SPUN:
+        text += f"; the sliders spun by {spin:.2g} rad"
+    asked = share > (CONTACT if met else EDGE) or spin > SPUN
+    at_pendulum = str(data.attrs["level"]) == "pendulum"
+    if asked and at_pendulum:
+        text += ", see the level 'contact'"
     return Finding(
         feature="full_contact",
-        left_out=str(data.attrs["level"]) == "pendulum",
-        mattered=asked or bool(rocks),
+        left_out=at_pendulum,
+        mattered=asked,
         number=share,
         sentence=text,
-    )
-
-
-def _rocking(data: xr.Dataset) -> str:
-    # A slip so small that sliders which rock before it keep much less, or an empty string.
-    held = data["interface_friction"] * data["axial_force"].clip(min=0.0)
-    slipped = ((data["interface_force"] >= held * (1.0 - 1e-9)) & (held > 0.0)).any("time")
-    slip = data["interface_slip_size"].max("time").where(slipped, np.inf)
-    share = (slip / data["slider_radius"]).to_numpy()
-    worst = int(np.argmin(share))
-    if not share[worst] < ROCKS:
-        return ""
-    name = str(data["bearing"].to_numpy()[worst])
-    return (
-        f"{name} slipped by {1e3 * float(slip[worst]):.2g} mm, of which a slider that rocks first "
-        "may keep some millimetres less, see the level 'contact'"
     )
 
 

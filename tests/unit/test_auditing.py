@@ -318,8 +318,9 @@ def test_auto_names_runs_that_end_otherwise():
         lines[name] = [line for line in doubts_of(data) if line.startswith("ends:")]
         assert data.attrs["auto_runs"].count("\n") == len(lines[name])
     assert lines["alike"] == []
-    assert "run 1 completed at t = 3 s, run 2 stopped (slip_exceeded) at t = 1.25 s" in (
-        lines["last fails"][0]
+    assert (
+        "run 1 completed at t = 3 s, run 2 stopped (slip_exceeded) at t = 1.25 s"
+        in (lines["last fails"][0])
     )
     assert "run 1 stopped (step_too_small) at t = 1 s, run 2 completed" in lines["first fails"][0]
 

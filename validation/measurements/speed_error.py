@@ -254,8 +254,9 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
         f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
         "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
         "time, energy dissipated by friction, and largest slip of the interface; slip left in per "
-        "cent of the largest slip, displacement at the end of the peak displacement. Forces are compared at the output times of the coarser run: the "
-        "largest one is a single sample next to an impact, and depends on them.",
+        "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
+        "compared at the output times of the coarser run: the largest one is a single sample next "
+        "to an impact, and depends on them.",
         "",
         *(f"Left out here: {text}." for text in missing),
         "![Error over cost](figures/speed_error.png)",

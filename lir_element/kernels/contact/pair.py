@@ -49,8 +49,9 @@ def sphere(
 ) -> None:  # fmt: skip
     """Set force and derivative of a point on the concave sphere `side` (0 bottom, 1 top).
 
-    `grip` is its friction coefficient over that of the surface as a whole. `w.d` runs from the sphere's centre. Sliding is measured along the sphere, as the slider's
-    motion on the plate; the friction speed is that of sliding past the old z.
+    `grip` is its friction coefficient over that of the surface as a whole. `w.d` runs from the
+    sphere's centre. Sliding is measured along the sphere, as the slider's motion on the plate; the
+    friction speed is that of sliding past the old z.
     """
     d, radius = w.d, p.radius[side]
     size = math.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
