@@ -8,9 +8,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad, quad
 
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from lir_element.bundles.contact_data import as_rows, contact_arrays
 from lir_element.device.sliders import (
+    gripping,
     half_slider,
     initial_touches,
     interface_height,
@@ -280,3 +281,41 @@ def test_options_survive_as_dcfp() -> None:
     assert other.slider_mass == 3.0
     assert b.slider_inertia == ((0.1, 0.2), (0.1, 0.2))
     assert hash(b) != hash(other)
+
+
+@pytest.mark.parametrize("count", [4, 8, 16])
+@pytest.mark.parametrize("part", [0.05, 0.13, 0.3])
+def test_grip_is_the_torque_of_friction_over_load_and_radius(part: float, count: int) -> None:
+    """Points pressed towards the sphere's centre, each sliding along x: forces summed as vectors."""
+    sphere = 2.0
+    plan, share = ring_points(count, part * sphere)
+    z = np.sqrt(sphere**2 - np.sum(plan**2, axis=1))
+    place = np.column_stack([plan, z])
+    pressure = share * z / sphere  # of one and the same vertical closure
+    load = float(np.sum(pressure * z / sphere))
+    torques = []
+    for axis in ([0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]):  # along x, along y
+        along = np.cross(axis, place)
+        along /= np.linalg.norm(along, axis=1)[:, None]
+        torques.append(np.sum(pressure[:, None] * np.cross(place, along), axis=0) @ axis)
+    assert_allclose(gripping(plan, share, sphere), np.mean(torques) / (load * sphere), rtol=1e-12)
+    if count >= 8:  # a full disc
+        assert_allclose(gripping(plan, share, sphere), 1.0 + part**2 / 8.0, rtol=0.1 * part**2)
+
+
+def test_levels_have_the_friction_of_a_test() -> None:
+    """Half the loop's height of a wide slider: without the grip they are 2.9e-3 apart.
+
+    What is left is rocking, by ``4/3 R h F / (k_v a^2)``, and the sliders' weight.
+    """
+    wide = LIRBearing(
+        radius=1.5, slider_height=0.2, slider_radius=0.21, capacity=0.3,
+        friction=CoulombFriction(0.08), interface_friction=0.2, slider_density=500.0,
+    )  # fmt: skip
+    heights = []
+    for level in ("pendulum", "contact"):
+        data = cyclic_test(wide, [0.1, 0.0, -0.1, 0.0], 1e6, level=level)
+        force = data["bearing_force"].sel(axis="x").to_numpy()[:, 0]
+        heights.append(0.5 * (force[3] - force[1]))
+    assert_allclose(heights[1], heights[0], rtol=7e-4)
+    assert_allclose(heights[0], 0.08 * 3.0 / 2.8 * 1e6, rtol=1e-4)
