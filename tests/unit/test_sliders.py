@@ -286,7 +286,7 @@ def test_options_survive_as_dcfp() -> None:
 @pytest.mark.parametrize("count", [4, 8, 16])
 @pytest.mark.parametrize("part", [0.05, 0.13, 0.3])
 def test_grip_is_the_torque_of_friction_over_load_and_radius(part: float, count: int) -> None:
-    """Points pressed towards the sphere's centre, each sliding along x: forces summed as vectors."""
+    """Points pressed towards the sphere's centre, sliding along x: vectors summed."""
     sphere = 2.0
     plan, share = ring_points(count, part * sphere)
     z = np.sqrt(sphere**2 - np.sum(plan**2, axis=1))
