@@ -21,6 +21,7 @@ ALLOWED = {"displacement": 0.05, "force": 0.05, "slip": 0.1, "left": 0.1}
 """Errors up to which a run that is called sufficient keeps its promise [-]."""
 PLACED = 0.02
 """Slip beside the one that holds, within which the end is a matter of a per cent [-]."""
+FINE = ("ok", "inaccurate")
 SHOWN = 12
 BOUNDS = (3.0, 5.0, 10.0)
 WITHIN = tuple(f"within {bound:g} %" for bound in BOUNDS)
@@ -32,7 +33,7 @@ NAMES = {
 
 def ends_well(entry: Entry, level: str) -> bool:
     """Return whether a run came to its end without a failure of the bearing."""
-    return entry[level]["status"] in {"ok", "inaccurate"}
+    return entry[level]["status"] in FINE
 
 
 def errors(entry: Entry, level: str) -> dict[str, float]:
@@ -114,6 +115,25 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
     ]  # fmt: skip
 
 
+def by_step(met: Sequence[Entry]) -> list[str]:
+    """Return lines on the ends of 'pendulum' at fixed steps; none where they were not asked."""
+    asked = [entry for entry in met if "by_step" in entry]
+    if not asked:
+        return []
+    other = [
+        f"{e['number']} ({', '.join(f'`{status}`' for status in e['by_step'])}; "
+        f"{e['pendulum']['slip'] / e['holds']:.2f} of the slip that holds, "
+        f"{e['pendulum']['slip'] / e['overlap']:.2f} of the overlap)"
+        for e in asked
+        if any((status in FINE) is not ends_well(e, "pendulum") for status in e["by_step"])
+    ]
+    return [
+        f"At steps of 5 and 1 ms the level `pendulum` ends otherwise than at the step that it "
+        f"chooses in {len(other)} of {len(asked)} scenes"
+        + (f": {', '.join(other)}." if other else "."), "",
+    ]  # fmt: skip
+
+
 def on_rig(rows: Sequence[tuple[str, ...]], head: tuple[str, ...]) -> list[str]:
     """Return lines on the slip that holds, tried on the rig."""
     if not rows:
@@ -181,7 +201,7 @@ def page(
         + (f" Without a report: scenes {', '.join(lost)}." if lost else ""), "",
         table(_HEAD, rows), "",
         f"Errors in per cent; those of a slip below {LEAST:.0%} of the capacity are over that. "
-        "Wide sliders rock before the interface slips, which `pendulum` leaves out.", "",
+        "How sliders rock is left out by `pendulum`.", "",
         "## What `level=\"auto\"` calls sufficient", "",
         f"At the level `pendulum`: {len(sufficient)} of {len(met)} scenes. Of these {len(missed)} "
         f"({share:.1%}) are more than 5 % off in displacement or force, more than 10 % in slip, or "
@@ -191,6 +211,7 @@ def page(
         "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
         "of slip decide; an axial force that rings lets go some per cent earlier. The audit marks "
         "80 % of the one and 90 % of the other.", "",
+        *by_step(met),
         "## Farthest apart, with equal rims", "",
         table(_APART, [_apart(entry) for entry in apart]), "",
         *on_rig(rig, head), *changed(met, before),

@@ -40,6 +40,8 @@ QUANTILE = 0.999
 FINER = 10
 """Points of the spline a step: the axial force rings after impacts with periods of some 20 ms, and
 steps of 5 ms alone meet its peaks by chance."""
+STEPS = (5e-3, 1e-3)
+"""At which the level 'pendulum' is to end as at the step that it chooses [s]."""
 LIMIT = 300.0
 """Longest time for a scene with all its runs [s]."""
 
@@ -86,6 +88,9 @@ def perform(number: int, *, seed: int) -> dict[str, Any]:
             findings = audit(data)
             found["sufficient"] = needed_level(findings) == level
             found["measures"] = {finding.feature: finding.number for finding in findings}
+            found["by_step"] = [
+                str(scene.run(found["factor"], level, dt).attrs["status"]) for dt in STEPS
+            ]
     return found
 
 
