@@ -8,6 +8,9 @@ from frames._errors import MotionWarning as MotionWarning
 from frames.analysis.model_check import ModelCheck as ModelCheck
 from frames.analysis.modes import Modes as Modes
 from frames.analysis.modes import modes as modes
+from frames.analysis.recovery import member_forces as member_forces
+from frames.analysis.recovery import storey_forces as storey_forces
+from frames.analysis.recovery import support_reactions as support_reactions
 from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
@@ -54,10 +57,13 @@ __all__ = [
     "gravity",
     "load",
     "lumped_mass",
+    "member_forces",
     "modes",
     "moment_frame",
     "save",
     "shear_building",
     "storey_drift",
+    "storey_forces",
+    "support_reactions",
     "time_history",
 ]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import spsolve
 
 from frames.assembly.basis import bearing_rows
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
@@ -39,6 +40,26 @@ def guessed_springs(system: System, with_points: Collection[str] = ()) -> Sparse
         if name in with_points:
             values[k, 3:] = bearing_rocking_stiffness(bearing)
     return spring_matrix(system, values)
+
+
+def first_displacement(system: System, with_points: Collection[str] = ()) -> FloatArray:
+    """Return the displacements under permanent loads on those springs, linear.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    with_points : collection of str
+        Bearings with contact points.
+
+    Returns
+    -------
+    ndarray, (n_free,)
+        Displacements of the free degrees of freedom; the members' axial forces under them make
+        the geometric stiffness of an analysis.
+    """
+    springs = guessed_springs(system, with_points)
+    return np.asarray(spsolve(sparse.csc_array(system.stiffness + springs), system.load))
 
 
 def spring_forces(system: System, displacement: FloatArray) -> FloatArray:

@@ -9,13 +9,11 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import spsolve
 
 from frames._errors import ModelError, ModelWarning
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.plausible import doubts, held_periods
-from frames.analysis.springs import guessed_springs
+from frames.analysis.springs import first_displacement
 from frames.assembly.assemble import (
     assemble,
     geometric_stiffness,
@@ -159,8 +157,7 @@ def gravity(
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
-    springs = guessed_springs(system, points)
-    linear = spsolve(sparse.csc_array(system.stiffness + springs), system.load)
+    linear = first_displacement(system, points)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     basis = build_basis(system, geometric, frame.damping)

@@ -1,0 +1,273 @@
+"""Forces in the structure, from the displacements of a time history: members, storeys, supports.
+
+Everything is linear in the recorded displacements, so that nothing has to be kept in a run for it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import xarray as xr
+from scipy import sparse
+
+from frames._errors import ModelError
+from frames.analysis.springs import first_displacement
+from frames.assembly.assemble import (
+    assemble,
+    member_axial_forces,
+    member_end_forces,
+    node_geometric_stiffness,
+    scatter,
+)
+from frames.assembly.members import local_geometric_stiffness
+from frames.model.axes import matrix_to_global, to_global
+from frames.model.parts import DOFS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
+    from frames.assembly.system import System
+    from frames.model.contents import FrameContents
+
+COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
+"""End forces of a member along and about its local axes x, y, z."""
+
+_LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
+
+
+class _Structure(NamedTuple):
+    # A frame as it was analysed, and its displacements under a time history.
+    system: System
+    axial: FloatArray  # (n_members,) of permanent loads, tension positive [N]
+    u: FloatArray  # (time, 6 n_nodes)
+
+
+def member_forces(
+    model: FrameContents, data: xr.Dataset, members: Sequence[str] | None = None
+) -> xr.DataArray:
+    """Return the end forces of members over a time history.
+
+    Parameters
+    ----------
+    model : Frame
+        The model that was analysed.
+    data : xarray.Dataset
+        Of `time_history`, also one that was saved and loaded.
+    members : sequence of str, optional
+        Names; all of them if None.
+
+    Returns
+    -------
+    xarray.DataArray
+        (time, member, end i and j, component N, Vy, Vz, T, My, Mz) [N, N m]: forces and moments on
+        the ends of the member, positive along and about its local axes, permanent loads
+        included. So a compressed member has N > 0 at end i and N < 0 at end j. Second-order
+        effects are those of the analysis: the permanent axial forces' geometric stiffness.
+
+    Raises
+    ------
+    ModelError
+        If the model is not the one that was analysed, or has no such member.
+    """
+    found = _structure(model, data)
+    names = found.system.members.names
+    chosen = names if members is None else tuple(members)
+    unknown = [name for name in chosen if name not in names]
+    if unknown:
+        msg = f'members: no member "{unknown[0]}" in {model.name}; its members: {_some(names)}'
+        raise ModelError(msg)
+    place = [names.index(name) for name in chosen]
+    forces = member_end_forces(found.system, found.u, found.axial)[:, place]
+    return xr.DataArray(
+        np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
+        dims=("time", "member", "end", "component"),
+        coords={
+            "time": data["time"], "member": list(chosen), "end": ["i", "j"],
+            "component": list(COMPONENTS),
+        },
+        attrs={"units": "N, N m", "long_name": "end forces in local axes"},
+        name="member_forces",
+    )  # fmt: skip
+
+
+def support_reactions(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
+    """Return what the supports exert on the structure over a time history.
+
+    Parameters
+    ----------
+    model : Frame
+        The model that was analysed.
+    data : xarray.Dataset
+        Of `time_history`, also one that was saved and loaded.
+
+    Returns
+    -------
+    xarray.DataArray
+        (time, support, dof) [N, N m] at the fixed nodes, along and about the global axes: the
+        forces on the structure, permanent loads included; NaN where a node is free. The inertia of
+        masses placed on fixed nodes is the ground's.
+
+    Raises
+    ------
+    ModelError
+        If the model is not the one that was analysed.
+    """
+    found = _structure(model, data)
+    system = found.system
+    stiffness = sparse.csr_array(
+        system.node_stiffness + node_geometric_stiffness(system, found.axial)
+    )
+    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
+    forces = np.asarray(stiffness[fixed] @ found.u.T).T - system.node_load[fixed]
+    every = np.ones((len(system.bearings), 2), dtype=bool)
+    forces += _bearing_ends(system, data, every)[:, fixed]
+    nodes, row = np.unique(fixed // 6, return_inverse=True)
+    values = np.full((len(found.u), len(nodes), 6), np.nan)
+    values[:, row, fixed % 6] = forces
+    return xr.DataArray(
+        values,
+        dims=("time", "support", "dof"),
+        coords={
+            "time": data["time"],
+            "support": [system.node_names[node] for node in nodes],
+            "dof": list(DOFS),
+        },
+        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"},
+        name="support_reactions",
+    )
+
+
+def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
+    """Return storey shears, overturning moments and torsion over a time history.
+
+    Parameters
+    ----------
+    model : Frame
+        The model that was analysed; its levels say where storeys begin and end.
+    data : xarray.Dataset
+        Of `time_history`, also one that was saved and loaded.
+
+    Returns
+    -------
+    xarray.DataArray
+        (time, storey, component) [N, N m]: what the part above a cut passes to the part below,
+        positive with positive displacement as `base_shear` is, in components Vx, Vy (storey
+        shears), Fz (negative under weight), Mx, My (overturning) and Mz (torsion), moments about
+        the middle of the nodes of the level below. A storey has the name of the level on top of
+        it and is cut at its foot; the first one lies under the lowest level and holds the
+        bearings, its moments about the middle of that level, which moves with it. Dampers of the
+        structure (`Frame.damping`) pass their forces besides.
+
+    Raises
+    ------
+    ModelError
+        If the model has no level, or is not the one that was analysed.
+    """
+    found = _structure(model, data)
+    if not model.levels:
+        msg = f"{model.name} has no level: storeys need Frame.add_level for each floor"
+        raise ModelError(msg)
+    system = found.system
+    values = np.zeros((len(found.u), len(model.levels), 6))
+    for k, level in enumerate(model.levels):
+        below = model.levels[max(k - 1, 0)]
+        height = below.z - _LEVEL if k == 0 else below.z + _LEVEL
+        above = system.coordinates[:, 2] > height
+        nodes = [system.node_names.index(name) for name in below.nodes]
+        middle = system.coordinates[nodes].mean(axis=0)
+        rows, constant = _crossing(found, above)
+        lower, upper = (_resultant(system.coordinates, middle, part) for part in (~above, above))
+        values[:, k] = -np.asarray((lower @ rows) @ found.u.T).T - lower @ constant
+        held = _bearing_ends(system, data, _crossed(system, above))
+        values[:, k] += np.asarray(upper @ held.T).T
+    return xr.DataArray(
+        values,
+        dims=("time", "storey", "component"),
+        coords={
+            "time": data["time"],
+            "storey": [level.name for level in model.levels],
+            "component": ["Vx", "Vy", "Fz", "Mx", "My", "Mz"],
+        },
+        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
+        name="storey_forces",
+    )
+
+
+def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
+    system = assemble(model)
+    if "node_displacement" not in data:
+        msg = "data has no node_displacement: give the Dataset of a time_history of this model"
+        raise ModelError(msg)
+    if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
+        msg = (
+            f"data was not computed with this model: it has {data.sizes['node']} nodes "
+            f"({_some(data['node'].to_numpy())}), {model.name} has {len(system.node_names)} "
+            f"({_some(system.node_names)}): give the model of that time_history"
+        )
+        raise ModelError(msg)
+    u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
+    axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
+    return _Structure(system, axial, u.reshape(len(u), -1))
+
+
+def _with_points(data: xr.Dataset) -> list[str]:
+    # Bearings at the level 'contact'; the others have no bodies.
+    if "body_position" not in data:
+        return []
+    bodies = data["body_position"].isel(time=0).transpose("bearing", ...).to_numpy()
+    has = np.isfinite(bodies.reshape(len(bodies), -1)).all(axis=1)
+    return [str(name) for name in data["bearing"].to_numpy()[has]]
+
+
+def _crossing(found: _Structure, above: BoolArray) -> tuple[SparseMatrix, FloatArray]:
+    # Forces on the ends of what crosses a cut: rows over all displacements, and the constant part.
+    system, table = found.system, found.system.members
+    blocks = matrix_to_global(
+        table.stiffness + local_geometric_stiffness(table.arrays, found.axial), table.arrays.axes
+    )
+    crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
+    count = len(system.node_names)
+    own = matrix_to_global(table.stiffness, table.arrays.axes)
+    rest = system.node_stiffness - scatter(own, table.nodes, count)  # springs, superelements
+    rows = sparse.csr_array(rest + scatter(blocks[crosses], table.nodes[crosses], count))
+    constant = np.zeros(6 * count)
+    fixed_end = to_global(table.fixed_end, table.arrays.axes)
+    np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
+    return rows, constant
+
+
+def _bearing_ends(system: System, data: xr.Dataset, chosen: BoolArray) -> FloatArray:
+    # Forces of the nodes on the chosen ends (n_bearings, 2) of bearings, (time, 6 n_nodes).
+    force = data["bearing_force"].transpose("time", "bearing", "axis").to_numpy()
+    moment = data["bearing_moment"].transpose("time", "bearing", "end", "axis").to_numpy()
+    total = np.zeros((len(force), 6 * len(system.node_names)))
+    for b, (_, i, j, _) in enumerate(system.bearings):
+        for end, (node, sign) in enumerate(((i, -1.0), (j, 1.0))):
+            if chosen[b, end]:
+                total[:, 6 * node : 6 * node + 3] += sign * force[:, b]
+                total[:, 6 * node + 3 : 6 * node + 6] += moment[:, b, end]
+    return total
+
+
+def _crossed(system: System, above: BoolArray) -> BoolArray:
+    # The upper ends of those bearings that cross a cut, (n_bearings, 2).
+    return np.array([(False, bool(above[j] and not above[i])) for _, i, j, _ in system.bearings])
+
+
+def _resultant(coordinates: FloatArray, about: FloatArray, chosen: BoolArray) -> SparseMatrix:
+    # Force and moment about a point of the nodal forces of chosen nodes, (6, 6 n_nodes).
+    nodes: IntArray = np.flatnonzero(chosen)
+    x, y, z = (coordinates[nodes] - about).T
+    entries: list[tuple[int, int, FloatArray]] = [(a, a, np.ones(len(nodes))) for a in range(6)]
+    entries += [(3, 1, -z), (3, 2, y), (4, 0, z), (4, 2, -x), (5, 0, -y), (5, 1, x)]
+    row = np.concatenate([np.full(len(nodes), a) for a, _, _ in entries])
+    column = np.concatenate([6 * nodes + b for _, b, _ in entries])
+    value = np.concatenate([v for _, _, v in entries])
+    return sparse.csr_array((value, (row, column)), shape=(6, 6 * len(coordinates)))
+
+
+def _some(names: Sequence[str] | FloatArray) -> str:
+    shown = ", ".join(str(name) for name in names[:4])
+    return shown + (", ..." if len(names) > 4 else "")
