@@ -8,6 +8,7 @@ from frames._errors import MotionWarning as MotionWarning
 from frames.analysis.model_check import ModelCheck as ModelCheck
 from frames.analysis.modes import Modes as Modes
 from frames.analysis.modes import modes as modes
+from frames.analysis.recovery import force_tables as force_tables
 from frames.analysis.recovery import member_forces as member_forces
 from frames.analysis.recovery import storey_forces as storey_forces
 from frames.analysis.recovery import support_reactions as support_reactions
@@ -25,9 +26,16 @@ from frames.motion.ground_motion import GroundMotion as GroundMotion
 from frames.results.auditing import Finding as Finding
 from frames.results.auditing import audit as audit
 from frames.results.auditing import audit_report as audit_report
+from frames.results.envelopes import envelope as envelope
+from frames.results.envelopes import write_tables as write_tables
+from frames.results.measures import drift_by_line as drift_by_line
 from frames.results.measures import energy_error as energy_error
 from frames.results.measures import floor_acceleration as floor_acceleration
+from frames.results.measures import floor_spectrum as floor_spectrum
 from frames.results.measures import storey_drift as storey_drift
+from frames.results.measures import uplift_gap as uplift_gap
+from frames.results.peaks import peaks as peaks
+from frames.results.peaks import summary as summary
 from frames.results.storage import load as load
 from frames.results.storage import save as save
 from lir_element.device.features import Features as Features
@@ -52,18 +60,26 @@ __all__ = [
     "Section",
     "audit",
     "audit_report",
+    "drift_by_line",
     "energy_error",
+    "envelope",
     "floor_acceleration",
+    "floor_spectrum",
+    "force_tables",
     "gravity",
     "load",
     "lumped_mass",
     "member_forces",
     "modes",
     "moment_frame",
+    "peaks",
     "save",
     "shear_building",
     "storey_drift",
     "storey_forces",
+    "summary",
     "support_reactions",
     "time_history",
+    "uplift_gap",
+    "write_tables",
 ]

@@ -91,6 +91,9 @@ def build_dataset(
         "peak_ground_velocity": labelled(
             ("axis",), peak, "m/s", "largest velocity of the ground, also of a direction left out"
         ),
+        "node_position": labelled(
+            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
+        ),
         "node_displacement": labelled(
             node, displacement, "m, rad", "displacement relative to the ground"
         ),

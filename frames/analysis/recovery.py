@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from scipy import sparse
 
@@ -23,6 +24,7 @@ from frames.assembly.assemble import (
 from frames.assembly.members import local_geometric_stiffness
 from frames.model.axes import matrix_to_global, to_global
 from frames.model.parts import DOFS
+from frames.results.envelopes import envelope
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,6 +35,9 @@ if TYPE_CHECKING:
 
 COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
 """End forces of a member along and about its local axes x, y, z."""
+
+_AT_ONCE = 50
+"""Members whose histories `force_tables` holds at a time."""
 
 _LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
 
@@ -78,8 +83,8 @@ def member_forces(
     if unknown:
         msg = f'members: no member "{unknown[0]}" in {model.name}; its members: {_some(names)}'
         raise ModelError(msg)
-    place = [names.index(name) for name in chosen]
-    forces = member_end_forces(found.system, found.u, found.axial)[:, place]
+    place = np.array([names.index(name) for name in chosen], dtype=np.int64)
+    forces = member_end_forces(found.system, found.u, found.axial, place)
     return xr.DataArray(
         np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
         dims=("time", "member", "end", "component"),
@@ -171,7 +176,7 @@ def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
         raise ModelError(msg)
     system = found.system
     values = np.zeros((len(found.u), len(model.levels), 6))
-    for k, level in enumerate(model.levels):
+    for k in range(len(model.levels)):
         below = model.levels[max(k - 1, 0)]
         height = below.z - _LEVEL if k == 0 else below.z + _LEVEL
         above = system.coordinates[:, 2] > height
@@ -193,6 +198,43 @@ def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
         attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
         name="storey_forces",
     )
+
+
+def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFrame]:
+    """Return the envelopes of all forces in the structure as tables.
+
+    Parameters
+    ----------
+    model : Frame
+        The model that was analysed.
+    data : xarray.Dataset
+        Of `time_history`, also one that was saved and loaded.
+
+    Returns
+    -------
+    dict of str to pandas.DataFrame
+        "members" (member, end, component), "storeys" (storey, component) and "supports"
+        (support, dof), as far as the model has them: `largest`, `smallest` [N, N m], and the time
+        of each [s]. `write_tables` writes them.
+
+    Raises
+    ------
+    ModelError
+        If the model is not the one that was analysed.
+    """
+    parts: dict[str, list[xr.Dataset]] = {"members": [], "storeys": [], "supports": []}
+    names = tuple(model.members)
+    for first in range(0, len(names), _AT_ONCE):  # histories of all would fill the memory
+        some = member_forces(model, data, names[first : first + _AT_ONCE])
+        parts["members"].append(envelope(some))
+    if model.levels:
+        parts["storeys"].append(envelope(storey_forces(model, data)))
+    parts["supports"].append(envelope(support_reactions(model, data)))
+    return {
+        name: pd.concat([each.to_dataframe() for each in found]).dropna()
+        for name, found in parts.items()
+        if found
+    }
 
 
 def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:

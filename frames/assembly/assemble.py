@@ -185,7 +185,10 @@ def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatri
 
 
 def member_end_forces(
-    system: System, u: FloatArray, axial_forces: FloatArray | None = None
+    system: System,
+    u: FloatArray,
+    axial_forces: FloatArray | None = None,
+    places: IntArray | None = None,
 ) -> FloatArray:
     """Return the forces on both ends of each member in local axes.
 
@@ -198,6 +201,8 @@ def member_end_forces(
     axial_forces : ndarray, (n_members,), optional
         Axial forces, tension positive [N], of the geometric stiffness in the analysis, if it had
         one; the end forces are then in equilibrium with its loads.
+    places : ndarray of int, (n,), optional
+        Members asked for; all of them if None.
 
     Returns
     -------
@@ -209,9 +214,10 @@ def member_end_forces(
     stiffness = table.stiffness
     if axial_forces is not None:
         stiffness = stiffness + local_geometric_stiffness(table.arrays, axial_forces)
-    local = to_local(u[..., table.dofs], table.arrays.axes)
-    forces: FloatArray = np.einsum("mab,...mb->...ma", stiffness, local) + table.fixed_end
-    return forces
+    chosen = slice(None) if places is None else places
+    local = to_local(u[..., table.dofs[chosen]], table.arrays.axes[chosen])
+    forces: FloatArray = np.einsum("mab,...mb->...ma", stiffness[chosen], local)
+    return forces + table.fixed_end[chosen]
 
 
 def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.results.measures import centre_shift
 from lir_element.device.features import Features
 from lir_element.units import STANDARD_GRAVITY
 
@@ -267,18 +268,6 @@ def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
     text = f"tilt moves the spheres' centres by up to {1e3 * shift:.2g} mm, {_share(share, 1)} of "
     text += "the largest displacement"
     return _finding("plate_rotation", out, share > SMALL["plate_rotation"], share, text)
-
-
-def centre_shift(data: xr.Dataset) -> FloatArray:
-    """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
-    turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
-    total = np.zeros((*data["axial_force"].shape, 2))
-    for end, name in enumerate(("bottom", "top")):
-        place = data["bearing_node"].isel(end=end).to_numpy()
-        lever = data["lever"].sel(surface=name).to_numpy()
-        total[..., 0] += lever * turns[:, place, 1]
-        total[..., 1] -= lever * turns[:, place, 0]
-    return total
 
 
 def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
 
 from frames.kernel_data import ENERGY_TERMS
+from frames.motion.spectra import response_spectrum
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from frames._types import FloatArray
+
+_SAME_PLACE = 1e-3  # m, in plan, of nodes that stand over one another
 
 ABSORBED = ENERGY_TERMS[1:]
 """Terms of the energy that take up the input."""
@@ -50,15 +60,11 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     ValueError
         If the model has fewer than two levels.
     """
+    heights = _level_heights(data)
     place = data["level_node"].to_numpy()
-    count = data.sizes["level"]
-    if count < 2:
-        msg = f"the model has {count} levels: drifts need at least two (Frame.add_level)"
-        raise ValueError(msg)
     moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
-    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(count)], axis=1)
-    heights = np.diff(data["level_height"].to_numpy())
-    drift = np.diff(means, axis=1) / heights[None, :, None]
+    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(len(heights))], axis=1)
+    drift = np.diff(means, axis=1) / np.diff(heights)[None, :, None]
     names = [str(name) for name in data["level"].to_numpy()[1:]]
     return xr.DataArray(
         drift,
@@ -80,3 +86,146 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
         attrs={"units": "m/s2", "long_name": "total acceleration of the level"},
     )
+
+
+def drift_by_line(data: xr.Dataset) -> xr.DataArray:
+    """Take the drifts at every line of nodes that stand over one another: corners drift most.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history of a model with levels.
+
+    Returns
+    -------
+    xarray.DataArray
+        Drift ratio (time, line, axis x and y) [-] between a node of a level and the node of the
+        level below at the same place in plan; a line has the name of its upper node, and the
+        coordinate `storey` says which level that is of.
+
+    Raises
+    ------
+    ValueError
+        If the model has fewer than two levels.
+    """
+    heights = _level_heights(data)
+    level = data["level_node"].to_numpy()
+    place = data["node_position"].transpose("node", "axis").to_numpy()[:, :2]
+    pairs = []
+    for k in range(1, len(heights)):
+        low, high = np.flatnonzero(level == k - 1), np.flatnonzero(level == k)
+        apart = np.linalg.norm(place[high][:, None] - place[low][None], axis=-1)
+        nearest = apart.argmin(axis=1)
+        over = apart[np.arange(len(high)), nearest] < _SAME_PLACE
+        pairs += [(low[n], up, k) for up, n, fits in zip(high, nearest, over, strict=True) if fits]
+    lower, upper, storey = np.array(pairs, dtype=np.int64).reshape(-1, 3).T
+    moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
+    rise = heights[storey] - heights[storey - 1]
+    drift = (moves[:, upper] - moves[:, lower]) / rise[None, :, None]
+    return xr.DataArray(
+        drift,
+        dims=("time", "line", "axis"),
+        coords={
+            "time": data["time"], "line": data["node"].to_numpy()[upper],
+            "storey": ("line", data["level"].to_numpy()[storey]), "axis": ["x", "y"],
+        },
+        attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"},
+    )  # fmt: skip
+
+
+def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.05) -> xr.DataArray:
+    """Return the response spectra of the levels' total accelerations, for what stands on floors.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history of a model with levels.
+    periods : array_like, shape (m,)
+        Natural periods of what stands there [s], >= 0.
+    damping : float
+        Its part of the critical damping [-], in [0, 1).
+
+    Returns
+    -------
+    xarray.DataArray
+        Pseudo-acceleration (level, axis, period) [m/s2] of the mean motion of each level's nodes.
+
+    Raises
+    ------
+    MotionError
+        If a period or the damping is out of its bounds.
+    ValueError
+        If the records are not equally spaced in time.
+    """
+    time = data["time"].to_numpy()
+    steps = np.diff(time)
+    if len(steps) == 0 or np.ptp(steps) > 1e-6 * steps.mean():
+        msg = "spectra need records equally spaced in time, at least two: run with a fixed record"
+        raise ValueError(msg)
+    moves = floor_acceleration(data).transpose("level", "axis", "time")
+    values = [
+        [
+            response_spectrum(one, float(steps[0]), periods, damping)["pseudo_acceleration"]
+            for one in each
+        ]
+        for each in moves.to_numpy()
+    ]
+    return xr.DataArray(
+        np.asarray(values),
+        dims=("level", "axis", "period"),
+        coords={
+            "level": moves["level"], "axis": moves["axis"],
+            "period": np.atleast_1d(np.asarray(periods, dtype=np.float64)),
+        },
+        attrs={"units": "m/s2", "long_name": "pseudo-acceleration", "damping": damping},
+    )  # fmt: skip
+
+
+def uplift_gap(data: xr.Dataset) -> xr.DataArray:
+    """Return how far the bearings' contacts are open.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    xarray.DataArray
+        The gap (time, bearing) [m], 0 where a contact is closed: from the place of the upper
+        sphere's centre over the lower one, which is ``c = L n + s`` where the contact just closes
+        (docs/theory.md, section 1); tilts of the plates shift it.
+    """
+    length = data["length"].to_numpy()
+    moves = data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
+    across = moves[..., :2] + centre_shift(data)
+    slip = data["interface_slip_size"].transpose("time", "bearing").to_numpy()
+    square = (across**2).sum(axis=-1) + (length - moves[..., 2]) ** 2 - slip**2
+    gap = np.maximum(length - np.sqrt(np.maximum(square, 0.0)), 0.0)
+    lifted = data["axial_force"].transpose("time", "bearing").to_numpy() <= 0.0
+    return xr.DataArray(
+        np.where(lifted, gap, 0.0),
+        dims=("time", "bearing"),
+        coords={"time": data["time"], "bearing": data["bearing"]},
+        attrs={"units": "m", "long_name": "gap of the axial contact"},
+    )
+
+
+def centre_shift(data: xr.Dataset) -> FloatArray:
+    """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
+    turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
+    total = np.zeros((*data["axial_force"].shape, 2))
+    for end, name in enumerate(("bottom", "top")):
+        place = data["bearing_node"].isel(end=end).to_numpy()
+        lever = data["lever"].sel(surface=name).to_numpy()
+        total[..., 0] += lever * turns[:, place, 1]
+        total[..., 1] -= lever * turns[:, place, 0]
+    return total
+
+
+def _level_heights(data: xr.Dataset) -> FloatArray:
+    heights = data["level_height"].to_numpy()
+    if len(heights) < 2:
+        msg = f"the model has {len(heights)} levels: drifts need at least two (Frame.add_level)"
+        raise ValueError(msg)
+    return np.asarray(heights, dtype=np.float64)

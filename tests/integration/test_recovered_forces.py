@@ -1,5 +1,7 @@
 """Member forces, storey forces and reactions are in equilibrium with what moves."""
 
+import math
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -8,6 +10,7 @@ from frames import (
     Frame,
     GroundMotion,
     ModelError,
+    force_tables,
     load,
     lumped_mass,
     member_forces,
@@ -18,7 +21,20 @@ from frames import (
     time_history,
 )
 from frames.assembly.assemble import assemble
+from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.model.axes import to_global
 from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import bearing_element
+from validation.claims.opensees_building import slender
+from validation.opensees.frames import add_loads, build
+from validation.opensees.model import (
+    advance,
+    empty_model,
+    gravity_analysis,
+    ground_motion,
+    solver,
+    transient_steps,
+)
 
 TIME = np.arange(0.0, 4.0, 0.005)
 BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
@@ -160,7 +176,7 @@ def test_another_model_is_refused(building):
     other = lumped_mass(bearing(), 3e4)
     with pytest.raises(ModelError, match=r"not computed with this model: it has \d+ nodes"):
         member_forces(other, data)
-    with pytest.raises(ModelError, match='no member "nothing" in moment frame; its members: beam'):
+    with pytest.raises(ModelError, match=r'no member "nothing" in moment frame; its members: beam'):
         member_forces(frame, data, ["nothing"])
     bare = Frame("bare")
     bare.add_node("ground", 0.0, 0.0, 0.0)
@@ -170,5 +186,55 @@ def test_another_model_is_refused(building):
     bare.add_bearing("one", "ground", "top", bearing())
     bare.add_mass("top", 3e4, (1e3, 1e3, 1e3))
     run = time_history(bare, MOTION, 0.1)
-    with pytest.raises(ModelError, match="bare has no level: storeys need Frame.add_level"):
+    with pytest.raises(ModelError, match=r"bare has no level: storeys need Frame.add_level"):
         storey_forces(bare, run)
+
+
+def test_tables_hold_the_extremes(building):
+    frame, data = building
+    tables = force_tables(frame, data)
+    assert list(tables) == ["members", "storeys", "supports"]
+    ends = member_forces(frame, data)
+    row = tables["members"].loc["beam-x-floor-1-0-0", "j", "Mz"]
+    history = ends.sel(member="beam-x-floor-1-0-0", end="j", component="Mz")
+    assert row["largest"] == float(history.max())
+    assert row["time_of_smallest"] == float(data["time"][int(history.to_numpy().argmin())])
+    assert len(tables["members"]) == 12 * len(frame.members)
+    assert len(tables["storeys"]) == 6 * 4
+    assert tables["supports"].notna().all(axis=None)
+
+
+def test_end_forces_are_those_of_opensees():
+    """The same frame on the same bearings in OpenSees, whose columns know P-Delta by the chord."""
+    parts = {"column": DEFAULT_COLUMN, "beam": DEFAULT_BEAM, "base_beam": DEFAULT_BASE_BEAM}
+    frame = moment_frame(
+        (1, 1), 2, bearing=bearing(capacity=math.inf), damping=None,
+        **{name: slender(section) for name, section in parts.items()},
+    )  # fmt: skip
+    frame.add_mass("floor-2-1-1", 1e4)
+    motion = MOTION.scaled([1.0, 1.0, 0.0]).trimmed(0.0, 2.5)
+    data = time_history(frame, motion, dt=0.005)
+    names, supports = list(frame.members), list(frame.fixed_dofs)
+    steps = data.sizes["time"]
+    theirs, reactions = np.zeros((steps, len(names), 12)), np.zeros((steps, len(supports), 6))
+    with empty_model() as ops:
+        built = build(ops, frame, lambda tag, i, j, one: bearing_element(tag, i, j, one))
+        add_loads(ops, frame, built)
+        gravity_analysis(ops)
+        ground_motion(ops, motion)
+        solver(ops, 1e-9)
+        transient_steps(ops)
+        for k in range(steps):
+            if k:
+                advance(ops, 1, 0.005, 1e-9)
+            theirs[k] = [ops.eleResponse(built.members[name], "force") for name in names]
+            ops.reactions()
+            reactions[k] = [ops.nodeReaction(built.nodes[name]) for name in supports]
+    local = member_forces(frame, data).to_numpy().reshape(steps, -1, 12)
+    ours = to_global(local, assemble(frame).members.arrays.axes)
+    own = support_reactions(frame, data).sel(support=supports).to_numpy()
+    for mine, other in ((ours, theirs), (own, reactions)):
+        apart = np.abs(mine - other).reshape(*mine.shape[:2], -1, 2, 3)
+        scale = np.abs(other).reshape(*mine.shape[:2], -1, 2, 3)
+        for kind in range(2):  # forces, moments
+            assert apart[..., kind, :].max() < 1e-3 * scale[..., kind, :].max()

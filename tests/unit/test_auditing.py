@@ -21,7 +21,8 @@ from frames import (
     time_history,
 )
 from frames.analysis import automatic
-from frames.results.auditing import centre_shift, doubts_of, is_missing, needed_level
+from frames.results.auditing import doubts_of, is_missing, needed_level
+from frames.results.measures import centre_shift
 from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus

@@ -1,0 +1,93 @@
+"""Envelopes of histories, and tables as files."""
+
+from __future__ import annotations
+
+import io
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from frames.results.storage import write_whole
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
+
+
+def envelope(values: xr.DataArray) -> xr.Dataset:
+    """Return the extremes of a history and when they are reached.
+
+    Parameters
+    ----------
+    values : xarray.DataArray
+        With the dimension `time`, such as `member_forces` gives.
+
+    Returns
+    -------
+    xarray.Dataset
+        `largest`, `time_of_largest`, `smallest` and `time_of_smallest` [units of the values, s]
+        over the other dimensions; NaN where the history is. Its `to_dataframe()` is a table.
+
+    Raises
+    ------
+    ValueError
+        If the values have no dimension `time`.
+    """
+    if "time" not in values.dims:
+        msg = f"values have the dimensions {values.dims}: an envelope needs 'time'"
+        raise ValueError(msg)
+    history = values.transpose("time", ...)
+    time, array = history["time"].to_numpy(), history.to_numpy()
+    dims = tuple(str(name) for name in history.dims[1:])
+    known = np.isfinite(array).all(axis=0)
+    found: dict[str, xr.Variable] = {}
+    for name, fill, pick in (("largest", -np.inf, np.argmax), ("smallest", np.inf, np.argmin)):
+        at = pick(np.where(np.isnan(array), fill, array), axis=0)
+        extreme = np.take_along_axis(array, at[None], axis=0)[0]
+        found[name] = xr.Variable(dims, np.where(known, extreme, np.nan), values.attrs)
+        when = np.where(known, time[at], np.nan)
+        found[f"time_of_{name}"] = xr.Variable(dims, when, {"units": "s"})
+    kept = {name: history[name] for name in history.coords if "time" not in history[name].dims}
+    return xr.Dataset(found, kept)
+
+
+def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
+    """Write tables: as sheets of a workbook, or as CSV files in a folder.
+
+    Parameters
+    ----------
+    tables : mapping of str to pandas.DataFrame
+        Tables by name, such as `force_tables` gives.
+    path : str or Path
+        A workbook where it ends in ".xlsx" (needs the package openpyxl: ``pip install
+        'lir-dcfp[excel]'``), else a folder, which is made. What stood there under the same names
+        is replaced.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; the message names it.
+    ImportError
+        If openpyxl is missing.
+    """
+    target = Path(path)
+    if target.suffix.lower() == ".xlsx":
+        try:
+            import_module("openpyxl")
+        except ImportError as cause:
+            msg = f"{target} needs openpyxl: pip install 'lir-dcfp[excel]', or give a folder (CSV)"
+            raise ImportError(msg) from cause
+        workbook = io.BytesIO()
+        with pd.ExcelWriter(workbook, engine="openpyxl") as writer:
+            for name, table in tables.items():
+                table.to_excel(writer, sheet_name=name[:_LONGEST_SHEET], merge_cells=False)
+        write_whole(target, workbook.getvalue())
+        return
+    target.mkdir(parents=True, exist_ok=True)
+    for name, table in tables.items():
+        write_whole(target / f"{name}.csv", table.to_csv().encode())
