@@ -20,10 +20,16 @@ from frames import (
     AuditWarning,
     GroundMotion,
     demo,
+    drift_by_line,
     floor_acceleration,
+    floor_spectrum,
+    member_forces,
     moment_frame,
     storey_drift,
+    storey_forces,
+    support_reactions,
     time_history,
+    uplift_gap,
 )
 from frames.results.summary import table_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, RunStatus, cyclic_test
@@ -33,6 +39,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     import xarray as xr
+
+    from frames import Frame
 
 RESULTS = Path(__file__).parent / "results.md"
 DEMO = Path(__file__).parent / "demo.md"
@@ -88,8 +96,8 @@ TERMS = {
 }
 
 
-def runs() -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
-    """Return a time history, a cyclic test, and a cyclic test that fails."""
+def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
+    """Return a model with its time history, a cyclic test, and a cyclic test that fails."""
     bearing = LIRBearing(
         radius=1.0,
         slider_height=0.1,
@@ -100,11 +108,12 @@ def runs() -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
     )
     wave = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motion = GroundMotion(x=2.0 * wave, y=wave, z=0.5 * wave, dt=0.01, name="sine")
-    history = time_history(moment_frame((1, 1), 1, bearing=bearing), motion, level="auto")
+    model = moment_frame((1, 1), 1, bearing=bearing)
+    history = time_history(model, motion, level="auto")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         failed = cyclic_test(bearing, [0.0, 0.25], 100e3)
-    return history, cyclic_test(bearing, [0.0, 0.12], 100e3), failed
+    return model, history, cyclic_test(bearing, [0.0, 0.12], 100e3), failed
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
@@ -188,15 +197,29 @@ def energies(history: xr.Dataset) -> list[str]:
     return ["### Terms of the energy [J]", "", *table(("term", "meaning"), rows)]
 
 
-def derived(history: xr.Dataset) -> list[str]:
+def derived(model: Frame, history: xr.Dataset) -> list[str]:
     """Return the table of what functions read off a Dataset."""
-    rows = []
-    for function in (storey_drift, floor_acceleration):
-        values = function(history)
-        rows.append([code(f"{function.__name__}(data)"), ", ".join(map(str, values.dims)),
-                     str(values.attrs["units"]), str(values.attrs["long_name"])])  # fmt: skip
-    text = "largest gap of the energy ledger over the largest input"
-    rows.append([code("energy_error(data)"), "-", "1", text])
+    calls = {
+        f"{function.__name__}(data)": function(history)
+        for function in (storey_drift, drift_by_line, floor_acceleration, uplift_gap)
+    }
+    calls["floor_spectrum(data, periods)"] = floor_spectrum(history, [0.1, 1.0])
+    for recover in (member_forces, storey_forces, support_reactions):
+        calls[f"{recover.__name__}(model, data)"] = recover(model, history)
+    rows = [
+        [code(call), ", ".join(map(str, values.dims)), str(values.attrs["units"]),
+         str(values.attrs["long_name"])]
+        for call, values in calls.items()
+    ]  # fmt: skip
+    rows += [
+        [code("energy_error(data)"), "-", "1",
+         "largest gap of the energy ledger over the largest input"],
+        [code("envelope(values)"), "without time", "-", "extremes of a history, and their times"],
+        [code("force_tables(model, data)"), "tables", "N, N m",
+         "envelopes of member forces, storey forces and reactions; `write_tables` writes them"],
+        [code("peaks(data)"), "table", "-", "what was reached, when and where"],
+        [code("summary({name: data})"), "table", "-", "peaks of several results side by side"],
+    ]  # fmt: skip
     head = ("function of `frames`", "dimensions", "unit", "meaning")
     return ["### Read off a time history", "", *table(head, rows)]
 
@@ -239,10 +262,10 @@ def responses() -> list[str]:
 
 def generated() -> str:
     """Return the generated part of the page."""
-    history, rig, failed = runs()
+    model, history, rig, failed = runs()
     parts = (
         ["## Datasets"], variables(history, rig), coordinates(history), energies(history),
-        derived(history), attributes(history, rig, failed), statuses(), responses(),
+        derived(model, history), attributes(history, rig, failed), statuses(), responses(),
     )  # fmt: skip
     return "\n\n".join("\n".join(part) for part in parts)
 

@@ -7,7 +7,7 @@ import io
 import os
 import shutil
 import uuid
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from pathlib import Path
 
 import h5netcdf
@@ -15,7 +15,7 @@ import xarray as xr
 from xarray.backends import H5NetCDFStore
 
 
-def save(data: xr.Dataset, path: str | Path) -> None:
+def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
     """Write a Dataset to netCDF (h5netcdf engine).
 
     Parameters
@@ -25,6 +25,9 @@ def save(data: xr.Dataset, path: str | Path) -> None:
     path : str or path
         The file. An existing one is replaced at the end, in one move: whatever happens in between
         leaves either the old results or the new ones.
+    compress : bool
+        Whether histories are packed, in single precision (6e-8 of each value; the energy stays
+        double): a tenth of the size, as a rule.
 
     Raises
     ------
@@ -33,7 +36,8 @@ def save(data: xr.Dataset, path: str | Path) -> None:
         it; nothing is left behind, and `data` can be saved elsewhere.
     """
     # HDF5 does not survive a write that fails (the process dies at its end): it works in memory
-    write_whole(path, data.to_netcdf(None, engine="h5netcdf"))
+    encoding = _packed(data) if compress else {}
+    write_whole(path, data.to_netcdf(None, engine="h5netcdf", encoding=encoding))
 
 
 def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
@@ -54,14 +58,19 @@ def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
     whole = io.BytesIO()
     with h5netcdf.File(whole, "w") as file:
         for name, data in results.items():
-            packed = {
-                key: {"dtype": "float32", "zlib": True, "complevel": 2, "shuffle": True}
-                for key, variable in data.data_vars.items()
-                if "time" in variable.dims
-            }
             store = H5NetCDFStore(file.create_group(name), mode="a")
-            data.dump_to_store(store, encoding=packed)
+            data.dump_to_store(store, encoding=_packed(data))
     write_whole(path, whole.getbuffer())
+
+
+def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
+    # How histories are stored: compressed, in single precision but for the ledger of energy.
+    small: dict[str, object] = {"zlib": True, "complevel": 2, "shuffle": True}
+    return {
+        key: small if key == "energy" else {"dtype": "float32", **small}
+        for key, variable in data.data_vars.items()
+        if "time" in variable.dims
+    }
 
 
 def write_whole(path: str | Path, content: bytes | memoryview) -> None:
@@ -99,7 +108,28 @@ def write_whole(path: str | Path, content: bytes | memoryview) -> None:
         raise OSError(cause.errno, msg) from cause
 
 
-def load(path: str | Path) -> xr.Dataset:
-    """Read a Dataset that `save` wrote, into memory."""
+def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
+    """Read a Dataset that `save` wrote.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    lazy : bool
+        Whether variables are read from the file only where they are used, for files that are
+        larger than what is wanted of them; close the Dataset in the end (or use it in a `with`).
+
+    Returns
+    -------
+    xarray.Dataset
+        As it was saved, in memory unless it is lazy.
+
+    Raises
+    ------
+    OSError
+        If there is no such file, or it is none.
+    """
+    if lazy:
+        return xr.open_dataset(path, engine="h5netcdf")
     with xr.open_dataset(path, engine="h5netcdf") as data:
         return data.load()

@@ -99,3 +99,30 @@ def test_no_permission(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(PermissionError, match=r"run\.nc could not be written"):
         save(results(), tmp_path / "run.nc")
+
+
+def test_packed_histories(tmp_path: Path) -> None:
+    """Single precision, small, and the ledger as it was."""
+    time = np.linspace(0.0, 10.0, 4001)
+    rough = np.sin(time[:, None] * np.arange(1, 9)) * 1e5
+    data = xr.Dataset(
+        {"force": (("time", "bearing"), rough), "energy": ("time", rough[:, 0]), "mass": 1.0 / 3.0},
+        {"time": time},
+    )
+    save(data, tmp_path / "plain.nc")
+    save(data, tmp_path / "packed.nc", compress=True)
+    sizes = [(tmp_path / name).stat().st_size for name in ("plain.nc", "packed.nc")]
+    assert sizes[1] < 0.6 * sizes[0]
+    found = load(tmp_path / "packed.nc")
+    np.testing.assert_allclose(found["force"], data["force"], rtol=1e-7)
+    for exact in ("energy", "mass", "time"):
+        np.testing.assert_array_equal(found[exact], data[exact])
+
+
+def test_lazy_reads_what_is_used(tmp_path: Path) -> None:
+    data = xr.Dataset({"force": ("time", np.arange(5.0)), "other": ("time", np.arange(5.0))})
+    save(data, tmp_path / "one.nc")
+    with load(tmp_path / "one.nc", lazy=True) as found:
+        assert not found["other"].variable._in_memory
+        np.testing.assert_array_equal(found["force"].to_numpy(), np.arange(5.0))
+        assert not found["other"].variable._in_memory
