@@ -1,5 +1,7 @@
 """Figures of results: loops, orbits, histories, profiles over the height, energies, sections.
 
+And of models in space: at rest, at an instant, in their modes.
+
 Each function takes one Dataset of `frames.time_history`, or several by name for comparison, and
 returns a matplotlib Figure of the width of a page, which a notebook shows as a picture; it draws on
 no display and keeps no state. ``start`` and ``end`` [s] show a part of the time. Save a figure with
@@ -13,15 +15,21 @@ from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
+from frames.plots.plot_model import bearing_plan as bearing_plan
+from frames.plots.plot_model import mode_shapes as mode_shapes
+from frames.plots.plot_model import model_view as model_view
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
 
 __all__ = [
     "QUANTITIES",
+    "bearing_plan",
     "bearing_sections",
     "energy",
     "histories",
     "hysteresis",
+    "mode_shapes",
+    "model_view",
     "orbits",
     "storey_profiles",
     "worst_bearing",

@@ -1,0 +1,283 @@
+"""Figures of a model in space: as it stands, at an instant of a time history, in its modes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+
+from frames._errors import ModelError
+from frames.analysis.modes import modes
+from frames.assembly.assemble import assemble
+from frames.plots import plot_choice as pick
+from frames.plots import plot_style as ps
+from frames.plots.model_geometry import member_lines
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from frames._types import FloatArray
+    from frames.analysis.modes import BearingStiffness
+    from frames.assembly.system import System
+    from frames.model.contents import FrameContents
+
+LARGEST = 0.08
+"""Drawn size of the largest displacement over the extent of the model, where none is chosen."""
+
+MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
+    ps.PALETTE[0], ps.PALETTE[1], "black", ps.PALETTE[2], "#BBBBBB",
+)  # fmt: skip
+_MASS_SIZE = 90.0  # pt2, of the largest mass's mark
+
+
+def model_view(
+    model: FrameContents,
+    data: xr.Dataset | None = None,
+    *,
+    time: float | None = None,
+    factor: float | None = None,
+) -> Figure:
+    """Draw a model in space, at rest or as it stands at an instant of a time history.
+
+    Parameters
+    ----------
+    model : Frame
+        The model.
+    data : xarray.Dataset, optional
+        Its time history; without one the model is drawn undeformed.
+    time : float, optional
+        Instant [s]; that of the largest displacement of a bearing if None.
+    factor : float, optional
+        By how much displacements are enlarged; so that the largest one shows if None.
+
+    Returns
+    -------
+    Figure
+        Members, springs, bearings, supports and masses (by size); with a time history the
+        undeformed model in grey beside it.
+
+    Raises
+    ------
+    ModelError
+        If the time history is not one of this model.
+    ValueError
+        If the instant lies outside of it, or the factor is not positive.
+    """
+    system = assemble(model)
+    u, title = np.zeros((len(system.node_names), 6)), model.name
+    if data is not None:
+        moved, instant = _at(system, data, time)
+        scale = _scale(system, moved, factor)
+        u, title = scale * moved, f"{model.name} at {instant:.3f} s, enlarged {scale:.3g} times"
+    figure = ps.new_figure(5.0)
+    panel = figure.add_subplot(projection="3d")
+    if data is not None:
+        _draw(panel, model, system, np.zeros_like(u), plain=True)
+    _draw(panel, model, system, u)
+    _frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]])
+    ps.add_legend(figure, _handles(model, deformed=data is not None), columns=5, title=title)
+    return figure
+
+
+def mode_shapes(
+    model: FrameContents, count: int = 3, bearings: BearingStiffness = "sliding"
+) -> Figure:
+    """Draw the first natural modes of a model on its bearings.
+
+    Parameters
+    ----------
+    model : Frame
+        The model.
+    count : int
+        Number of modes, 1 to 6.
+    bearings : {"sliding", "sticking", "fixed"}
+        How the bearings count, as in `frames.modes`.
+
+    Returns
+    -------
+    Figure
+        A panel for each mode with its period and the shares of mass along x, y and z.
+
+    Raises
+    ------
+    ValueError
+        If more than six are asked for.
+    ModelError
+        As `frames.modes` does.
+    """
+    if count > len(ps.COLUMNS) - 1:
+        msg = f"count = {count}: at most {len(ps.COLUMNS) - 1} modes go on a page; draw fewer"
+        raise ValueError(msg)
+    found, system = modes(model, count, bearings), assemble(model)
+    columns = ps.COLUMNS[count]
+    rows = -(-count // columns)
+    figure = ps.new_figure(0.8 + 2.9 * rows)
+    for k in range(count):
+        panel: Any = figure.add_subplot(rows, columns, k + 1, projection="3d")
+        shape = found.shapes[:, :, k]
+        u = _scale(system, shape, None) * shape
+        _draw(panel, model, system, np.zeros_like(u), plain=True)
+        _draw(panel, model, system, u)
+        _frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]], bare=True)
+        shares = ", ".join(f"{100.0 * share:.0f}" for share in found.mass_ratios[k])
+        text = f"mode {k + 1}: {found.periods[k]:.3g} s\nmass x, y, z: {shares} %"
+        panel.set_title(text, fontsize=ps.SMALL)
+    title = f"Modes of {model.name}, bearings {bearings}"
+    ps.add_legend(figure, _handles(model, deformed=True), columns=5, title=title)
+    return figure
+
+
+def bearing_plan(data: xr.Dataset) -> Figure:
+    """Draw the bearings in plan, coloured by how far they use their lateral capacity.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    Figure
+        A circle for each bearing with its name, largest displacement over capacity, largest slip
+        of its interface and smallest axial force; the colour is the first of these.
+
+    Raises
+    ------
+    ValueError
+        If the Dataset does not tell the places of nodes.
+    """
+    pick.need(data, ("node_position", "bearing_displacement"), "draw a result of time_history")
+    lower = data["bearing_node"].sel(end="i").to_numpy()
+    places = data["node_position"].to_numpy()[lower, :2]
+    u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1).max(axis=0)
+    reach = (data["rim_displacement"] / data["radius"]).min("surface") * data["length"]
+    share = u / reach.to_numpy()
+    slip = 1e3 * data["interface_slip_size"].max("time").to_numpy()
+    least = 1e-3 * data["axial_force"].min("time").to_numpy()
+    figure = ps.new_figure(5.2)
+    panel = ps.grid_of(figure, 1, 1)[0][0]
+    colours = ScalarMappable(Normalize(0.0, max(1.0, float(share.max()))), "YlOrRd")
+    apart = _nearest(places)
+    for k, (x, y) in enumerate(places):
+        face = colours.to_rgba(share[k])
+        panel.add_patch(Circle((x, y), 0.22 * apart, facecolor=face, edgecolor=ps.GREY))
+        text = f"{data['bearing'].to_numpy()[k]}\n{100.0 * share[k]:.0f} %"
+        text += f"\ns {slip[k]:.1f} mm\nN ≥ {least[k]:.0f} kN"
+        panel.annotate(
+            text, (x, y - 0.26 * apart), ha="center", va="top", fontsize=ps.SMALL, color="black"
+        )
+    panel.set_aspect("equal")
+    panel.set_xlim(places[:, 0].min() - 0.6 * apart, places[:, 0].max() + 0.6 * apart)
+    panel.set_ylim(places[:, 1].min() - 0.9 * apart, places[:, 1].max() + 0.5 * apart)
+    ps.caption(panel, x="x [m]", y="y [m]")
+    bar = figure.colorbar(colours, ax=panel, shrink=0.8)
+    bar.set_label("largest displacement over lateral capacity", fontsize=ps.LABEL)
+    bar.ax.tick_params(labelsize=ps.SMALL)
+    label = pick.label_of(str(data.attrs.get("title", "bearings")), data, " ")
+    ps.add_legend(figure, [], title=f"Bearings in plan: {label}")
+    return figure
+
+
+def _at(system: System, data: xr.Dataset, time: float | None) -> tuple[FloatArray, float]:
+    # Displacements (n_nodes, 6) at an instant, and the instant that was recorded.
+    if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
+        msg = "data was not computed with this model: give the model of that time_history"
+        raise ModelError(msg)
+    times = data["time"].to_numpy()
+    if time is None:
+        u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1)
+        step = int(u.max(axis=1).argmax())
+    elif not times[0] <= time <= times[-1]:
+        msg = f"time = {time:g} s lies outside of the result, {times[0]:g} to {times[-1]:g} s"
+        raise ValueError(msg)
+    else:
+        step = int(np.abs(times - time).argmin())
+    return data["node_displacement"].to_numpy()[step], float(times[step])
+
+
+def _scale(system: System, u: FloatArray, factor: float | None) -> float:
+    if factor is not None:
+        if not factor > 0.0:
+            msg = f"factor = {factor:g} must be positive: 1 draws displacements as they are"
+            raise ValueError(msg)
+        return factor
+    largest = float(np.linalg.norm(u[:, :3], axis=1).max())
+    extent = float(np.linalg.norm(np.ptp(system.coordinates, axis=0)))
+    return LARGEST * extent / largest if largest > 0.0 else 1.0
+
+
+def _draw(
+    panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
+) -> None:
+    # The parts of the model at displacements that are already enlarged.
+    place = system.coordinates + u[:, :3]
+    index = {name: k for k, name in enumerate(system.node_names)}
+    lines = member_lines(system.members, system.coordinates, u)
+    colour = AT_REST if plain else MEMBERS
+    panel.add_collection3d(Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2))
+    for spring in model.springs.values():
+        ends = place[[index[spring.i], index[spring.j]]]
+        panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
+    if plain:
+        return
+    for _, i, j, _ in system.bearings:
+        panel.plot(*place[[i, j]].T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
+        panel.plot(*place[[j]].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
+    fixed = [index[name] for name, dofs in model.fixed_dofs.items() if {"ux", "uy", "uz"} & dofs]
+    panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
+    mass = system.node_mass[:, :3].max(axis=1)
+    if mass.max() > 0.0:
+        sizes = _MASS_SIZE * mass / mass.max()
+        heavy = mass > 0.0
+        panel.scatter(
+            *place[heavy].T, s=sizes[heavy], c=MASSES, alpha=0.6, linewidths=0.0, depthshade=False
+        )
+
+
+def _frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> None:
+    # Equal scales around all points.
+    every = np.concatenate(points)
+    low, high = every.min(axis=0), every.max(axis=0)
+    span = np.maximum(high - low, 0.15 * float((high - low).max()) or 1.0)
+    middle = 0.5 * (low + high)
+    for name, centre, width in zip("xyz", middle, span, strict=True):
+        getattr(panel, f"set_{name}lim")(centre - 0.55 * width, centre + 0.55 * width)
+    panel.set_box_aspect(span, zoom=1.12)
+    panel.view_init(elev=18.0, azim=-62.0)
+    if bare:
+        panel.set_axis_off()
+        return
+    panel.tick_params(labelsize=ps.SMALL)
+    for name in "xyz":
+        getattr(panel, f"set_{name}label")(f"{name} [m]", fontsize=ps.LABEL)
+
+
+def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
+    plain: dict[str, Any] = {"linestyle": "", "markersize": 5.0}
+    handles = [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
+    if model.springs:
+        handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
+    handles += [
+        Line2D([], [], color=BEARINGS, marker="o", label="bearings", **plain),
+        Line2D([], [], color=SUPPORTS, marker="^", label="supports", **plain),
+        Line2D([], [], color=MASSES, marker="o", alpha=0.4, label="masses", **plain),
+    ]
+    if deformed:
+        handles.append(Line2D([], [], color=AT_REST, label="at rest"))
+    return handles
+
+
+def _nearest(places: FloatArray) -> float:
+    # Distance of the two bearings that are nearest to one another, 1 m for a single one.
+    if len(places) < 2:
+        return 1.0
+    apart = np.linalg.norm(places[:, None] - places[None], axis=-1)
+    apart[np.diag_indices(len(places))] = np.inf
+    least = float(apart.min())
+    return least if least > 0.0 else 1.0
