@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, Self
 
 from frames._errors import ModelError, ModelWarning
-from frames.model.builder import FrameBuilder
+from frames.model.editing import FrameEditor
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 
-class Frame(FrameBuilder):
+class Frame(FrameEditor):
     """A structure on bearings, built one verb at a time; `frames.assembly` reads it.
 
     Units are SI, axes are global and right-handed with z up. Every call checks what it is given

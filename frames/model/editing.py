@@ -1,0 +1,118 @@
+"""Verbs that change a frame that is built: copies, other bearings, parts that go."""
+
+from __future__ import annotations
+
+import copy as copying
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Self
+
+from frames._errors import ModelError
+from frames.model.builder import FrameBuilder
+from frames.model.names import known_name, new_name
+from frames.model.parts import BearingLink, bearing_height
+from frames.model.placing import POSITION_TOLERANCE, require_bearing_place
+
+if TYPE_CHECKING:
+    from lir_element import LIRBearing
+
+
+class FrameEditor(FrameBuilder):
+    """A frame that can be copied, put on other bearings, and lose parts."""
+
+    def copy(self, name: str | None = None) -> Self:
+        """Return a copy that shares nothing that can be changed.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the copy; that of this frame if None.
+
+        Returns
+        -------
+        Frame
+            What is added to one is not added to the other.
+        """
+        found = copying.copy(self)
+        if name is not None:
+            found._name = new_name(name, (), "frame")
+        return found
+
+    def with_bearings(
+        self, bearing: LIRBearing | Mapping[str, LIRBearing], name: str | None = None
+    ) -> Self:
+        """Return a copy on other bearings.
+
+        Parameters
+        ----------
+        bearing : LIRBearing or mapping
+            One device for all bearings, or devices by name of bearing; those that are not named
+            stay.
+        name : str, optional
+            Name of the copy; that of this frame if None.
+
+        Returns
+        -------
+        Frame
+            The same structure. Where a device has another height, the node below it is moved up
+            or down, which a node of the ground can be that carries nothing else.
+
+        Raises
+        ------
+        ModelError
+            If there is no bearing of a name, or a device does not fit between its nodes.
+        """
+        found = self.copy(name)
+        chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(self._bearings, bearing)
+        for each, device in chosen.items():
+            known_name(each, self._bearings, "bearing")
+            link = self._bearings[each]
+            found._settle_under(each, link, bearing_height(each, device))
+            require_bearing_place(found._nodes, each, link.i, link.j, device)
+            found._bearings[each] = replace(link, bearing=device)
+        return found
+
+    def remove(self, kind: str, name: str) -> None:
+        """Take a part out of the frame.
+
+        Parameters
+        ----------
+        kind : {"member", "spring", "bearing", "diaphragm", "level", "mass", "load"}
+            What it is; a mass or a load has the name of its node. A member's uniform load goes
+            with it.
+        name : str
+            Its name.
+
+        Raises
+        ------
+        ModelError
+            If there is no such part.
+        """
+        groups: dict[str, dict[str, Any]] = {
+            "member": self._members, "spring": self._springs, "bearing": self._bearings,
+            "diaphragm": self._diaphragms, "level": self._levels, "mass": self._masses,
+            "load": self._loads,
+        }  # fmt: skip
+        if kind not in groups:
+            msg = f"kind = {kind!r}: choose one of {', '.join(groups)}"
+            raise ModelError(msg)
+        known_name(name, groups[kind], kind)
+        del groups[kind][name]
+        if kind == "member":
+            self._uniform_loads.pop(name, None)
+
+    def _settle_under(self, name: str, link: BearingLink, height: float) -> None:
+        # Moves the node below a bearing so that a device of another height fits.
+        low, high = self._nodes[link.i], self._nodes[link.j]
+        rise = high.z - low.z
+        if min(abs(rise), abs(rise - height)) <= POSITION_TOLERANCE:
+            return
+        ends: list[tuple[str, ...]] = [
+            *((member.i, member.j) for member in self._members.values()),
+            *((spring.i, spring.j) for spring in self._springs.values()),
+            *((other.i, other.j) for key, other in self._bearings.items() if key != name),
+            *(part.nodes for part in self._superelements.values()),
+        ]
+        ground = {"ux", "uy", "uz"} <= self._fixed.get(link.i, frozenset())
+        if ground and not any(link.i in nodes for nodes in ends):
+            self._nodes[link.i] = replace(low, z=high.z - height)
