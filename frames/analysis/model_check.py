@@ -139,8 +139,10 @@ _HEAD = ("bearing", "axial force", "pressure", "settlement", "pendulum", "slip t
 def _held(load: BearingLoad) -> str:
     if math.isinf(load.slip_stability):
         return "one piece"
-    holds = max(load.slip_stability, 0.0)
-    return f"{1e3 * holds:.3g} of {1e3 * load.slip_capacity:.3g} mm"
+    overlap = f"{1e3 * load.slip_capacity:.3g} mm"
+    if load.slip_stability >= load.slip_capacity:
+        return f"all {overlap}"
+    return f"{1e3 * max(load.slip_stability, 0.0):.3g} of {overlap}"
 
 
 def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> ModelCheck:
