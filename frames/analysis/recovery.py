@@ -237,8 +237,8 @@ def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFra
     }
 
 
-def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
-    system = assemble(model)
+def require_own(model: FrameContents, system: System, data: xr.Dataset) -> None:
+    """Raise a ModelError unless a result was computed with a model, assembled as `system`."""
     if "node_displacement" not in data:
         msg = "data has no node_displacement: give the Dataset of a time_history of this model"
         raise ModelError(msg)
@@ -249,6 +249,11 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
             f"({_some(system.node_names)}): give the model of that time_history"
         )
         raise ModelError(msg)
+
+
+def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
+    system = assemble(model)
+    require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
     axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
     return _Structure(system, axial, u.reshape(len(u), -1))

@@ -11,12 +11,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
-from frames._errors import ModelError
 from frames.analysis.modes import modes
+from frames.analysis.recovery import require_own
 from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import member_lines
+from frames.results.measures import lateral_capacity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,7 +73,8 @@ def model_view(
     system = assemble(model)
     u, title = np.zeros((len(system.node_names), 6)), model.name
     if data is not None:
-        moved, instant = _at(system, data, time)
+        require_own(model, system, data)
+        moved, instant = _at(data, time)
         scale = _scale(system, moved, factor)
         u, title = scale * moved, f"{model.name} at {instant:.3f} s, enlarged {scale:.3g} times"
     figure = ps.new_figure(5.0)
@@ -156,8 +158,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     lower = data["bearing_node"].sel(end="i").to_numpy()
     places = data["node_position"].to_numpy()[lower, :2]
     u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1).max(axis=0)
-    reach = (data["rim_displacement"] / data["radius"]).min("surface") * data["length"]
-    share = u / reach.to_numpy()
+    share = u / lateral_capacity(data)
     slip = 1e3 * data["interface_slip_size"].max("time").to_numpy()
     least = 1e-3 * data["axial_force"].min("time").to_numpy()
     figure = ps.new_figure(5.2)
@@ -184,11 +185,8 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     return figure
 
 
-def _at(system: System, data: xr.Dataset, time: float | None) -> tuple[FloatArray, float]:
+def _at(data: xr.Dataset, time: float | None) -> tuple[FloatArray, float]:
     # Displacements (n_nodes, 6) at an instant, and the instant that was recorded.
-    if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
-        msg = "data was not computed with this model: give the model of that time_history"
-        raise ModelError(msg)
     times = data["time"].to_numpy()
     if time is None:
         u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1)

@@ -211,6 +211,12 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
     )
 
 
+def lateral_capacity(data: xr.Dataset) -> FloatArray:
+    """Return the bearings' displacements at the first rim contact, plates parallel [m]."""
+    reach = (data["rim_displacement"] / data["radius"]).min("surface")
+    return np.asarray((data["length"] * reach).to_numpy())
+
+
 def centre_shift(data: xr.Dataset) -> FloatArray:
     """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
     turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()

@@ -13,6 +13,7 @@ from frames.results.measures import (
     drift_by_line,
     energy_error,
     floor_acceleration,
+    lateral_capacity,
     storey_drift,
     uplift_gap,
 )
@@ -101,7 +102,7 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
         return np.asarray(data[name].transpose("time", "bearing", ...).to_numpy())
 
     u = np.linalg.norm(of("bearing_displacement")[..., :2], axis=-1)
-    capacity = _capacity(data)
+    capacity = lateral_capacity(data)
     slip, overlap = of("interface_slip_size"), data["slip_capacity"].to_numpy()
     axial = of("axial_force")
     yield _peak("bearing displacement", "m", u, time, names)
@@ -179,9 +180,3 @@ def _of_run(data: xr.Dataset) -> Iterator[Peak]:
 def _plan(values: FloatArray | xr.DataArray) -> FloatArray:
     # Size of the horizontal part, the last dimension beginning with x and y.
     return np.asarray(np.linalg.norm(np.asarray(values)[..., :2], axis=-1))
-
-
-def _capacity(data: xr.Dataset) -> FloatArray:
-    # Lateral displacement at the first rim contact, plates parallel (n_bearings,).
-    reach = (data["rim_displacement"] / data["radius"]).min("surface")
-    return np.asarray((data["length"] * reach).to_numpy())
