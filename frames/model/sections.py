@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from frames._errors import ModelError
-from lir_element.door import require_finite, require_non_negative, require_positive
+from frames.model.shapes import circle_constants, dimensions, shear_modulus_of
+from lir_element.door import require_non_negative, require_positive
 from lir_element.tables import html_table
-from lir_element.units import AREAS, LENGTHS, MODULI, meant
+from lir_element.units import AREAS, MODULI, meant
 
 STEEL_ELASTIC_MODULUS = 200e9
 """Elastic modulus of structural steel [Pa]."""
@@ -22,9 +23,6 @@ STEEL_DENSITY = 7850.0
 
 SOFTEST, LARGEST_AREA = 1e6, 500.0
 """Elastic modulus [Pa] below, and area [m2] above which no member is."""
-
-LARGEST_SIDE = 100.0
-"""Outer dimension of a ready-made shape that no member has [m]."""
 
 UNITS = {
     "area": "m2", "inertia_y": "m4", "inertia_z": "m4", "torsion_constant": "m4",
@@ -172,7 +170,7 @@ class Section:
         ModelError
             If a dimension is not positive or the walls overlap.
         """
-        b, d, t = _dimensions("Section.box", width=width, depth=depth, thickness=thickness)
+        b, d, t = dimensions("Section.box", width=width, depth=depth, thickness=thickness)
         if 2.0 * t >= min(b, d):
             message = (
                 f"Section.box: thickness = {t:g} m must be less than half the smaller side, "
@@ -187,7 +185,7 @@ class Section:
             # Bredt: 4 A_m^2 / integral of ds / t
             torsion_constant=2.0 * t * ((b - t) * (d - t)) ** 2 / ((b - t) + (d - t)),
             elastic_modulus=elastic_modulus,
-            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            shear_modulus=shear_modulus_of(elastic_modulus, poisson_ratio),
             density=density,
             shear_area_y=2.0 * t * (b - t),
             shear_area_z=2.0 * t * (d - t),
@@ -232,7 +230,7 @@ class Section:
         ModelError
             If a dimension is not positive, or flanges or web do not fit.
         """
-        d, b, tf, tw = _dimensions(
+        d, b, tf, tw = dimensions(
             "Section.i_shape",
             depth=depth,
             flange_width=flange_width,
@@ -253,7 +251,7 @@ class Section:
             inertia_z=(2.0 * tf * b**3 + web * tw**3) / 12.0,
             torsion_constant=(2.0 * b * tf**3 + (d - tf) * tw**3) / 3.0,
             elastic_modulus=elastic_modulus,
-            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            shear_modulus=shear_modulus_of(elastic_modulus, poisson_ratio),
             density=density,
             shear_area_y=5.0 / 6.0 * 2.0 * b * tf,
             shear_area_z=(d - tf) * tw,
@@ -286,7 +284,7 @@ class Section:
         Section
             The section.
         """
-        b, d = _dimensions("Section.rectangle", width=width, depth=depth)
+        b, d = dimensions("Section.rectangle", width=width, depth=depth)
         short, long = min(b, d), max(b, d)
         series = sum(math.tanh(n * math.pi * long / (2.0 * short)) / n**5 for n in range(1, 40, 2))
         return cls(
@@ -298,33 +296,97 @@ class Section:
             / 3.0
             * (1.0 - 192.0 / math.pi**5 * short / long * series),
             elastic_modulus=elastic_modulus,
-            shear_modulus=_shear_modulus(elastic_modulus, poisson_ratio),
+            shear_modulus=shear_modulus_of(elastic_modulus, poisson_ratio),
             density=density,
             shear_area_y=5.0 / 6.0 * b * d,
             shear_area_z=5.0 / 6.0 * b * d,
         )
 
+    @classmethod
+    def circle(
+        cls,
+        diameter: float,
+        thickness: float | None = None,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Build a round section, solid or a tube.
 
-def _dimensions(where: str, **values: float) -> tuple[float, ...]:
-    remedy = "give the outer dimensions in metres"
-    for name, value in values.items():
-        if (
-            require_positive(f"{where}: {name}", value, remedy=remedy, error=ModelError)
-            > LARGEST_SIDE
-        ):
-            message = (
-                f"{where}: {name} = {value:g} m, at most {LARGEST_SIDE:g} m: "
-                f"{meant(value, 'm', LENGTHS, 1e-3, 10.0)}"
-            )
-            raise ModelError(message)
-    return tuple(values.values())
+        The shear areas are those of Cowper [The Shear Coefficient in Timoshenko's Beam Theory,
+        J. Appl. Mech. 33 (1966), table 1].
 
+        Parameters
+        ----------
+        diameter : float
+            Outer diameter [m].
+        thickness : float, optional
+            Of the wall [m], less than half the diameter; solid if None.
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
 
-def _shear_modulus(elastic_modulus: float, poisson_ratio: float) -> float:
-    ratio = require_finite("poisson_ratio", poisson_ratio, error=ModelError)
-    if not -1.0 < ratio <= 0.5:
-        message = f"poisson_ratio = {ratio:g} must lie in (-1, 0.5]: steel has 0.3, concrete 0.2"
-        raise ModelError(message)
-    return require_positive(
-        "elastic_modulus", elastic_modulus, remedy="give Pa", error=ModelError
-    ) / (2.0 * (1.0 + ratio))
+        Returns
+        -------
+        Section
+            The section.
+
+        Raises
+        ------
+        ModelError
+            If a dimension is not positive, or the wall does not fit.
+        """
+        shear_modulus = shear_modulus_of(elastic_modulus, poisson_ratio)
+        area, inertia, shear_area = circle_constants(diameter, thickness, poisson_ratio)
+        return cls(
+            area=area,
+            inertia_y=inertia,
+            inertia_z=inertia,
+            torsion_constant=2.0 * inertia,
+            elastic_modulus=elastic_modulus,
+            shear_modulus=shear_modulus,
+            density=density,
+            shear_area_y=shear_area,
+            shear_area_z=shear_area,
+        )
+
+    def cracked(
+        self, bending: float, *, torsion: float | None = None, shear: float | None = None
+    ) -> Section:
+        """Return the section with the effective stiffness of cracked concrete.
+
+        Codes give factors, such as 0.5 for bending and shear (EN 1998-1:2004, 4.3.1(7)), or 0.7 for
+        the bending of columns and 0.35 of beams (ACI 318-19, table 6.6.3.1.1(a)).
+
+        Parameters
+        ----------
+        bending : float
+            Factor on both second moments of area [-], in (0, 1].
+        torsion, shear : float, optional
+            Factors on the torsion constant and on the shear areas [-], in (0, 1]; that of bending
+            if None.
+
+        Returns
+        -------
+        Section
+            The same section; area and density stay.
+
+        Raises
+        ------
+        ModelError
+            If a factor is out of bounds.
+        """
+        given = {"bending": bending, "torsion": torsion, "shear": shear}
+        factors = {name: bending if value is None else value for name, value in given.items()}
+        for name, value in factors.items():
+            if not 0.0 < value <= 1.0:
+                msg = f"{name} = {value:g} must lie in (0, 1]: 0.5 is half the uncracked stiffness"
+                raise ModelError(msg)
+        return replace(
+            self,
+            inertia_y=factors["bending"] * self.inertia_y,
+            inertia_z=factors["bending"] * self.inertia_z,
+            torsion_constant=factors["torsion"] * self.torsion_constant,
+            shear_area_y=factors["shear"] * self.shear_area_y,
+            shear_area_z=factors["shear"] * self.shear_area_z,
+        )

@@ -10,6 +10,7 @@ import numpy.typing as npt
 import pytest
 import scipy.linalg
 from numpy.testing import assert_allclose
+from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from frames._errors import ModelError
@@ -352,3 +353,36 @@ def test_shapes_refuse_impossible_dimensions() -> None:
         Section.i_shape(0.2, 0.4, 0.15, 0.01)
     with pytest.raises(ModelError, match=r"poisson_ratio = 0\.7"):
         Section.rectangle(0.2, 0.4, poisson_ratio=0.7)
+
+
+def test_circle_and_tube() -> None:
+    """Against integrals over the ring; shear of a solid circle and of a thin tube [Cowper 1966]."""
+    solid, tube = Section.circle(0.6), Section.circle(0.6, 0.02)
+    for section, inner in ((solid, 0.0), (tube, 0.28)):
+        area = quad(lambda r: 2.0 * math.pi * r, inner, 0.3)[0]
+        inertia = quad(lambda r: math.pi * r**3, inner, 0.3)[0]
+        assert_allclose(section.area, area, rtol=1e-12)
+        assert_allclose([section.inertia_y, section.inertia_z], inertia, rtol=1e-12)
+        assert_allclose(section.torsion_constant, 2.0 * inertia, rtol=1e-12)
+    nu = 0.3
+    assert_allclose(solid.shear_area_y / solid.area, 6 * (1 + nu) / (7 + 6 * nu), rtol=1e-12)
+    thin = Section.circle(1.0, 1e-5)
+    assert_allclose(thin.shear_area_z / thin.area, 2 * (1 + nu) / (4 + 3 * nu), rtol=1e-4)
+    with pytest.raises(ModelError, match=r"thickness = 0\.3 m must be less than half"):
+        Section.circle(0.6, 0.3)
+    with pytest.raises(ModelError, match="diameter"):
+        Section.circle(-0.6)
+
+
+def test_cracked_concrete() -> None:
+    whole = Section.rectangle(0.4, 0.6, elastic_modulus=30e9, poisson_ratio=0.2, density=2500.0)
+    half = whole.cracked(0.5)
+    for name in ("inertia_y", "inertia_z", "torsion_constant", "shear_area_y", "shear_area_z"):
+        assert getattr(half, name) == 0.5 * getattr(whole, name)
+    assert (half.area, half.density) == (whole.area, whole.density)
+    column = whole.cracked(0.7, torsion=0.1, shear=1.0)
+    assert column.torsion_constant == 0.1 * whole.torsion_constant
+    assert column.shear_area_y == whole.shear_area_y
+    for wrong in (0.0, 1.2, math.nan):
+        with pytest.raises(ModelError, match=r"bending = .* must lie in \(0, 1\]"):
+            whole.cracked(wrong)

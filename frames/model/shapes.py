@@ -1,0 +1,83 @@
+"""What ready-made sections share: checked dimensions, and constants of shapes."""
+
+from __future__ import annotations
+
+import math
+
+from frames._errors import ModelError
+from lir_element.door import require_finite, require_positive
+from lir_element.units import LENGTHS, meant
+
+LARGEST_SIDE = 100.0
+"""Outer dimension of a ready-made shape that no member has [m]."""
+
+
+def dimensions(where: str, **values: float) -> tuple[float, ...]:
+    """Return outer dimensions [m] once they are positive and possible."""
+    remedy = "give the outer dimensions in metres"
+    for name, value in values.items():
+        if (
+            require_positive(f"{where}: {name}", value, remedy=remedy, error=ModelError)
+            > LARGEST_SIDE
+        ):
+            message = (
+                f"{where}: {name} = {value:g} m, at most {LARGEST_SIDE:g} m: "
+                f"{meant(value, 'm', LENGTHS, 1e-3, 10.0)}"
+            )
+            raise ModelError(message)
+    return tuple(values.values())
+
+
+def shear_modulus_of(elastic_modulus: float, poisson_ratio: float) -> float:
+    """Return the shear modulus of an isotropic material [Pa]."""
+    ratio = require_finite("poisson_ratio", poisson_ratio, error=ModelError)
+    if not -1.0 < ratio <= 0.5:
+        message = f"poisson_ratio = {ratio:g} must lie in (-1, 0.5]: steel has 0.3, concrete 0.2"
+        raise ModelError(message)
+    return require_positive(
+        "elastic_modulus", elastic_modulus, remedy="give Pa", error=ModelError
+    ) / (2.0 * (1.0 + ratio))
+
+
+def circle_constants(
+    diameter: float, thickness: float | None, poisson_ratio: float
+) -> tuple[float, float, float]:
+    """Return the constants of a circle, or of a tube.
+
+    Parameters
+    ----------
+    diameter : float
+        Outer diameter [m].
+    thickness : float or None
+        Of the wall [m]; solid if None.
+    poisson_ratio : float
+        Of the material [-].
+
+    Returns
+    -------
+    tuple of float
+        Area [m2], second moment of area [m4], shear area [m2] by Cowper (1966), table 1, with m
+        the inner diameter over the outer one.
+
+    Raises
+    ------
+    ModelError
+        If a dimension is not positive, or the wall does not fit.
+    """
+    (outer,) = dimensions("Section.circle", diameter=diameter)
+    inner = 0.0
+    if thickness is not None:
+        (wall,) = dimensions("Section.circle", thickness=thickness)
+        if 2.0 * wall >= outer:
+            message = (
+                f"Section.circle: thickness = {wall:g} m must be less than half the diameter, "
+                f"{outer / 2.0:g} m: leave it out for a solid section"
+            )
+            raise ModelError(message)
+        inner = outer - 2.0 * wall
+    area = math.pi / 4.0 * (outer**2 - inner**2)
+    inertia = math.pi / 64.0 * (outer**4 - inner**4)
+    m, nu = (inner / outer) ** 2, poisson_ratio
+    share = 6.0 * (1.0 + nu) * (1.0 + m) ** 2
+    share /= (7.0 + 6.0 * nu) * (1.0 + m) ** 2 + (20.0 + 12.0 * nu) * m
+    return area, inertia, share * area
