@@ -34,6 +34,7 @@ LARGEST = 0.08
 MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[0], ps.PALETTE[1], "black", ps.PALETTE[2], "#BBBBBB",
 )  # fmt: skip
+_SAME_PLACE = 3  # decimals of a place in m, in plan
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
 
 
@@ -146,8 +147,9 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     Returns
     -------
     Figure
-        A circle for each bearing with its name, largest displacement over capacity, largest slip
-        of its interface and smallest axial force; the colour is the first of these.
+        A circle for each bearing, or for those under one column, with names, largest displacement
+        over capacity, largest slip of the interface and smallest axial force; the colour is the
+        first of these.
 
     Raises
     ------
@@ -164,18 +166,21 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     figure = ps.new_figure(5.2)
     panel = ps.grid_of(figure, 1, 1)[0][0]
     colours = ScalarMappable(Normalize(0.0, max(1.0, float(share.max()))), "YlOrRd")
-    apart = _nearest(places)
-    for k, (x, y) in enumerate(places):
-        face = colours.to_rgba(share[k])
+    spots, at = np.unique(places.round(_SAME_PLACE), axis=0, return_inverse=True)
+    apart, names = _nearest(spots), data["bearing"].to_numpy()
+    for k, (x, y) in enumerate(spots):
+        own = np.flatnonzero(at.ravel() == k)  # several stand under some columns
+        worst = own[share[own].argmax()]
+        face = colours.to_rgba(share[worst])
         panel.add_patch(Circle((x, y), 0.22 * apart, facecolor=face, edgecolor=ps.GREY))
-        text = f"{data['bearing'].to_numpy()[k]}\n{100.0 * share[k]:.0f} %"
-        text += f"\ns {slip[k]:.1f} mm\nN ≥ {least[k]:.0f} kN"
+        text = "\n".join(str(name) for name in names[own]) + f"\n{100.0 * share[worst]:.0f} %"
+        text += f"\ns {slip[own].max():.1f} mm\nN ≥ {least[own].min():.0f} kN"
         panel.annotate(
             text, (x, y - 0.26 * apart), ha="center", va="top", fontsize=ps.SMALL, color="black"
         )
     panel.set_aspect("equal")
-    panel.set_xlim(places[:, 0].min() - 0.6 * apart, places[:, 0].max() + 0.6 * apart)
-    panel.set_ylim(places[:, 1].min() - 0.9 * apart, places[:, 1].max() + 0.5 * apart)
+    panel.set_xlim(spots[:, 0].min() - 0.6 * apart, spots[:, 0].max() + 0.6 * apart)
+    panel.set_ylim(spots[:, 1].min() - 0.9 * apart, spots[:, 1].max() + 0.5 * apart)
     ps.caption(panel, x="x [m]", y="y [m]")
     bar = figure.colorbar(colours, ax=panel, shrink=0.8)
     bar.set_label("largest displacement over lateral capacity", fontsize=ps.LABEL)
@@ -271,11 +276,10 @@ def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
     return handles
 
 
-def _nearest(places: FloatArray) -> float:
-    # Distance of the two bearings that are nearest to one another, 1 m for a single one.
-    if len(places) < 2:
+def _nearest(spots: FloatArray) -> float:
+    # Distance of the two places that are nearest to one another, 1 m for a single one.
+    if len(spots) < 2:
         return 1.0
-    apart = np.linalg.norm(places[:, None] - places[None], axis=-1)
-    apart[np.diag_indices(len(places))] = np.inf
-    least = float(apart.min())
-    return least if least > 0.0 else 1.0
+    apart = np.linalg.norm(spots[:, None] - spots[None], axis=-1)
+    apart[np.diag_indices(len(spots))] = np.inf
+    return float(apart.min())

@@ -127,3 +127,17 @@ def test_refusals(building):
         plots.model_view(frame, data, time=9.0)
     with pytest.raises(ValueError, match="factor = -1 must be positive"):
         plots.model_view(frame, data, factor=-1.0)
+
+
+def test_twins_share_a_circle():
+    frame = Frame("twins")
+    frame.add_node("ground", 0.0, 0.0, 0.0)
+    frame.add_node("top", 0.0, 0.0, bearing().height)
+    frame.fix("ground", "all")
+    frame.fix("top", "rx", "ry", "rz")
+    for name in ("left", "right"):
+        frame.add_bearing(name, "ground", "top", bearing())
+    frame.add_mass("top", 6e4)
+    panel = plots.bearing_plan(run(frame, MOTION, dt=0.01)).axes[0]
+    assert len(panel.patches) == 1
+    assert panel.texts[0].get_text().startswith("left\nright\n")
