@@ -19,6 +19,7 @@ from frames.plots.plot_model import bearing_plan as bearing_plan
 from frames.plots.plot_model import mode_shapes as mode_shapes
 from frames.plots.plot_model import model_view as model_view
 from frames.plots.plot_summaries import energy as energy
+from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "bearing_plan",
     "bearing_sections",
     "energy",
+    "floor_spectra",
     "histories",
     "hysteresis",
     "mode_shapes",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -10,7 +10,12 @@ from matplotlib.patches import Patch
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.results.measures import floor_acceleration, storey_drift
+from frames.results.measures import (
+    drift_by_line,
+    floor_acceleration,
+    floor_spectrum,
+    storey_drift,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,6 +35,11 @@ ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
 """Terms of the energy drawn together, from below, their colours and hatches."""
 
 EDGE = "#333333"
+PERIODS = np.geomspace(0.02, 5.0, 120)
+"""Of the floor spectra [s]."""
+
+MOST_PANELS = 6
+_RING: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markersize": 6.0}
 _LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-", ":", "-.", ":", "--")
 
 
@@ -49,7 +59,8 @@ def storey_profiles(
     -------
     Figure
         Left the drift of each storey, the larger of x and y [%]; right the total horizontal
-        acceleration of each level, its largest size in plan [m/s2].
+        acceleration of each level, its largest size in plan [m/s2]: lines are those of the mean
+        of a level's nodes, rings those of its worst corner.
 
     Raises
     ------
@@ -68,6 +79,7 @@ def storey_profiles(
         peaks = np.linalg.norm(floors, axis=-1).max(axis=0)
         right.plot(peaks, z, marker="os^Dvp"[k], markersize=6.0 - 1.5 * k if k < 3 else 2.0,
                    **ps.line_of(k))  # fmt: skip
+        _corners(left, right, data, k)
     first = next(iter(found.values()))
     names = [str(name) for name in first["level"].to_numpy()]
     left.set_yticks(first["level_height"].to_numpy(), names)
@@ -75,8 +87,86 @@ def storey_profiles(
     ps.caption(right, x="peak total acceleration in plan [m/s²]", title="Floor acceleration")
     left.set_xlim(0.0, 1.06 * left.dataLim.x1)
     right.set_xlim(0.0, 1.06 * right.dataLim.x1)
-    ps.add_legend(figure, pick.system_handles(found), title="Peaks over the height")
+    ring = Line2D([], [], color=ps.GREY, linestyle="", label="worst corner", **_RING)
+    ps.add_legend(figure, [*pick.system_handles(found), ring], title="Peaks over the height")
     return figure
+
+
+def floor_spectra(
+    systems: pick.Systems,
+    *,
+    level: str | None = None,
+    axis: Literal["x", "y", "z"] = "x",
+    damping: float = 0.05,
+    start: float | None = None,
+    end: float | None = None,
+) -> Figure:
+    """Draw response spectra of floors, for what stands on them.
+
+    Parameters
+    ----------
+    systems : Dataset or mapping of name to Dataset
+        Results to compare; of models with levels.
+    level : str, optional
+        Name of a level; all levels in one panel each if None.
+    axis : {"x", "y", "z"}
+        Direction.
+    damping : float
+        Of what stands there [-].
+    start, end : float, optional
+        Window of time [s].
+
+    Returns
+    -------
+    Figure
+        Pseudo-acceleration [m/s2] over the period [s].
+
+    Raises
+    ------
+    ValueError
+        If there is no such level, or nothing lies in the window.
+    """
+    found = pick.as_systems(systems, start, end)
+    first = next(iter(found.values()))
+    pick.need(first, ("node_acceleration", "level_node"), "spectra need a frame's levels")
+    names = [str(name) for name in first["level"].to_numpy()]
+    if level is not None and level not in names:
+        msg = f"level = {level!r}: the model has the levels {', '.join(names) or 'none'}"
+        raise ValueError(msg)
+    shown = names[::-1] if level is None else [level]
+    shown = shown[:MOST_PANELS]
+    columns = ps.COLUMNS[len(shown)]
+    figure, panels = ps.panels_of(len(shown), columns, 2.5)
+    for k, data in enumerate(found.values()):
+        spectra = floor_spectrum(data, PERIODS, damping).sel(axis=axis)
+        for panel, name in zip(panels, shown, strict=True):
+            panel.plot(PERIODS, spectra.sel(level=name), **ps.line_of(k))
+    for place, (panel, name) in enumerate(zip(panels, shown, strict=True)):
+        panel.set_xscale("log")
+        ps.caption(panel, title=name, y="m/s²" if place % columns == 0 else None)
+        ps.close_column(panel, "period [s]", is_last=place + columns >= len(shown))
+    panels[0].set_ylim(bottom=0.0)
+    panels[0].set_xlim(PERIODS[0], PERIODS[-1])
+    title = f"Floor spectra along {axis}, pseudo-acceleration at {100.0 * damping:g} % damping"
+    ps.add_legend(figure, pick.system_handles(found), title=title)
+    return figure
+
+
+def _corners(left: Axes, right: Axes, data: xr.Dataset, place: int) -> None:
+    # The worst line of nodes in each storey, the worst node of each level.
+    if "node_position" not in data:
+        return  # a file of an earlier version
+    z, levels = data["level_height"].to_numpy(), data["level"].to_numpy()
+    lines = drift_by_line(data)
+    each = 100.0 * np.abs(lines.to_numpy()).max(axis=(0, 2), initial=0.0)
+    own = [each[lines["storey"].to_numpy() == name] for name in levels[1:]]
+    style: dict[str, Any] = {"color": ps.line_of(place)["color"], "linestyle": "", **_RING}
+    drifts = [sizes.max() if len(sizes) else np.nan for sizes in own]
+    left.plot(drifts, 0.5 * (z[1:] + z[:-1]), **style)
+    on = data["level_node"].to_numpy()
+    moves = data["node_acceleration"].sel(dof=["ux", "uy"]).to_numpy()
+    peaks = np.linalg.norm(moves, axis=-1).max(axis=0)
+    right.plot([peaks[on == k].max() for k in range(len(levels))], z, **style)
 
 
 def energy(

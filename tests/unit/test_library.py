@@ -205,3 +205,32 @@ REFUSALS: list[tuple[Callable[[], Frame], str]] = [
 def test_library_refuses(make: Callable[[], Frame], words: str) -> None:
     with pytest.raises(ModelError, match=words):
         make()
+
+
+@pytest.mark.parametrize("off", [(0.05, 0.0), (-0.05, 0.1), (0.0, 0.0)])
+def test_floors_are_eccentric_as_far_as_asked(off: tuple[float, float]) -> None:
+    light = Section.box(0.4, 0.4, 0.025, density=0.0)
+    frame = moment_frame(
+        (3, 2), 2, bearing=bearing(), bay_width=(6.0, 8.0), floor_mass=1.2e5, eccentricity=off,
+        column=light, beam=light, base_beam=light,
+    )  # fmt: skip
+    system = assemble(frame)
+    middle = np.array([9.0, 8.0])
+    for level in frame.levels:
+        chosen = [system.node_names.index(name) for name in level.nodes]
+        masses = system.node_mass[chosen, 0]
+        assert_allclose(masses.sum(), 1.2e5, rtol=1e-12)
+        assert (masses > 0.0).all()
+        centre = masses @ system.coordinates[chosen, :2] / masses.sum()
+        assert_allclose(centre - middle, np.array(off) * [18.0, 16.0], rtol=1e-12, atol=1e-9)
+
+
+def test_eccentricities_that_leave_columns_without_mass() -> None:
+    with pytest.raises(ModelError, match=r"eccentricity = 0\.4 of the side.*at most 0\.\d+ here"):
+        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.4, 0.0))
+    with pytest.raises(ModelError, match="together would leave a corner without"):
+        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.15, 0.2))
+    bound = 2.0 * (0.5 * 2 * 9.0**2 + 2 * 3.0**2) / 3.0 / 18.0**2
+    moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.999 * bound, 0.0))
+    with pytest.raises(ModelError, match="eccentricity"):
+        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(1.001 * bound, 0.0))

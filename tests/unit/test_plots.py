@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from frames import GroundMotion, moment_frame, plots, time_history
+from frames import GroundMotion, drift_by_line, floor_spectrum, moment_frame, plots, time_history
 from frames.plots.bearing_drawing import impact_direction, impact_instants
 from frames.plots.bearing_geometry import (
     Posture,
@@ -573,3 +573,28 @@ def test_bad_requests_are_refused(results: dict[str, xr.Dataset]) -> None:
         plots.bearing_sections(results["LIR"], NAME, instants={"late": 99.0})
     with pytest.raises(ValueError, match="direction = "):
         plots.bearing_sections(results["LIR"], NAME, direction=np.zeros(2))
+
+
+def test_corners_stand_beside_the_mean_in_profiles(results: dict[str, xr.Dataset]) -> None:
+    data = results["LIR"]
+    left, right = plots.storey_profiles(data).axes
+    rings = [line for line in left.lines if line.get_marker() == "o"]
+    lines = 100.0 * np.abs(drift_by_line(data).to_numpy()).max(axis=(0, 2))
+    assert len(rings) == 1
+    assert max(rings[0].get_xdata()) == pytest.approx(lines.max(), rel=1e-12)
+    nodes = np.linalg.norm(data["node_acceleration"].to_numpy()[..., :2], axis=-1).max(axis=0)
+    worst = max(right.lines[-1].get_xdata())
+    assert worst == pytest.approx(nodes[data["level_node"].to_numpy() >= 0].max(), rel=1e-12)
+
+
+def test_floor_spectra(results: dict[str, xr.Dataset]) -> None:
+    figure = plots.floor_spectra(results, axis="y")
+    levels = [str(name) for name in results["LIR"]["level"].to_numpy()]
+    assert [panel.get_title(loc="left") for panel in figure.axes] == levels[::-1]
+    assert all(len(panel.lines) == len(results) for panel in figure.axes)
+    one = plots.floor_spectra(results["LIR"], level=levels[-1]).axes
+    x, y = one[0].lines[0].get_data()
+    expected = floor_spectrum(results["LIR"], x).sel(level=levels[-1], axis="x")
+    assert_allclose(y, expected, rtol=1e-12)
+    with pytest.raises(ValueError, match="level = 'attic': the model has the levels base"):
+        plots.floor_spectra(results, level="attic")
