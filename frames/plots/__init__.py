@@ -17,6 +17,7 @@ from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
 from frames.plots.plot_model import bearing_plan as bearing_plan
 from frames.plots.plot_model import mode_shapes as mode_shapes
+from frames.plots.plot_model import model_film as model_film
 from frames.plots.plot_model import model_view as model_view
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
@@ -31,6 +32,7 @@ __all__ = [
     "histories",
     "hysteresis",
     "mode_shapes",
+    "model_film",
     "model_view",
     "orbits",
     "storey_profiles",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.animation import FuncAnimation
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
@@ -34,6 +35,7 @@ LARGEST = 0.08
 MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[0], ps.PALETTE[1], "black", ps.PALETTE[2], "#BBBBBB",
 )  # fmt: skip
+_PICTURES = 20  # a second, of a film
 _SAME_PLACE = 3  # decimals of a place in m, in plan
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
 
@@ -86,6 +88,76 @@ def model_view(
     _frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]])
     ps.add_legend(figure, _handles(model, deformed=data is not None), columns=5, title=title)
     return figure
+
+
+def model_film(
+    model: FrameContents,
+    data: xr.Dataset,
+    *,
+    factor: float | None = None,
+    start: float | None = None,
+    end: float | None = None,
+    speed: float = 1.0,
+) -> FuncAnimation:
+    """Draw a model in space as it moves through a time history.
+
+    Parameters
+    ----------
+    model : Frame
+        The model.
+    data : xarray.Dataset
+        Its time history.
+    factor : float, optional
+        By how much displacements are enlarged; so that the largest one shows if None.
+    start, end : float, optional
+        Window of time [s].
+    speed : float
+        Seconds of the time history a second of the film.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        Of 20 pictures a second: ``film.save("model.gif", writer="pillow")`` writes it, in a notebook
+        ``film.to_jshtml()`` shows it.
+
+    Raises
+    ------
+    ModelError
+        If the time history is not one of this model.
+    ValueError
+        If nothing lies in the window, or a factor is not positive.
+    """
+    system = assemble(model)
+    require_own(model, system, data)
+    if not speed > 0.0:
+        msg = f"speed = {speed:g} must be positive: 1 is that of the earthquake"
+        raise ValueError(msg)
+    data = next(iter(pick.as_systems(data, start, end).values()))
+    times = data["time"].to_numpy()
+    moments = np.arange(times[0], times[-1] + 1e-9, speed / _PICTURES)
+    steps = np.searchsorted(times, moments - 1e-9).clip(max=len(times) - 1)
+    every = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
+    sizes = np.linalg.norm(every[..., :3], axis=-1).max(axis=1)
+    scale = _scale(system, every[int(sizes.argmax())], factor)
+    figure = ps.new_figure(5.0)
+    panel: Any = figure.add_subplot(projection="3d")
+    _draw(panel, model, system, np.zeros(every.shape[1:]), plain=True)
+    reach = scale * every[..., :3]
+    corners = [system.coordinates + reach.min(axis=0), system.coordinates + reach.max(axis=0)]
+    _frame_of(panel, corners)
+    title = f"{model.name}, enlarged {scale:.3g} times"
+    ps.add_legend(figure, _handles(model, deformed=True), columns=5, title=title)
+    drawn: list[Any] = []
+
+    def show(picture: int) -> list[Any]:
+        while drawn:
+            drawn.pop().remove()
+        step = int(steps[picture])
+        drawn.extend(_draw(panel, model, system, scale * every[step]))
+        drawn.append(panel.text2D(0.02, 0.02, f"{times[step]:.2f} s", transform=panel.transAxes))
+        return drawn
+
+    return FuncAnimation(figure, show, frames=len(steps), interval=1000.0 / _PICTURES)
 
 
 def mode_shapes(
@@ -217,30 +289,34 @@ def _scale(system: System, u: FloatArray, factor: float | None) -> float:
 
 def _draw(
     panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
-) -> None:
-    # The parts of the model at displacements that are already enlarged.
+) -> list[Any]:
+    # The parts of the model at displacements that are already enlarged; returns what was drawn.
     place = system.coordinates + u[:, :3]
     index = {name: k for k, name in enumerate(system.node_names)}
     lines = member_lines(system.members, system.coordinates, u)
     colour = AT_REST if plain else MEMBERS
-    panel.add_collection3d(Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2))
+    bars = Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2)
+    drawn = [panel.add_collection3d(bars)]
     for spring in model.springs.values():
         ends = place[[index[spring.i], index[spring.j]]]
-        panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
+        drawn += panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
     if plain:
-        return
+        return drawn
     for _, i, j, _ in system.bearings:
-        panel.plot(*place[[i, j]].T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
-        panel.plot(*place[[j]].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
+        ends = place[[i, j]]
+        drawn += panel.plot(*ends.T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
+        drawn += panel.plot(*ends[1:].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
     fixed = [index[name] for name, dofs in model.fixed_dofs.items() if {"ux", "uy", "uz"} & dofs]
-    panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
+    drawn += panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
     mass = system.node_mass[:, :3].max(axis=1)
     if mass.max() > 0.0:
         sizes = _MASS_SIZE * mass / mass.max()
         heavy = mass > 0.0
-        panel.scatter(
+        marks = panel.scatter(
             *place[heavy].T, s=sizes[heavy], c=MASSES, alpha=0.6, linewidths=0.0, depthshade=False
         )
+        drawn.append(marks)
+    return drawn
 
 
 def _frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> None:

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.testing import assert_allclose
+from PIL import Image
 
 from frames import Frame, GroundMotion, ModelError, Section, lumped_mass, modes, moment_frame, plots
 from frames import time_history as run
@@ -90,6 +91,23 @@ def test_the_largest_displacement_shows(building):
     largest = np.linalg.norm(data["node_displacement"].to_numpy()[step, :, :3], axis=-1).max()
     extent = np.linalg.norm(np.ptp(assemble(frame).coordinates, axis=0))
     assert f"enlarged {LARGEST * extent / largest:.3g} times" in title
+
+
+def test_a_film_shows_every_twentieth_of_a_second(building, tmp_path):
+    frame, data = building
+    film = plots.model_film(frame, data, start=0.2, end=0.5, factor=10.0)
+    film.save(tmp_path / "model.gif", writer="pillow", dpi=40)
+    with Image.open(tmp_path / "model.gif") as picture:
+        assert picture.n_frames == 7
+    panel = film._fig.axes[0]
+    assert panel.texts[-1].get_text() == "0.50 s"
+    assert len([c for c in panel.collections if isinstance(c, Line3DCollection)]) == 2
+    quick = plots.model_film(frame, data, speed=5.0)
+    assert quick._save_count == 6
+    for wrong in ({"speed": 0.0}, {"factor": -1.0}, {"start": 90.0}):
+        with pytest.raises(ValueError, match=r"speed|factor|9\d"):
+            plots.model_film(frame, data, **wrong)
+    quick.save(tmp_path / "quick.gif", writer="pillow", dpi=30)
 
 
 def test_modes(building):
