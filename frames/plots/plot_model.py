@@ -117,8 +117,8 @@ def model_film(
     Returns
     -------
     matplotlib.animation.FuncAnimation
-        Of 20 pictures a second: ``film.save("model.gif", writer="pillow")`` writes it, in a notebook
-        ``film.to_jshtml()`` shows it.
+        Of 20 pictures a second: ``film.save("model.gif", writer="pillow")`` writes it, in a
+        notebook ``film.to_jshtml()`` shows it.
 
     Raises
     ------
