@@ -21,7 +21,6 @@ from frames.assembly.assemble import (
     node_geometric_stiffness,
     scatter,
 )
-from frames.assembly.members import local_geometric_stiffness
 from frames.model.axes import matrix_to_global, to_global
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
@@ -271,9 +270,7 @@ def _with_points(data: xr.Dataset) -> list[str]:
 def _crossing(found: _Structure, above: BoolArray) -> tuple[SparseMatrix, FloatArray]:
     # Forces on the ends of what crosses a cut: rows over all displacements, and the constant part.
     system, table = found.system, found.system.members
-    blocks = matrix_to_global(
-        table.stiffness + local_geometric_stiffness(table.arrays, found.axial), table.arrays.axes
-    )
+    blocks = matrix_to_global(table.stiffness + table.geometric(found.axial), table.arrays.axes)
     crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
     count = len(system.node_names)
     own = matrix_to_global(table.stiffness, table.arrays.axes)

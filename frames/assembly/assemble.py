@@ -12,16 +12,16 @@ from frames.assembly.constraints import free_dofs
 from frames.assembly.elimination import eliminate, separate_massless
 from frames.assembly.members import (
     fixed_end_forces,
-    local_geometric_stiffness,
     local_stiffness,
     member_arrays,
+    released,
     spring_stiffness,
 )
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import System as System
 from frames.assembly.system import element_dofs
 from frames.model.axes import default_up, matrix_to_global, to_global, to_local
-from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.model.parts import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.model.superelement import Placed, lumped, placed
 from lir_element.device.features import Features
 
@@ -161,7 +161,7 @@ def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> Sparse
         Before elimination of supports and diaphragms; for reactions.
     """
     table = system.members
-    local = local_geometric_stiffness(table.arrays, axial_forces)
+    local = table.geometric(axial_forces)
     blocks = matrix_to_global(local, table.arrays.axes)
     return scatter(blocks, table.nodes, len(system.node_names))
 
@@ -213,7 +213,7 @@ def member_end_forces(
     table = system.members
     stiffness = table.stiffness
     if axial_forces is not None:
-        stiffness = stiffness + local_geometric_stiffness(table.arrays, axial_forces)
+        stiffness = stiffness + table.geometric(axial_forces)
     chosen = slice(None) if places is None else places
     local = to_local(u[..., table.dofs[chosen]], table.arrays.axes[chosen])
     forces: FloatArray = np.einsum("mab,...mb->...ma", stiffness[chosen], local)
@@ -256,12 +256,21 @@ def _member_table(
             up[place] = member.up
     arrays = member_arrays([member.section for member in members], start, end, up)
     load = np.array([frame.uniform_loads.get(m.name, np.zeros(3)) for m in members])
+    elastic = local_stiffness(arrays)
+    places = {name: 3 + k for k, name in enumerate(RELEASABLE)}
+    free = [
+        [6 * end + places[part] for end in (0, 1) for part in member.releases[end]]
+        for member in members
+    ]
+    follow = released(elastic, free)
+    back = follow.transpose(0, 2, 1)
     return MemberTable(
         names=tuple(frame.members),
         arrays=arrays,
         nodes=nodes,
-        stiffness=local_stiffness(arrays),
-        fixed_end=fixed_end_forces(arrays, load.reshape(-1, 3)),
+        follow=follow,
+        stiffness=back @ elastic @ follow,
+        fixed_end=np.einsum("nab,nb->na", back, fixed_end_forces(arrays, load.reshape(-1, 3))),
     )
 
 

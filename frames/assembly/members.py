@@ -213,6 +213,37 @@ def fixed_end_forces(members: MemberArrays, load: FloatArray) -> FloatArray:
     return forces
 
 
+def released(stiffness: FloatArray, releases: Sequence[Sequence[int]]) -> FloatArray:
+    """Return how the local displacements of members follow those of their nodes.
+
+    Where an end is free of a moment, its own rotation is the one without it: the elastic stiffness
+    is condensed (Guyan), and what is done to loads and to the geometric stiffness follows from it.
+
+    Parameters
+    ----------
+    stiffness : ndarray, (n, 12, 12)
+        Elastic stiffness in local axes.
+    releases : sequence of sequence of int, (n,)
+        Places of the free rotations among the 12 displacements, of each member.
+
+    Returns
+    -------
+    ndarray, (n, 12, 12)
+        ``u = follow @ u_nodes``; the identity without releases.
+    """
+    follow = np.tile(np.eye(12), (len(stiffness), 1, 1))
+    for place, given in enumerate(releases):
+        free = np.array(given, dtype=np.int64)
+        if not free.size:
+            continue
+        kept = np.setdiff1d(np.arange(12), free)
+        k = stiffness[place]
+        rows = -np.linalg.solve(k[np.ix_(free, free)], k[np.ix_(free, kept)])
+        follow[place][free] = 0.0
+        follow[place][np.ix_(free, kept)] = rows
+    return follow
+
+
 def spring_stiffness(lever: FloatArray, stiffness: FloatArray) -> FloatArray:
     r"""Return the stiffness of 6-component springs in global axes.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.assembly.members import MemberArrays
+from frames.assembly.members import MemberArrays, local_geometric_stiffness
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
@@ -26,8 +26,10 @@ class MemberTable:
         Section constants, lengths and local axes.
     nodes : ndarray, (n, 2)
         Node indices of the ends i and j.
+    follow : ndarray, (n, 12, 12)
+        Local displacements of the members from those of their nodes: what releases do.
     stiffness : ndarray, (n, 12, 12)
-        Elastic stiffness in local axes.
+        Elastic stiffness in local axes, over the displacements of the nodes.
     fixed_end : ndarray, (n, 12)
         Fixed-end forces of the uniform loads in local axes [N, N m].
     """
@@ -35,8 +37,25 @@ class MemberTable:
     names: tuple[str, ...]
     arrays: MemberArrays
     nodes: IntArray
+    follow: FloatArray
     stiffness: FloatArray
     fixed_end: FloatArray
+
+    def geometric(self, axial_forces: FloatArray) -> FloatArray:
+        """Return the geometric stiffness (n, 12, 12) in local axes, over the nodes' displacements.
+
+        Parameters
+        ----------
+        axial_forces : ndarray, (n,)
+            Axial forces, tension positive [N].
+
+        Returns
+        -------
+        ndarray, (n, 12, 12)
+            Symmetric [N/m, N, N m].
+        """
+        own = local_geometric_stiffness(self.arrays, axial_forces)
+        return np.asarray(self.follow.transpose(0, 2, 1) @ own @ self.follow)
 
     @property
     def dofs(self) -> IntArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +13,7 @@ from frames.model.damping import Damping, ModalDamping, RayleighDamping
 from frames.model.names import known_name, new_name
 from frames.model.parts import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.placing import (
+    member_releases,
     member_up,
     node_list,
     one_elevation,
@@ -97,9 +98,16 @@ class FrameBuilder(FrameContents):
         self._masses[node] = frozen(total + np.concatenate([np.full(3, number), rotary]))
 
     def add_member(
-        self, name: str, i: str, j: str, section: Section, up: Sequence[float] | None = None
+        self,
+        name: str,
+        i: str,
+        j: str,
+        section: Section,
+        up: Sequence[float] | None = None,
+        *,
+        releases: Mapping[str, Sequence[str]] | None = None,
     ) -> None:
-        """Add an elastic beam-column, rigidly joined to its nodes.
+        """Add an elastic beam-column, rigidly joined to its nodes but for its releases.
 
         Parameters
         ----------
@@ -112,17 +120,22 @@ class FrameBuilder(FrameContents):
         up : sequence of 3 floats, optional
             Vector that fixes the local x-z plane; default global Z, and global X for vertical
             members.
+        releases : mapping, optional
+            Moments that an end does not pass on, of "T", "My" and "Mz" about local x, y and z: a
+            strut that is hinged at both ends has ``{"i": ("My", "Mz"), "j": ("My", "Mz")}``. A node
+            whose rotation nothing else holds must be fixed.
 
         Raises
         ------
         ModelError
-            If a name is unknown or taken, the length is zero or `up` is parallel to the member.
+            If a name is unknown or taken, the length is zero, `up` is parallel to the member, or
+            torsion is released at both ends.
         """
         new_name(name, self._members, "member")
         require_two_nodes(self._nodes, i, j, f'member "{name}"')
         require_type(f'section of member "{name}"', section, Section, "a Section: Section.box(...)")
         fixed_up = member_up(self._nodes, name, i, j, up)
-        self._members[name] = Member(name, i, j, section, fixed_up)
+        self._members[name] = Member(name, i, j, section, fixed_up, member_releases(name, releases))
 
     def add_spring(self, name: str, i: str, j: str, stiffness: Sequence[float]) -> None:
         """Add a linear 6-component spring between two nodes, in global axes.

@@ -16,6 +16,10 @@ DOFS = ("ux", "uy", "uz", "rx", "ry", "rz")
 """Names of a node's degrees of freedom: translations along and rotations about global x, y, z."""
 
 
+RELEASABLE = ("T", "My", "Mz")
+"""Moments about a member's local axes that its ends may be free of."""
+
+
 @dataclass(frozen=True)
 class Node:
     """A point of the structure: name and coordinates [m], z up."""
@@ -33,13 +37,17 @@ class Node:
 
 @dataclass(frozen=True)
 class Member:
-    """A beam-column from node `i` to node `j`; `up` fixes its local axes, None the default."""
+    """A beam-column from node `i` to node `j`; `up` fixes its local axes, None the default.
+
+    `releases` are the moments of `RELEASABLE` that it does not pass on at end i and at end j.
+    """
 
     name: str
     i: str
     j: str
     section: Section
     up: tuple[float, float, float] | None
+    releases: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.model.axes import default_up, local_axes
 from frames.model.names import known_name
-from frames.model.parts import Diaphragm, Level, Node, bearing_height
+from frames.model.parts import RELEASABLE, Diaphragm, Level, Node, bearing_height
 from lir_element.door import require_vector
 from lir_element.units import LENGTHS
 
@@ -127,6 +127,30 @@ def require_above(name: str, z: float, below: Level | None) -> None:
             f"{below.z:g} m: add levels from below to above, one for each elevation"
         )
         raise ModelError(message)
+
+
+def member_releases(
+    name: str, releases: Mapping[str, Sequence[str]] | None
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the moments that ends i and j of a member do not pass on, checked."""
+    given = dict(releases or {})
+    unknown = [end for end in given if end not in {"i", "j"}]
+    wrong = [part for parts in given.values() for part in parts if part not in RELEASABLE]
+    if unknown or wrong:
+        message = (
+            f'releases of member "{name}": {unknown[0] if unknown else wrong[0]!r} is none; give '
+            f'ends "i" and "j" with moments of {", ".join(RELEASABLE)}, such as '
+            '{"j": ("My", "Mz")}'
+        )
+        raise ModelError(message)
+    first, second = (tuple(part for part in RELEASABLE if part in given.get(e, ())) for e in "ij")
+    if "T" in first and "T" in second:
+        message = (
+            f'releases of member "{name}": torsion at both ends would let it spin about itself: '
+            'release "T" at one end at most'
+        )
+        raise ModelError(message)
+    return first, second
 
 
 def _in_mm(rise: float, height: float) -> str:

@@ -37,7 +37,7 @@ def member_lines(table: MemberTable, coordinates: FloatArray, u: FloatArray) -> 
         Points in global axes [m].
     """
     axes, length = table.arrays.axes, table.arrays.length[:, None]
-    local = to_local(u.reshape(-1)[table.dofs], axes)
+    local = np.einsum("mab,mb->ma", table.follow, to_local(u.reshape(-1)[table.dofs], axes))
     t = np.linspace(0.0, 1.0, STATIONS)[None, :]
     one, two = 1.0 - 3.0 * t**2 + 2.0 * t**3, 3.0 * t**2 - 2.0 * t**3
     near, far = length * (t - 2.0 * t**2 + t**3), length * (t**3 - t**2)

@@ -306,6 +306,15 @@ def _draw(
         ends = place[[i, j]]
         drawn += panel.plot(*ends.T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
         drawn += panel.plot(*ends[1:].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
+    hinges = [
+        lines[k, (0, -1)[end]] + 0.08 * (lines[k, (-1, 0)[end]] - lines[k, (0, -1)[end]])
+        for k, member in enumerate(model.members.values())
+        for end in (0, 1)
+        if set(member.releases[end]) & {"My", "Mz"}
+    ]
+    if hinges:
+        style = {"linestyle": "", "marker": "o", "markersize": 4.0, "fillstyle": "none"}
+        drawn += panel.plot(*np.array(hinges).T, color=MEMBERS, **style)
     fixed = [index[name] for name, dofs in model.fixed_dofs.items() if {"ux", "uy", "uz"} & dofs]
     drawn += panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
     mass = system.node_mass[:, :3].max(axis=1)
@@ -342,6 +351,9 @@ def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
     handles = [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
     if model.springs:
         handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
+    if any(any(member.releases) for member in model.members.values()):
+        ring = Line2D([], [], color=MEMBERS, marker="o", fillstyle="none", label="hinges", **plain)
+        handles.append(ring)
     handles += [
         Line2D([], [], color=BEARINGS, marker="o", label="bearings", **plain),
         Line2D([], [], color=SUPPORTS, marker="^", label="supports", **plain),

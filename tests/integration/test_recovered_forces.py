@@ -10,6 +10,7 @@ from frames import (
     Frame,
     GroundMotion,
     ModelError,
+    Section,
     force_tables,
     load,
     lumped_mass,
@@ -238,3 +239,27 @@ def test_end_forces_are_those_of_opensees():
         scale = np.abs(other).reshape(*mine.shape[:2], -1, 2, 3)
         for kind in range(2):  # forces, moments
             assert apart[..., kind, :].max() < 1e-3 * scale[..., kind, :].max()
+
+
+def test_a_braced_building_is_in_equilibrium_too():
+    """Struts between hinges take most of a storey's shear."""
+    frame = moment_frame((1, 1), 2, bearing=bearing(), damping=None)
+    strut = Section.circle(0.2, 0.01, density=0.0)
+    pinned = {"i": ("My", "Mz"), "j": ("My", "Mz")}
+    for storey, (low, high) in enumerate((("base", "floor-1"), ("floor-1", "floor-2"))):
+        for row in (0, 1):
+            ends = (f"{low}-0-{row}", f"{high}-1-{row}")
+            frame.add_member(f"brace-{storey}-{row}", *ends, strut, releases=pinned)
+    data = time_history(frame, MOTION, 2.0, dt=0.005)
+    assert data.attrs["status"] == "ok"
+    found = storey_forces(frame, data).sel(storey="floor-2", component=["Vx", "Vy"])
+    masses, _, _ = parts_above(frame, frame.levels[1].z + 1e-3)
+    inertia = -np.einsum("na,tna->ta", masses, acceleration(data))[:, :2]
+    assert_allclose(found, inertia, rtol=0.0, atol=5e-6 * np.abs(inertia).max())
+    braces = member_forces(frame, data, ["brace-1-0", "brace-1-1"])
+    assert float(np.abs(braces.sel(component=["My", "Mz"])).max()) < 1e-6
+    along = 6.0 / np.hypot(6.0, 3.5)
+    taken = -along * braces.sel(end="i", component="N").sum("member").to_numpy()
+    shear = found.sel(component="Vx").to_numpy()
+    k = int(np.abs(shear).argmax())
+    assert 0.5 < abs(taken[k] / shear[k]) < 1.0

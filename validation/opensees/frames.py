@@ -166,6 +166,9 @@ def add_loads(ops: Any, frame: Frame, built: Built) -> None:
 def _member(
     ops: Any, frame: Frame, tag: int, member: Member, nodes: dict[str, int], transformation: str
 ) -> None:
+    if any(member.releases):
+        msg = f'member "{member.name}" has releases, which are not carried over to OpenSees here'
+        raise ValueError(msg)
     start, end = (np.array([frame.nodes[name].position]) for name in (member.i, member.j))
     up = default_up(start, end)[0].tolist() if member.up is None else member.up
     ops.geomTransf(transformation, tag, *up)
