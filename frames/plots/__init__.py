@@ -15,10 +15,10 @@ from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
-from frames.plots.plot_model import bearing_plan as bearing_plan
 from frames.plots.plot_model import mode_shapes as mode_shapes
 from frames.plots.plot_model import model_film as model_film
 from frames.plots.plot_model import model_view as model_view
+from frames.plots.plot_plan import bearing_plan as bearing_plan
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
