@@ -15,7 +15,7 @@ from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.moment_frames import moment_frame as moment_frame
 from frames.model.damping import Damping
 from frames.model.parts import bearing_axial_stiffness
-from lir_element.door import require_positive
+from lir_element.door import require_between, require_positive
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -96,6 +96,7 @@ def shear_building(
     base_mass: float | None = None,
     axial_stiffness: Storeys | None = None,
     plan: Plan | None = None,
+    eccentricity: tuple[float, float] = (0.0, 0.0),
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
     name: str = "shear building",
@@ -124,6 +125,10 @@ def shear_building(
         bearing under every grid point, distributes the mass over the plan and the storey stiffness
         over columns at the grid points, and frees the floors' rotation about z. Without it there
         is one bearing and no rotation.
+    eccentricity : tuple of two floats
+        Distance of the masses of base and floors from the middle of the plan along x and y, over
+        the sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). They stand on nodes
+        "base-mass", "floor-1-mass", ...
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float
@@ -159,11 +164,13 @@ def shear_building(
     else:
         held = ("rx", "ry")
         polar, gyration, level = _base_grid(frame, bearing, plan)
+    off = _offset(plan, eccentricity)
     frame.fix("base", *held)
-    frame.add_mass("base", base, (0.0, 0.0, base * gyration))
+    _add_mass(frame, "base", base, gyration, off)
     frame.add_level("base", ["base"])
     for k, values in enumerate(zip(*chains, strict=True), start=1):
-        _add_storey(frame, k, level + k * height, values, polar, gyration, held)
+        _add_storey(frame, k, level + k * height, values, polar, held)
+        _add_mass(frame, f"floor-{k}", values[0], gyration, off)
     frame.set_damping(damping)
     return frame
 
@@ -174,18 +181,56 @@ def _add_storey(
     z: float,
     values: tuple[float, float, float],
     polar: float,
-    gyration: float,
     held: tuple[str, ...],
 ) -> None:
-    # Floor `number` at elevation z on the storey below it; mass, lateral and axial stiffness.
-    mass, lateral, axial = values
+    # Floor `number` at elevation z on the storey below it, of lateral and axial stiffness.
+    _, lateral, axial = values
     floor, below = f"floor-{number}", f"floor-{number - 1}" if number > 1 else "base"
     frame.add_node(floor, 0.0, 0.0, z)
     frame.fix(floor, *held)
-    frame.add_mass(floor, mass, (0.0, 0.0, mass * gyration))
     stiffness = (lateral, lateral, axial, 0.0, 0.0, lateral * polar)
     frame.add_spring(f"storey-{number}", below, floor, stiffness)
     frame.add_level(floor, [floor])
+
+
+def _offset(plan: Plan | None, eccentricity: tuple[float, float]) -> tuple[float, float]:
+    # Of the masses from the middle of the plan [m].
+    shares = [
+        require_between(
+            "shear_building: eccentricity [-]", share, -0.5, 0.5,
+            remedy="0.05 is a twentieth of the side", error=ModelError,
+        )
+        for share in eccentricity
+    ]  # fmt: skip
+    if plan is None:
+        if any(shares):
+            message = (
+                f"shear_building: eccentricity = {eccentricity} without a plan: its floors do not "
+                "rotate, give plan=(bays, bay_width)"
+            )
+            raise ModelError(message)
+        return 0.0, 0.0
+    bays = pair(plan[0], "shear_building: bays", count=True)
+    width = pair(plan[1], "shear_building: bay width [m]")
+    return shares[0] * bays[0] * width[0], shares[1] * bays[1] * width[1]
+
+
+def _add_mass(
+    frame: Frame, floor: str, mass: float, gyration: float, off: tuple[float, float]
+) -> None:
+    # Mass of a floor: on its node, or on a node beside it that goes with the floor.
+    node = floor
+    if any(off):
+        node = f"{floor}-mass"
+        frame.add_node(node, *off, frame.nodes[floor].z)
+        frame.fix(node, "rx", "ry")
+        tie = RIGID_RATIO * mass * (2.0 * math.pi / VERTICAL_PERIOD) ** 2
+        frame.add_spring(f"tie-{node}", floor, node, (0.0, 0.0, tie, 0.0, 0.0, 0.0))
+        own = frame.diaphragms[floor].nodes if floor in frame.diaphragms else (floor,)
+        if floor in frame.diaphragms:
+            frame.remove("diaphragm", floor)
+        frame.add_diaphragm(floor, [*own, node])
+    frame.add_mass(node, mass, (0.0, 0.0, mass * gyration))
 
 
 def _one_bearing(frame: Frame, bearing: Bearings) -> float:

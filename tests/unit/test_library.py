@@ -234,3 +234,32 @@ def test_eccentricities_that_leave_columns_without_mass() -> None:
     moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.999 * bound, 0.0))
     with pytest.raises(ModelError, match="eccentricity"):
         moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(1.001 * bound, 0.0))
+
+
+def test_shear_building_with_eccentric_masses_twists() -> None:
+    """The first coupled periods of a one-storey building on held bearings, in closed form."""
+    plan, mass, stiffness = ((2, 1), (6.0, 8.0)), 1e5, 4e7
+    frame = shear_building(
+        bearing(), mass, stiffness, storeys=1, plan=plan, eccentricity=(0.1, 0.0), gravity=0.0,
+    )  # fmt: skip
+    system = assemble(frame)
+    assert "floor-1-mass" in system.node_names
+    off = 0.1 * 12.0
+    radius = (12.0**2 + 8.0**2) / 12.0  # of gyration, squared, about the centre of mass
+    polar = (4 * (6.0**2 + 4.0**2) + 2 * 4.0**2) / 6.0  # of the columns at the grid points
+    k = stiffness * np.array([[1.0, off], [off, polar + off**2]])  # y and twist at that centre
+    m = mass * np.diag([1.0, radius])
+    expected = 2.0 * math.pi / np.sqrt(scipy.linalg.eigh(k, m, eigvals_only=True))
+    periods = fixed_base_periods(system)
+    along = 2.0 * math.pi * math.sqrt(mass / stiffness)
+    for period in (*expected, along):
+        assert np.abs(periods - period).min() < 1e-6 * period
+    plain = assemble(shear_building(bearing(), mass, stiffness, storeys=1, plan=plan))
+    assert "floor-1-mass" not in plain.node_names
+
+
+def test_eccentric_masses_need_a_plan() -> None:
+    with pytest.raises(ModelError, match=r"without a plan: its floors do not rotate"):
+        shear_building(bearing(), 1e5, 1e7, eccentricity=(0.05, 0.0))
+    with pytest.raises(ModelError, match=r"eccentricity \[-\] = 0\.7"):
+        shear_building(bearing(), 1e5, 1e7, plan=((1, 1), 6.0), eccentricity=(0.7, 0.0))
