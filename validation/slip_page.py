@@ -19,12 +19,10 @@ LEAST = 0.02
 """Slip over the capacity: errors of a smaller largest slip are over this one [-]."""
 ALLOWED = {"displacement": 0.05, "force": 0.05, "slip": 0.1, "left": 0.1}
 """Errors up to which a run that is called sufficient keeps its promise [-]."""
-PLACED = 0.02
-"""Slip beside the one that holds, within which the end is a matter of a per cent [-]."""
 FINE = ("ok", "inaccurate")
 SHOWN = 12
 BOUNDS = (3.0, 5.0, 10.0)
-WITHIN = tuple(f"within {bound:g} %" for bound in BOUNDS)
+SPREAD = ("median", "90 % below", "worst", *(f"within {bound:g} %" for bound in BOUNDS))
 NAMES = {
     "slip": "largest slip", "left": "slip left, over the largest",
     "displacement": "peak displacement", "force": "force (99.9 %)",
@@ -55,8 +53,7 @@ def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
             if len(e) == 0:
                 continue
             rows.append((
-                f"{title} ({len(fit)})", f"`{level}`", words, f"{np.median(e):.2g}",
-                f"{np.percentile(e, 90):.2g}", f"{e.max():.3g}", *_within(e),
+                f"{title} ({len(fit)})", f"`{level}`", words, *_spread(e),
             ))  # fmt: skip
     return rows
 
@@ -80,8 +77,10 @@ def unlike(entries: Sequence[Entry], level: str) -> list[Entry]:
     return [e for e in entries if ends_well(e, level) != ends_well(e, "rigid_body")]
 
 
-def _within(e: FloatArray) -> tuple[str, ...]:
-    return tuple(f"{(e <= bound).mean():.1%}" for bound in BOUNDS)
+def _spread(e: FloatArray) -> tuple[str, ...]:
+    # The cells under `SPREAD` of errors [%].
+    shares = (f"{(e <= bound).mean():.1%}" for bound in BOUNDS)
+    return f"{np.median(e):.2g}", f"{np.percentile(e, 90):.2g}", f"{e.max():.3g}", *shares
 
 
 def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
@@ -100,8 +99,7 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
         for title, entries in (("before", were), ("now", alike)):
             e = 100.0 * np.array([errors(entry, "pendulum")[name] for entry in entries])
             rows.append((
-                words, title, f"{np.median(e):.2g}", f"{np.percentile(e, 90):.2g}",
-                f"{e.max():.3g}", *_within(e),
+                words, title, *_spread(e),
             ))  # fmt: skip
     past = [entry for entry in now if entry["number"] in kept]
     past = [entry | {"pendulum": kept[entry["number"]]} for entry in past]
@@ -109,7 +107,7 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
         "## Before the sliders could spin", "",
         f"The level `pendulum` without spin, in the same {len(alike)} scenes with equal rims and "
         "without uplift, against the same rigid bodies.", "",
-        table(("of", "", "median", "90 % below", "worst", *WITHIN), rows), "",
+        table(("of", "", *SPREAD), rows), "",
         f"Another end than the rigid bodies' had then {len(unlike(past, 'pendulum'))} of "
         f"{len(past)} scenes, now {len(unlike(now, 'pendulum'))}.", "",
     ]  # fmt: skip
@@ -218,7 +216,7 @@ def page(
     ])  # fmt: skip
 
 
-_HEAD = ("scenes", "level", "of", "median", "90 % below", "worst", *WITHIN)
+_HEAD = ("scenes", "level", "of", *SPREAD)
 _ENDS = (
     "scene", "pendulum", "contact", "rigid_body", "largest slip [mm]", "slip that holds [mm]",
     "overlap [mm]", "rims", "called sufficient",

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
-    from frames.assembly.system import System
+    from frames.assembly.system import MemberTable, System
     from frames.model.contents import FrameContents
+    from frames.model.parts import Level
 
 COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
 """End forces of a member along and about its local axes x, y, z."""
@@ -45,6 +46,7 @@ class _Structure(NamedTuple):
     # A frame as it was analysed, and its displacements under a time history.
     system: System
     axial: FloatArray  # (n_members,) of permanent loads, tension positive [N]
+    data: xr.Dataset
     u: FloatArray  # (time, 6 n_nodes)
 
 
@@ -82,18 +84,7 @@ def member_forces(
     if unknown:
         msg = f'members: no member "{unknown[0]}" in {model.name}; its members: {_some(names)}'
         raise ModelError(msg)
-    place = np.array([names.index(name) for name in chosen], dtype=np.int64)
-    forces = member_end_forces(found.system, found.u, found.axial, place)
-    return xr.DataArray(
-        np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
-        dims=("time", "member", "end", "component"),
-        coords={
-            "time": data["time"], "member": list(chosen), "end": ["i", "j"],
-            "component": list(COMPONENTS),
-        },
-        attrs={"units": "N, N m", "long_name": "end forces in local axes"},
-        name="member_forces",
-    )  # fmt: skip
+    return _member_forces(found, chosen)
 
 
 def support_reactions(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
@@ -118,29 +109,7 @@ def support_reactions(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
     ModelError
         If the model is not the one that was analysed.
     """
-    found = _structure(model, data)
-    system = found.system
-    stiffness = sparse.csr_array(
-        system.node_stiffness + node_geometric_stiffness(system, found.axial)
-    )
-    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
-    forces = np.asarray(stiffness[fixed] @ found.u.T).T - system.node_load[fixed]
-    every = np.ones((len(system.bearings), 2), dtype=bool)
-    forces += _bearing_ends(system, data, every)[:, fixed]
-    nodes, row = np.unique(fixed // 6, return_inverse=True)
-    values = np.full((len(found.u), len(nodes), 6), np.nan)
-    values[:, row, fixed % 6] = forces
-    return xr.DataArray(
-        values,
-        dims=("time", "support", "dof"),
-        coords={
-            "time": data["time"],
-            "support": [system.node_names[node] for node in nodes],
-            "dof": list(DOFS),
-        },
-        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"},
-        name="support_reactions",
-    )
+    return _support_reactions(_structure(model, data))
 
 
 def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
@@ -173,30 +142,7 @@ def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
     if not model.levels:
         msg = f"{model.name} has no level: storeys need Frame.add_level for each floor"
         raise ModelError(msg)
-    system = found.system
-    values = np.zeros((len(found.u), len(model.levels), 6))
-    for k in range(len(model.levels)):
-        below = model.levels[max(k - 1, 0)]
-        height = below.z - _LEVEL if k == 0 else below.z + _LEVEL
-        above = system.coordinates[:, 2] > height
-        nodes = [system.node_names.index(name) for name in below.nodes]
-        middle = system.coordinates[nodes].mean(axis=0)
-        rows, constant = _crossing(found, above)
-        lower, upper = (_resultant(system.coordinates, middle, part) for part in (~above, above))
-        values[:, k] = -np.asarray((lower @ rows) @ found.u.T).T - lower @ constant
-        held = _bearing_ends(system, data, _crossed(system, above))
-        values[:, k] += np.asarray(upper @ held.T).T
-    return xr.DataArray(
-        values,
-        dims=("time", "storey", "component"),
-        coords={
-            "time": data["time"],
-            "storey": [level.name for level in model.levels],
-            "component": ["Vx", "Vy", "Fz", "Mx", "My", "Mz"],
-        },
-        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
-        name="storey_forces",
-    )
+    return _storey_forces(found, model.levels)
 
 
 def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFrame]:
@@ -221,18 +167,20 @@ def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFra
     ModelError
         If the model is not the one that was analysed.
     """
-    parts: dict[str, list[xr.Dataset]] = {"members": [], "storeys": [], "supports": []}
-    names = tuple(model.members)
-    for first in range(0, len(names), _AT_ONCE):  # histories of all would fill the memory
-        some = member_forces(model, data, names[first : first + _AT_ONCE])
-        parts["members"].append(envelope(some))
-    if model.levels:
-        parts["storeys"].append(envelope(storey_forces(model, data)))
-    parts["supports"].append(envelope(support_reactions(model, data)))
+    found = _structure(model, data)
+    names = found.system.members.names
+    parts = {
+        "members": [  # by and by: histories of all would fill the memory
+            envelope(_member_forces(found, names[first : first + _AT_ONCE]))
+            for first in range(0, len(names), _AT_ONCE)
+        ],
+        "storeys": [envelope(_storey_forces(found, model.levels))] if model.levels else [],
+        "supports": [envelope(_support_reactions(found))],
+    }
     return {
-        name: pd.concat([each.to_dataframe() for each in found]).dropna()
-        for name, found in parts.items()
-        if found
+        name: pd.concat([each.to_dataframe() for each in some]).dropna()
+        for name, some in parts.items()
+        if some
     }
 
 
@@ -255,7 +203,7 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
     require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
     axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
-    return _Structure(system, axial, u.reshape(len(u), -1))
+    return _Structure(system, axial, data, u.reshape(len(u), -1))
 
 
 def _with_points(data: xr.Dataset) -> list[str]:
@@ -267,23 +215,95 @@ def _with_points(data: xr.Dataset) -> list[str]:
     return [str(name) for name in data["bearing"].to_numpy()[has]]
 
 
-def _crossing(found: _Structure, above: BoolArray) -> tuple[SparseMatrix, FloatArray]:
-    # Forces on the ends of what crosses a cut: rows over all displacements, and the constant part.
+def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
+    names = found.system.members.names
+    place = np.array([names.index(name) for name in chosen], dtype=np.int64)
+    forces = member_end_forces(found.system, found.u, found.axial, place)
+    return xr.DataArray(
+        np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
+        dims=("time", "member", "end", "component"),
+        coords={
+            "time": found.data["time"], "member": list(chosen), "end": ["i", "j"],
+            "component": list(COMPONENTS),
+        },
+        attrs={"units": "N, N m", "long_name": "end forces in local axes"},
+        name="member_forces",
+    )  # fmt: skip
+
+
+def _support_reactions(found: _Structure) -> xr.DataArray:
+    system = found.system
+    stiffness = sparse.csr_array(
+        system.node_stiffness + node_geometric_stiffness(system, found.axial)
+    )
+    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
+    forces = np.asarray(stiffness[fixed] @ found.u.T).T - system.node_load[fixed]
+    every = np.ones((len(system.bearings), 2), dtype=bool)
+    forces += _bearing_ends(found, every)[:, fixed]
+    nodes, row = np.unique(fixed // 6, return_inverse=True)
+    values = np.full((len(found.u), len(nodes), 6), np.nan)
+    values[:, row, fixed % 6] = forces
+    return xr.DataArray(
+        values,
+        dims=("time", "support", "dof"),
+        coords={
+            "time": found.data["time"],
+            "support": [system.node_names[node] for node in nodes],
+            "dof": list(DOFS),
+        },
+        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"},
+        name="support_reactions",
+    )
+
+
+def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray:
     system, table = found.system, found.system.members
-    blocks = matrix_to_global(table.stiffness + table.geometric(found.axial), table.arrays.axes)
+    own, whole = (
+        matrix_to_global(local, table.arrays.axes)
+        for local in (table.stiffness, table.stiffness + table.geometric(found.axial))
+    )
+    rest = system.node_stiffness - scatter(own, table.nodes, len(system.node_names))
+    values = np.zeros((len(found.u), len(levels), 6))
+    for k in range(len(levels)):
+        below = levels[max(k - 1, 0)]
+        height = below.z - _LEVEL if k == 0 else below.z + _LEVEL
+        above = system.coordinates[:, 2] > height
+        nodes = [system.node_names.index(name) for name in below.nodes]
+        middle = system.coordinates[nodes].mean(axis=0)
+        rows, constant = _crossing(table, whole, above)
+        lower, upper = (_resultant(system.coordinates, middle, part) for part in (~above, above))
+        values[:, k] = -np.asarray((lower @ (rest + rows)) @ found.u.T).T - lower @ constant
+        held = _bearing_ends(found, _crossed(system, above))
+        values[:, k] += np.asarray(upper @ held.T).T
+    return xr.DataArray(
+        values,
+        dims=("time", "storey", "component"),
+        coords={
+            "time": found.data["time"],
+            "storey": [level.name for level in levels],
+            "component": ["Vx", "Vy", "Fz", "Mx", "My", "Mz"],
+        },
+        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
+        name="storey_forces",
+    )
+
+
+def _crossing(
+    table: MemberTable, blocks: FloatArray, above: BoolArray
+) -> tuple[SparseMatrix, FloatArray]:
+    # Forces on the ends of the members that cross a cut: rows over all displacements, and the
+    # constant part; `blocks` are their stiffness in global axes.
     crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
-    count = len(system.node_names)
-    own = matrix_to_global(table.stiffness, table.arrays.axes)
-    rest = system.node_stiffness - scatter(own, table.nodes, count)  # springs, superelements
-    rows = sparse.csr_array(rest + scatter(blocks[crosses], table.nodes[crosses], count))
-    constant = np.zeros(6 * count)
+    rows = scatter(blocks[crosses], table.nodes[crosses], len(above))
+    constant = np.zeros(6 * len(above))
     fixed_end = to_global(table.fixed_end, table.arrays.axes)
     np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
     return rows, constant
 
 
-def _bearing_ends(system: System, data: xr.Dataset, chosen: BoolArray) -> FloatArray:
+def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
     # Forces of the nodes on the chosen ends (n_bearings, 2) of bearings, (time, 6 n_nodes).
+    system, data = found.system, found.data
     force = data["bearing_force"].transpose("time", "bearing", "axis").to_numpy()
     moment = data["bearing_moment"].transpose("time", "bearing", "end", "axis").to_numpy()
     total = np.zeros((len(force), 6 * len(system.node_names)))

@@ -159,14 +159,17 @@ def shear_building(
     frame = Frame(name, gravity)
     if plan is None:
         held: tuple[str, ...] = ("rx", "ry", "rz")
-        polar = gyration = 0.0
+        tied: tuple[str, ...] = ()
+        polar, side = 0.0, (0.0, 0.0)
         level = _one_bearing(frame, bearing)
     else:
         held = ("rx", "ry")
-        polar, gyration, level = _base_grid(frame, bearing, plan)
-    off = _offset(plan, eccentricity)
+        polar, side, level = _base_grid(frame, bearing, plan)
+        tied = tuple(link.j for link in frame.bearings.values())
+    off = _offset(side, eccentricity)
+    gyration = (side[0] ** 2 + side[1] ** 2) / 12.0
     frame.fix("base", *held)
-    _add_mass(frame, "base", base, gyration, off)
+    _add_mass(frame, "base", base, gyration, off, tied)
     frame.add_level("base", ["base"])
     for k, values in enumerate(zip(*chains, strict=True), start=1):
         _add_storey(frame, k, level + k * height, values, polar, held)
@@ -193,8 +196,8 @@ def _add_storey(
     frame.add_level(floor, [floor])
 
 
-def _offset(plan: Plan | None, eccentricity: tuple[float, float]) -> tuple[float, float]:
-    # Of the masses from the middle of the plan [m].
+def _offset(side: tuple[float, float], eccentricity: tuple[float, float]) -> tuple[float, float]:
+    # Of the masses from the middle of a plan of sides [m], which are 0 where there is none.
     shares = [
         require_between(
             "shear_building: eccentricity [-]", share, -0.5, 0.5,
@@ -202,23 +205,24 @@ def _offset(plan: Plan | None, eccentricity: tuple[float, float]) -> tuple[float
         )
         for share in eccentricity
     ]  # fmt: skip
-    if plan is None:
-        if any(shares):
-            message = (
-                f"shear_building: eccentricity = {eccentricity} without a plan: its floors do not "
-                "rotate, give plan=(bays, bay_width)"
-            )
-            raise ModelError(message)
-        return 0.0, 0.0
-    bays = pair(plan[0], "shear_building: bays", count=True)
-    width = pair(plan[1], "shear_building: bay width [m]")
-    return shares[0] * bays[0] * width[0], shares[1] * bays[1] * width[1]
+    if any(shares) and not any(side):
+        message = (
+            f"shear_building: eccentricity = {eccentricity} without a plan: its floors do not "
+            "rotate, give plan=(bays, bay_width)"
+        )
+        raise ModelError(message)
+    return shares[0] * side[0], shares[1] * side[1]
 
 
 def _add_mass(
-    frame: Frame, floor: str, mass: float, gyration: float, off: tuple[float, float]
+    frame: Frame,
+    floor: str,
+    mass: float,
+    gyration: float,
+    off: tuple[float, float],
+    tied: tuple[str, ...] = (),
 ) -> None:
-    # Mass of a floor: on its node, or on a node beside it that goes with the floor.
+    # Mass of a floor: on its node, or on a node beside it. That goes with the floor, as do `tied`.
     node = floor
     if any(off):
         node = f"{floor}-mass"
@@ -226,10 +230,9 @@ def _add_mass(
         frame.fix(node, "rx", "ry")
         tie = RIGID_RATIO * mass * (2.0 * math.pi / VERTICAL_PERIOD) ** 2
         frame.add_spring(f"tie-{node}", floor, node, (0.0, 0.0, tie, 0.0, 0.0, 0.0))
-        own = frame.diaphragms[floor].nodes if floor in frame.diaphragms else (floor,)
-        if floor in frame.diaphragms:
-            frame.remove("diaphragm", floor)
-        frame.add_diaphragm(floor, [*own, node])
+        tied = (*tied, node)
+    if tied:
+        frame.add_diaphragm(floor, [floor, *tied])
     frame.add_mass(node, mass, (0.0, 0.0, mass * gyration))
 
 
@@ -248,13 +251,14 @@ def _one_bearing(frame: Frame, bearing: Bearings) -> float:
     return bearing.height
 
 
-def _base_grid(frame: Frame, bearing: Bearings, plan: Plan) -> tuple[float, float, float]:
-    # Node "base" tied to a grid of bearings around it. Returns the mean of x^2 + y^2 over the grid
-    # points and over the plan's area [m2], and z of the base.
+def _base_grid(
+    frame: Frame, bearing: Bearings, plan: Plan
+) -> tuple[float, tuple[float, float], float]:
+    # Node "base" held level over a grid of bearings around it. Returns the mean of x^2 + y^2 over
+    # the grid points [m2], the plan's sides [m], and z of the base.
     bays = tuple(int(n) for n in pair(plan[0], "shear_building: bays", count=True))
     width = pair(plan[1], "shear_building: bay width [m]")
     side = (bays[0] * width[0], bays[1] * width[1])
-    gyration = (side[0] ** 2 + side[1] ** 2) / 12.0
     places = [(ix, iy) for ix in range(bays[0] + 1) for iy in range(bays[1] + 1)]
     level = bearing_grid(frame, bearing, places, width, (-0.5 * side[0], -0.5 * side[1]))
     frame.add_node("base", 0.0, 0.0, level)
@@ -264,9 +268,8 @@ def _base_grid(frame: Frame, bearing: Bearings, plan: Plan) -> tuple[float, floa
     for node in nodes:
         frame.fix(node, "rx", "ry")
         frame.add_spring(f"tie-{node}", "base", node, tie)
-    frame.add_diaphragm("base", ["base", *nodes])
     squares = [frame.nodes[node].x ** 2 + frame.nodes[node].y ** 2 for node in nodes]
-    return sum(squares) / len(squares), gyration, level
+    return sum(squares) / len(squares), side, level
 
 
 def _storeys(

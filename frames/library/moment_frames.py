@@ -127,9 +127,10 @@ def _masses(
         ratio = require_finite("moment_frame: eccentricity [-]", off, error=ModelError)
         share = np.array([0.5, *[1.0] * (n - 1), 0.5])
         place = span * (np.arange(n + 1) - 0.5 * n)
-        tilt = ratio * n * span / float((share * place**2).sum() / share.sum())
-        bound = 2.0 * float((share * place**2).sum() / share.sum()) / (n * span) ** 2
-        if not abs(tilt) * 0.5 * n * span < 1.0:
+        side, square = n * span, float((share * place**2).sum() / share.sum())
+        tilt = ratio * side / square
+        if not abs(tilt) * 0.5 * side < 1.0:
+            bound = 2.0 * square / side**2
             message = (
                 f"moment_frame: eccentricity = {ratio:g} of the side would leave columns at one "
                 f"edge without mass: at most {bound:.3g} here (codes ask for 0.05)"

@@ -11,7 +11,7 @@ from frames._errors import ModelError
 from frames.model.builder import FrameBuilder
 from frames.model.names import known_name, new_name
 from frames.model.parts import BearingLink, bearing_height
-from frames.model.placing import POSITION_TOLERANCE, require_bearing_place
+from frames.model.placing import fits, require_bearing_place
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -104,8 +104,7 @@ class FrameEditor(FrameBuilder):
     def _settle_under(self, name: str, link: BearingLink, height: float) -> None:
         # Moves the node below a bearing so that a device of another height fits.
         low, high = self._nodes[link.i], self._nodes[link.j]
-        rise = high.z - low.z
-        if min(abs(rise), abs(rise - height)) <= POSITION_TOLERANCE:
+        if fits(high.z - low.z, height):
             return
         ends: list[tuple[str, ...]] = [
             *((member.i, member.j) for member in self._members.values()),

@@ -98,6 +98,11 @@ def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphr
             raise ModelError(message)
 
 
+def fits(rise: float, height: float) -> bool:
+    """Return whether a bearing of a height stands between nodes that are `rise` apart [m]."""
+    return min(abs(rise), abs(rise - height)) <= POSITION_TOLERANCE
+
+
 def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRBearing) -> None:
     """Raise unless node j is on the vertical through node i, at distance 0 or the height."""
     height = bearing_height(name, bearing)
@@ -110,7 +115,7 @@ def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRB
             f'node "{i}", at most {POSITION_TOLERANCE:g} m is allowed: give both one x and y'
         )
         raise ModelError(message)
-    if min(abs(rise), abs(rise - height)) > POSITION_TOLERANCE:
+    if not fits(rise, height):
         message = (
             f'bearing "{name}": node "{j}" is {rise:g} m above node "{i}", it must be 0 m or '
             f"the bearing's height {height:g} m within {POSITION_TOLERANCE:g} m: "

@@ -13,7 +13,7 @@ from frames.plots import plot_style as ps
 from frames.results.measures import (
     drift_by_line,
     floor_acceleration,
-    floor_spectrum,
+    spectra_of,
     storey_drift,
 )
 
@@ -138,7 +138,8 @@ def floor_spectra(
     columns = ps.COLUMNS[len(shown)]
     figure, panels = ps.panels_of(len(shown), columns, 2.5)
     for k, data in enumerate(found.values()):
-        spectra = floor_spectrum(data, PERIODS, damping).sel(axis=axis)
+        motions = floor_acceleration(data).sel(level=shown, axis=[axis])
+        spectra = spectra_of(motions, PERIODS, damping).sel(axis=axis)
         for panel, name in zip(panels, shown, strict=True):
             panel.plot(PERIODS, spectra.sel(level=name), **ps.line_of(k))
     for place, (panel, name) in enumerate(zip(panels, shown, strict=True)):

@@ -61,9 +61,7 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
         If the model has fewer than two levels.
     """
     heights = _level_heights(data)
-    place = data["level_node"].to_numpy()
-    moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
-    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(len(heights))], axis=1)
+    means = _level_means(data, "node_displacement", ["ux", "uy"])
     drift = np.diff(means, axis=1) / np.diff(heights)[None, :, None]
     names = [str(name) for name in data["level"].to_numpy()[1:]]
     return xr.DataArray(
@@ -76,12 +74,8 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
 
 def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
     """Return the mean total acceleration of each level's nodes (time, level, axis) [m/s2]."""
-    place = data["level_node"].to_numpy()
-    moves = data["node_acceleration"].sel(dof=["ux", "uy", "uz"]).to_numpy()
-    count = data.sizes["level"]
-    means = np.stack([moves[:, place == k].mean(axis=1) for k in range(count)], axis=1)
     return xr.DataArray(
-        means,
+        _level_means(data, "node_acceleration", ["ux", "uy", "uz"]),
         dims=("time", "level", "axis"),
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
         attrs={"units": "m/s2", "long_name": "total acceleration of the level"},
@@ -157,12 +151,16 @@ def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.
     ValueError
         If the records are not equally spaced in time.
     """
-    time = data["time"].to_numpy()
-    steps = np.diff(time)
+    return spectra_of(floor_acceleration(data), periods, damping)
+
+
+def spectra_of(motions: xr.DataArray, periods: npt.ArrayLike, damping: float) -> xr.DataArray:
+    """Return the spectra (level, axis, period) of motions (time, level, axis): `floor_spectrum`."""
+    steps = np.diff(motions["time"].to_numpy())
     if len(steps) == 0 or np.ptp(steps) > 1e-6 * steps.mean():
         msg = "spectra need records equally spaced in time, at least two: run with a fixed record"
         raise ValueError(msg)
-    moves = floor_acceleration(data).transpose("level", "axis", "time")
+    moves = motions.transpose("level", "axis", "time")
     values = [
         [
             response_spectrum(one, float(steps[0]), periods, damping)["pseudo_acceleration"]
@@ -227,6 +225,14 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
         total[..., 0] += lever * turns[:, place, 1]
         total[..., 1] -= lever * turns[:, place, 0]
     return total
+
+
+def _level_means(data: xr.Dataset, name: str, dofs: list[str]) -> FloatArray:
+    # Means over the nodes of each level, (time, level, dof).
+    place, values = data["level_node"].to_numpy(), data[name].sel(dof=dofs).to_numpy()
+    return np.stack(
+        [values[:, place == k].mean(axis=1) for k in range(data.sizes["level"])], axis=1
+    )
 
 
 def _level_heights(data: xr.Dataset) -> FloatArray:

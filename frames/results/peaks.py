@@ -101,7 +101,7 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
     def of(name: str) -> FloatArray:
         return np.asarray(data[name].transpose("time", "bearing", ...).to_numpy())
 
-    u = np.linalg.norm(of("bearing_displacement")[..., :2], axis=-1)
+    u = _plan(of("bearing_displacement"))
     capacity = lateral_capacity(data)
     slip, overlap = of("interface_slip_size"), data["slip_capacity"].to_numpy()
     axial = of("axial_force")
