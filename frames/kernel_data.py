@@ -38,6 +38,9 @@ ENERGY_TERMS = (
     "rims",
     "contact",
     "sliders",
+    "yielding",
+    "dampers",
+    "stops",
     "numerical",
 )
 
@@ -256,12 +259,19 @@ class Output(NamedTuple):
     words: Array  # (n_steps, n_bearings, words)
     bodies: Array  # (n_steps, bearings with contact points, words)
     energy: Array
+    deformation: Array  # (n_steps, deformations) of nonlinear parts
+    beyond: Array  # the forces on them besides the elastic ones
+    part_state: Array  # (n_steps, parts, words)
 
 
 def output_arrays(
-    model: Model, contacts: Contacts | None, count: int
+    model: Model, contacts: Contacts | None, count: int, parts: tuple[int, int, int] = (0, 0, 0)
 ) -> tuple[Output, Array, Array]:
-    """Return arrays for `count` output steps, the bearing states and the bodies as records."""
+    """Return arrays for `count` output steps, the bearing states and the bodies as records.
+
+    `parts` are the numbers of nonlinear deformations and parts, and of what is kept of a part.
+    """
+    n_deformations, n_parts, n_state = parts
     n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)
     states = np.zeros((count, n_bearings), dtype=STATE)
     words = states.view(np.int64).reshape(count, n_bearings, -1)
@@ -278,6 +288,9 @@ def output_arrays(
         words=words,
         bodies=bodies.view(np.int64).reshape(count, n_contact, n_words),
         energy=np.zeros((count, len(ENERGY_TERMS))),
+        deformation=np.zeros((count, n_deformations)),
+        beyond=np.zeros((count, n_deformations)),
+        part_state=np.zeros((count, n_parts, n_state)),
     )
     return arrays, states, bodies
 

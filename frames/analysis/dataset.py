@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from frames.analysis.static import expand
+from frames.analysis.yielding import part_variables
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS, device_records
@@ -65,6 +66,8 @@ def build_dataset(
     """
     system, basis = state.system, state.basis
     q = expand(basis, out.b[:count], out.e[:count])
+    if state.parts is not None:
+        q -= out.beyond[:count] @ basis.shift(system.part_rows.T.toarray()).T
     # what lags without mass has a velocity, but no acceleration of use
     a = expand(basis, out.a_b[:count], basis.mass_e * out.a_e[:count], offset=False)
     shape = (count, len(system.node_names), 6)
@@ -79,8 +82,10 @@ def build_dataset(
     node = ("time", "node", "dof")
     grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
     forces = states["force"][:count, grounded, 6:9].sum(axis=1)
-    forces += _other_reactions(state, displacement)
+    forces += _other_reactions(state, displacement, out.beyond[:count])
     variables |= _device_variables(system)
+    more, names = part_variables(system.parts, frame, out, count)
+    variables |= more
     variables |= {
         "interface_eccentricity": labelled(
             ("time", "bearing"),
@@ -132,6 +137,7 @@ def build_dataset(
         "dof": list(DOFS),
         "term": list(ENERGY_TERMS),
         "level": [lv.name for lv in frame.levels],
+        **names,
         **bearing_coordinates([name for name, _, _, _ in system.bearings]),
     }
     return xr.Dataset(variables, coordinates)
@@ -175,7 +181,9 @@ def _fixed_dofs(system: System) -> IntArray:
     return np.flatnonzero(np.diff(system.transform.indptr) == 0)
 
 
-def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArray:
+def _other_reactions(
+    state: GravityState, displacement: FloatArray, beyond: FloatArray
+) -> FloatArray:
     # What supports of the structure itself resist (members on the ground), signed as bearing forces
     # are: positive with positive displacement of the structure.
     system = state.system
@@ -184,6 +192,7 @@ def _other_reactions(state: GravityState, displacement: FloatArray) -> FloatArra
     flat = displacement.reshape(len(displacement), -1)
     stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
     forces = system.node_load[fixed] - np.asarray(stiffness[fixed] @ flat.T).T
+    forces -= np.asarray(system.parts.node_rows[:, fixed].T @ beyond.T).T
     total = np.zeros((len(displacement), 3))
     for axis in range(3):
         total[:, axis] = forces[:, fixed % 6 == axis].sum(axis=1)

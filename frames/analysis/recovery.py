@@ -14,6 +14,7 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.analysis.springs import first_displacement
+from frames.analysis.yielding import forces_beyond
 from frames.assembly.assemble import (
     assemble,
     member_axial_forces,
@@ -21,7 +22,8 @@ from frames.assembly.assemble import (
     node_geometric_stiffness,
     scatter,
 )
-from frames.model.axes import matrix_to_global, to_global
+from frames.analysis.yielding import forces_beyond
+from frames.model.axes import matrix_to_global, to_global, to_local
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
 
@@ -48,6 +50,7 @@ class _Structure(NamedTuple):
     axial: FloatArray  # (n_members,) of permanent loads, tension positive [N]
     data: xr.Dataset
     u: FloatArray  # (time, 6 n_nodes)
+    beyond: FloatArray  # (time, m) forces of nonlinear parts besides the elastic ones
 
 
 def member_forces(
@@ -203,7 +206,8 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
     require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
     axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
-    return _Structure(system, axial, data, u.reshape(len(u), -1))
+    beyond = forces_beyond(system, data)
+    return _Structure(system, axial, data, u.reshape(len(u), -1), beyond)
 
 
 def _with_points(data: xr.Dataset) -> list[str]:
@@ -219,6 +223,9 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
     names = found.system.members.names
     place = np.array([names.index(name) for name in chosen], dtype=np.int64)
     forces = member_end_forces(found.system, found.u, found.axial, place)
+    for row, name in enumerate(chosen):
+        if name in found.system.parts.hinged:
+            forces[:, row] += _hinge_share(found, name)
     return xr.DataArray(
         np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
         dims=("time", "member", "end", "component"),
@@ -231,6 +238,16 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
     )  # fmt: skip
 
 
+def _hinge_share(found: _Structure, member: str) -> FloatArray:
+    # What the hinges of a member take off its end forces, in local axes.
+    parts, table = found.system.parts, found.system.members
+    k = len(parts.links) + parts.hinged.index(member)
+    at = slice(parts.first[k], parts.first[k + 1])
+    row = table.names.index(member)
+    nodal = np.asarray(parts.node_rows[at].T @ found.beyond[:, at].T).T[:, table.dofs[row]]
+    return to_local(nodal[:, None], table.arrays.axes[[row]])[:, 0]
+
+
 def _support_reactions(found: _Structure) -> xr.DataArray:
     system = found.system
     stiffness = sparse.csr_array(
@@ -238,6 +255,7 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
     )
     fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
     forces = np.asarray(stiffness[fixed] @ found.u.T).T - system.node_load[fixed]
+    forces += np.asarray(system.parts.node_rows[:, fixed].T @ found.beyond.T).T
     every = np.ones((len(system.bearings), 2), dtype=bool)
     forces += _bearing_ends(found, every)[:, fixed]
     nodes, row = np.unique(fixed // 6, return_inverse=True)
@@ -273,6 +291,7 @@ def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray
         rows, constant = _crossing(table, whole, above)
         lower, upper = (_resultant(system.coordinates, middle, part) for part in (~above, above))
         values[:, k] = -np.asarray((lower @ (rest + rows)) @ found.u.T).T - lower @ constant
+        values[:, k] -= np.asarray((lower @ system.parts.node_rows.T) @ found.beyond.T).T
         held = _bearing_ends(found, _crossed(system, above))
         values[:, k] += np.asarray(upper @ held.T).T
     return xr.DataArray(

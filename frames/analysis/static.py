@@ -12,6 +12,7 @@ import numpy as np
 
 from frames._errors import ModelError, ModelWarning
 from frames.analysis.equilibrium import find_equilibrium
+from frames.analysis.nonlinear_start import parts_at_rest
 from frames.analysis.plausible import doubts, held_periods
 from frames.analysis.springs import first_displacement
 from frames.assembly.assemble import (
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from frames.assembly.assemble import System
     from frames.kernel_data import Model, Run
     from frames.model.contents import FrameContents
+    from frames.parts_data import Parts
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
 
@@ -62,6 +64,8 @@ class GravityState:
         Time of computation, compilation aside [s].
     load_path : LoadPath
         What the bearings carry of the weight above them, and what supports take past them.
+    parts : Parts or None
+        Links and hinged members, at rest.
     """
 
     system: System
@@ -75,6 +79,7 @@ class GravityState:
     axial_forces: FloatArray
     seconds: float
     load_path: LoadPath
+    parts: Parts | None
 
     @property
     def held_periods(self) -> tuple[float, ...]:
@@ -182,6 +187,7 @@ def gravity(
         load_path=load_path(
             system, node_geometric_stiffness(system, member_forces), displacement, axial_forces
         ),
+        parts=parts_at_rest(system, basis, displacement),
     )
     for doubt in state.doubts:
         warnings.warn(doubt, ModelWarning, stacklevel=2)

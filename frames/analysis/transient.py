@@ -214,7 +214,8 @@ def _run(
     tolerance = settings.error_tolerance
     count = options.steps // options.record_every + 1
     require_memory(state, count)
-    out, states, bodies = output_arrays(state.model, state.contacts, count)
+    sizes = (0, 0, 0) if state.parts is None else (len(state.parts.d), *state.parts.old.shape)
+    out, states, bodies = output_arrays(state.model, state.contacts, count, sizes)
     shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
     ground = Ground(*seen_by_steps(shaking, settings.dt))
     _start(state, ground)
@@ -348,14 +349,14 @@ def _march(
     state: GravityState, settings: Setup, ground: Ground, out: Output, options: Options
 ) -> tuple[RunStatus, float]:
     # Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; returns its seconds too.
-    model, run, contacts = state.model, state.run, state.contacts
-    ready(advance, model, run, contacts, settings, ground, out, 0, 0)
-    ready(record, run, contacts, out, 0)
+    model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
+    ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)
+    ready(record, run, contacts, parts, out, 0)
     began = perf_counter()
 
     def go(last: int, trials: int) -> int:
-        return advance(model, run, contacts, settings, ground, out, last, trials)
+        return advance(model, run, contacts, parts, settings, ground, out, last, trials)
 
-    record(run, contacts, out, 0)
+    record(run, contacts, parts, out, 0)
     status = in_pieces(go, lambda: int(run.clock["done"][0]), options.steps, options.progress)
     return status, perf_counter() - began

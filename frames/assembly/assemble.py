@@ -17,6 +17,7 @@ from frames.assembly.members import (
     released,
     spring_stiffness,
 )
+from frames.assembly.nonlinear import nonlinear_parts
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import System as System
 from frames.assembly.system import element_dofs
@@ -76,8 +77,11 @@ def assemble(
     if frame.superelements:
         mass = sparse.csr_array(mass + parts.mass)
         transform, labels, inert = _reduced(transform, labels, parts, mass, coordinates)
+    nonlinear = nonlinear_parts(frame, index, coordinates, members)
     node_stiffness = sparse.csr_array(
-        _node_stiffness(frame, index, coordinates, members) + parts.stiffness
+        _node_stiffness(frame, index, coordinates, members)
+        + nonlinear.stiffness()
+        + parts.stiffness
     )
     node_load = _node_load(frame, index, members, own_mass) + parts.load
     translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
@@ -102,6 +106,7 @@ def assemble(
         node_load=node_load,
         members=members,
         features=features,
+        parts=nonlinear,
     )
     check_mass(system)
     levers = [coordinates[j] - coordinates[i] for _, i, j, _ in system.bearings]

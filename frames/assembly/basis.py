@@ -101,6 +101,7 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
         expand_b=expand_b,
         expand_e=expand_e,
         offset=offset,
+        still=_still_shapes(stiffness, massless, still) if len(system.parts.kind) else still[:, :0],
         mass_b=_symmetric(to_kept_b.T @ m @ to_kept_b),
         mass_be=to_kept_b.T @ m @ to_kept_e,
         mass_e=np.ones(len(omega2)),
@@ -139,6 +140,18 @@ def _static_following(
         )
         raise ModelError(message) from error
     return solution[:, :-1], solution[:, -1]
+
+
+def _still_shapes(
+    stiffness: FloatArray, massless: IntArray, static: FloatArray
+) -> FloatArray:
+    # Shapes of stiffness 1 of all that has no mass; `static` are those of modes without.
+    if not len(massless):
+        return static
+    lower = linalg.cholesky(stiffness[np.ix_(massless, massless)], lower=True)
+    own = np.zeros((len(stiffness), len(massless)))
+    own[massless] = linalg.solve_triangular(lower, np.eye(len(massless)), lower=True).T
+    return np.hstack([own, static])
 
 
 def _interface_modes(

@@ -11,6 +11,7 @@ from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
+from frames.model.laws import elastic_stiffness
 from frames.model.parts import DOFS
 
 if TYPE_CHECKING:
@@ -56,6 +57,11 @@ def check_connections(frame: FrameContents) -> None:
         for group in (frame.members, frame.springs, frame.bearings)
         for link in group.values()
     ]
+    links.extend(
+        (index[link.i], index[link.j])
+        for link in frame.links.values()
+        if elastic_stiffness(link.law) > 0.0
+    )
     for diaphragm in frame.diaphragms.values():
         first = index[diaphragm.nodes[0]]
         links.extend((first, index[node]) for node in diaphragm.nodes[1:])

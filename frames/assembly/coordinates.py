@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
 
@@ -21,6 +23,9 @@ class Basis:
         ``q = expand_b @ b + expand_e @ eta + offset``.
     offset : ndarray, (n_free,)
         Static displacement of what has no mass under its own loads.
+    still : ndarray, (n_free, n_still)
+        Shapes of what has no mass, of stiffness 1 each; of no size in a linear frame, which does
+        not need them.
     mass_b, mass_be : ndarray, (n_b, n_b), (n_b, n_e)
         Mass of b, and what couples it with eta.
     mass_e : ndarray, (n_e,)
@@ -43,6 +48,7 @@ class Basis:
     expand_b: FloatArray
     expand_e: FloatArray
     offset: FloatArray
+    still: FloatArray
     mass_b: FloatArray
     mass_be: FloatArray
     mass_e: FloatArray
@@ -56,6 +62,10 @@ class Basis:
     load_e: FloatArray
     inertia_b: FloatArray
     inertia_e: FloatArray
+
+    def shift(self, loads: FloatArray) -> FloatArray:
+        """Return how loads (n_free, ...) displace what has no mass while b and eta rest."""
+        return np.asarray(self.still @ (self.still.T @ loads))
 
     def __repr__(self) -> str:
         """Return sizes on one line."""

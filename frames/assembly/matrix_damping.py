@@ -85,6 +85,7 @@ def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: F
     none = np.zeros(count)
     return replace(
         basis,
+        still=basis.still[:, :0],
         expand_e=np.hstack([basis.expand_e, more]),
         mass_e=np.concatenate([basis.mass_e, none]),
         mass_be=np.hstack([basis.mass_be, np.zeros((len(basis.mass_be), count))]),

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import sparse
 
 from frames.assembly.members import MemberArrays, local_geometric_stiffness
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.assembly.nonlinear import NonlinearParts
     from lir_element import Features, LIRBearing
 
 
@@ -103,6 +105,8 @@ class System:
         The members.
     features : Features
         What is modelled.
+    parts : NonlinearParts
+        Links and hinged members.
     """
 
     node_names: tuple[str, ...]
@@ -121,6 +125,12 @@ class System:
     node_load: FloatArray
     members: MemberTable
     features: Features
+    parts: NonlinearParts
+
+    @property
+    def part_rows(self) -> SparseMatrix:
+        """Deformations of the nonlinear parts from the free degrees of freedom, (m, n_free)."""
+        return sparse.csr_array(self.parts.node_rows @ self.transform)
 
     def __repr__(self) -> str:
         """Return sizes on one line."""

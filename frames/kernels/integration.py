@@ -11,15 +11,23 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined, kernel
 from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes, times
-from frames.kernels.ledger import add_bearing_energy, add_energy
+from frames.kernels.effective import effective
+from frames.kernels.ledger import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton
+from frames.kernels.yielding import (
+    begin_parts,
+    commit_parts,
+    part_load_on_modes,
+    set_part_follow,
+)
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Output, Run, Setup
+    from frames.parts_data import Parts
     from lir_element.bundles.contact_data import Contacts
 
 _OK = int(RunStatus.OK)
@@ -28,14 +36,6 @@ _MOST_HALVINGS = MOST_HALVINGS
 _TICKS = 1 << MOST_HALVINGS  # parts of a base step
 _CALM = 0.25  # share of the allowed error below which twice the step is tried: it grows by dt^2
 _LIMIT_HALVINGS = 4  # of a step before a limit of the bearing counts as exceeded
-
-
-@inlined
-def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
-    """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
-    c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
-    c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)
-    return c_m, c_c, 1.0 - settings.alpha_f
 
 
 @kernel
@@ -68,7 +68,9 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
 
 
 @inlined
-def set_load(model: Model, run: Run, settings: Setup, ground: Ground) -> None:
+def set_load(
+    model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
+) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
@@ -88,6 +90,11 @@ def set_load(model: Model, run: Run, settings: Setup, ground: Ground) -> None:
             - model.damping_e[k] * (damp_v * run.v_e[k] + damp_a * run.a_e[k])
             - model.omega2[k] * run.e[k]
         )
+    if parts is not None:
+        for a in range(run.b.shape[0]):
+            run.rhs_b[a] -= parts.load_b[a]
+        for k in range(run.e.shape[0]):
+            run.rhs_e[k] -= parts.load_e[k]
     for axis in range(3):
         pull = (1.0 - af) * ground_acceleration(
             ground.acceleration, ground.dt, time + dt, axis
@@ -117,7 +124,7 @@ def set_load(model: Model, run: Run, settings: Setup, ground: Ground) -> None:
 
 
 @inlined
-def finish_step(model: Model, run: Run, settings: Setup) -> None:
+def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     dt, at = run.clock[0].dt, run.clock[0].halvings
     beta, gamma = settings.beta, settings.gamma
@@ -125,11 +132,18 @@ def finish_step(model: Model, run: Run, settings: Setup) -> None:
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.h_e[k]
         times(run.follow_e[at], run.step, -1.0, run.g_e)
+        if parts is not None:
+            for k in range(run.e.shape[0]):
+                run.e_new[k] = 0.0
+            part_load_on_modes(parts, run.e_new)
+            times(run.inverse_e[at], run.e_new, 1.0, run.g_e)
     else:
         c_m, c_c, c_k = effective(settings, dt)
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.rhs_e[k]
         times(model.mass_eb, run.step, -c_m, run.g_e)
+        if parts is not None:
+            part_load_on_modes(parts, run.g_e)
         for k in range(run.e.shape[0]):
             run.g_e[k] /= c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
     for k in range(run.e.shape[0]):
@@ -148,21 +162,26 @@ def finish_step(model: Model, run: Run, settings: Setup) -> None:
 
 @inlined
 def try_step(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
-) -> int:
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    ground: Ground,
+) -> int:  # fmt: skip
     """Attempt a step of ``clock.dt``; leaves it in the trial arrays. Returns a status code."""
     clock = run.clock[0]
     if run.has_reduced[clock.halvings] == 0:
         set_reduced_stiffness(model, run, settings)
-    set_load(model, run, settings, ground)
+        if parts is not None:
+            set_part_follow(model, run, parts, settings)
+    set_load(model, run, parts, settings, ground)
+    if parts is not None:
+        begin_parts(model, run, parts, settings)
     for a in range(run.b.shape[0]):
         run.step[a] = clock.dt * run.mean_v_b[a]
     code = newton(
-        model, run, contacts, run.reduced[clock.halvings], 1.0 - settings.alpha_f,
+        model, run, contacts, parts, run.reduced[clock.halvings], 1.0 - settings.alpha_f,
         settings.force_tolerance, settings.max_iterations,
     )  # fmt: skip
     if code == _OK:
-        finish_step(model, run, settings)
+        finish_step(model, run, parts, settings)
     return code
 
 
@@ -178,15 +197,19 @@ def limits(run: Run) -> int:
 
 @inlined
 def accept_step(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
-) -> None:
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    ground: Ground,
+) -> None:  # fmt: skip
     """Commit the step."""
     clock = run.clock[0]
-    add_energy(model, run, ground)
+    add_energy(model, run, parts, ground)
     if settings.error_tolerance < math.inf:
         keep_motion(model, run, ground)
     commit_bearings(model, run, contacts)
     add_bearing_energy(run)
+    if parts is not None:
+        commit_parts(parts, settings.beta, settings.gamma, clock.dt)
+        add_part_energy(run, parts)
     for a in range(run.b.shape[0]):
         run.mean_v_b[a] = run.step[a] / clock.dt
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
@@ -198,7 +221,9 @@ def accept_step(
 
 
 @inlined
-def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None:
+def record(
+    run: Run, contacts: Contacts | None, parts: Parts | None, out: Output, place: int
+) -> None:
     """Copy the committed state into the output arrays."""
     out.time[place] = run.clock[0].time
     for a in range(run.b.shape[0]):
@@ -212,6 +237,13 @@ def record(run: Run, contacts: Contacts | None, out: Output, place: int) -> None
             copy_words(contacts.bodies_old_words[k], out.bodies[place, k])
     for term in range(run.energy_row.shape[0]):
         out.energy[place, term] = run.energy_row[term]
+    if parts is not None:
+        for i in range(parts.d_old.shape[0]):
+            out.deformation[place, i] = parts.d_old[i]
+            out.beyond[place, i] = parts.g_old[i]
+        for k in range(parts.old.shape[0]):
+            for n in range(parts.old.shape[1]):
+                out.part_state[place, k, n] = parts.old[k, n]
 
 
 @inlined
@@ -224,8 +256,9 @@ def halve(run: Run) -> None:
 
 @inlined
 def attempt(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
-) -> int:
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    ground: Ground,
+) -> int:  # fmt: skip
     """Try one step: commit it, or halve it for the next attempt. Returns a status code.
 
     A step that fails, or whose estimated error is too large, is halved; after two good steps the
@@ -235,11 +268,11 @@ def attempt(
     ticks = 1 << (_MOST_HALVINGS - clock.halvings)
     clock.dt = settings.dt / (1 << clock.halvings)
     clock.time = settings.dt * (clock.done + clock.ticks / _TICKS)
-    code = try_step(model, run, contacts, settings, ground)
+    code = try_step(model, run, contacts, parts, settings, ground)
     rough = code == _OK and clock.halvings < _MOST_HALVINGS // 2
     clock.share = 0.0
     if rough:
-        rough = is_rough(model, run, contacts, settings, ground)
+        rough = is_rough(model, run, contacts, parts, settings, ground)
     if code != _OK or rough:
         if clock.halvings == _MOST_HALVINGS:
             run.counts[0].cause = code
@@ -253,7 +286,7 @@ def attempt(
             return code
         halve(run)
         return _OK
-    accept_step(model, run, contacts, settings, ground)
+    accept_step(model, run, contacts, parts, settings, ground)
     clock.ticks += ticks
     clock.good += 1
     calm = clock.good >= 2 and clock.share < _CALM
@@ -265,8 +298,8 @@ def attempt(
 
 @kernel
 def advance(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground,
-    out: Output, last: int, trials: int,
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    ground: Ground, out: Output, last: int, trials: int,
 ) -> int:  # fmt: skip
     """Go on until `last` base steps are done, or `trials` state determinations are spent.
 
@@ -276,7 +309,7 @@ def advance(
     clock, counts = run.clock[0], run.counts[0]
     most = counts.trials + trials
     while clock.done < last and counts.trials < most:
-        code = attempt(model, run, contacts, settings, ground)
+        code = attempt(model, run, contacts, parts, settings, ground)
         if code != _OK:
             return code
         if clock.ticks == _TICKS:
@@ -284,5 +317,5 @@ def advance(
             clock.ticks = 0
             clock.time = settings.dt * clock.done
             if clock.done % settings.every == 0:
-                record(run, contacts, out, clock.done // settings.every)
+                record(run, contacts, parts, out, clock.done // settings.every)
     return _OK

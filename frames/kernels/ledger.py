@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined
 from frames.kernels.coupling import coupled_work
+from frames.kernels.yielding import part_energy_on
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Run
+    from frames.parts_data import Parts
     from lir_element.layout import Floats
 
 
@@ -48,7 +50,7 @@ def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
 
 
 @inlined
-def add_energy(model: Model, run: Run, ground: Ground) -> None:
+def add_energy(model: Model, run: Run, parts: Parts | None, ground: Ground) -> None:
     """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
 
     Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
@@ -78,12 +80,19 @@ def add_energy(model: Model, run: Run, ground: Ground) -> None:
             model.damping_be, model.damping_ee, run.step, run.g_e, run.v_b, run.v_b_new, run.v_e,
             run.v_e_new,
         )  # fmt: skip
+    before = energy.elastic
+    if parts is not None:  # what is not linear comes into the elastic energy by add_part_energy
+        before -= part_store(parts)
+        given = part_energy_on(parts.load_b, parts, parts.to_b, run.step)
+        given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
+        parts.work[3] += given
+        bearings += given
     kinetic = quadratic(model.mass_b, model.mass_be, model.mass_e, run.v_b_new, run.v_e_new)
     elastic = elastic_energy(model, run.b_new, run.e_new) - clock.elastic_start
     energy.input += supplied
     energy.gravity += lifted
     energy.damping += damped
-    stored = kinetic - energy.kinetic + elastic - energy.elastic
+    stored = kinetic - energy.kinetic + elastic - before
     energy.numerical += supplied - lifted - damped - bearings - stored
     energy.kinetic, energy.elastic = kinetic, elastic
 
@@ -108,3 +117,17 @@ def add_bearing_energy(run: Run) -> None:
         energy.rims += old.work_rim[0] + old.work_rim[1]
         energy.contact += old.work_contact
         energy.sliders += old.work_sliders
+
+
+@inlined
+def part_store(parts: Parts) -> float:
+    """Return what parts store besides what the linear structure would: given less dissipated."""
+    return float(parts.work[3] - parts.work[0] - parts.work[1] - parts.work[2])
+
+
+@inlined
+def add_part_energy(run: Run, parts: Parts) -> None:
+    """Set the nonlinear parts' terms of the energy, and make the elastic one that of the truth."""
+    energy = run.energy[0]
+    energy.yielding, energy.dampers, energy.stops = parts.work[0], parts.work[1], parts.work[2]
+    energy.elastic += part_store(parts)

@@ -6,11 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.kernels.yielding import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Run, Setup
+    from frames.parts_data import Parts
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -77,7 +79,9 @@ def lagging(model: Model, run: Run, k: int) -> float:
 
 
 @kernel
-def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
+def estimated_error(
+    model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
+) -> float:
     """Return the estimated error of the step in the bearings' displacement over what is allowed.
 
     The trapezoidal rule integrates each bearing's force F to the velocity of the mass it carries
@@ -101,14 +105,17 @@ def estimated_error(model: Model, run: Run, settings: Setup, ground: Ground) -> 
         late = lagging(model, run, k) / factor
         wrong += x * x + y * y + z * z + late * late
         mass += run.carried[k] * run.carried[k]
+    if parts is not None:
+        wrong += part_error(parts, clock.dt / clock.dt_before if clock.dt_before > 0.0 else 0.0)
     error = factor * clock.dt * math.sqrt(wrong / mass) * settings.error_time  # (5.3)
     return error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 
 @inlined
 def is_rough(
-    model: Model, run: Run, contacts: Contacts | None, settings: Setup, ground: Ground
-) -> bool:
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    ground: Ground,
+) -> bool:  # fmt: skip
     """Return whether the step deserves to be halved, though it converged.
 
     Either its estimated error is too large, or contacts that open or close in it make or lose
@@ -117,11 +124,13 @@ def is_rough(
     defect = 0.0
     for k in range(run.old.shape[0]):
         defect += bearing_defect(model.props, run.old, run.new, contacts, k)
+    if parts is not None:
+        defect += part_defect(parts)
     scale = max(run.energy[0].kinetic, abs(run.energy[0].input), settings.energy_floor)
     if defect > settings.energy_tolerance * scale:
         return True
     if settings.error_tolerance < math.inf:
-        run.clock[0].share = estimated_error(model, run, settings, ground)
+        run.clock[0].share = estimated_error(model, run, parts, settings, ground)
     return run.clock[0].share > 1.0
 
 

@@ -11,6 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.kernels.linear import gather, scatter, solve_many
@@ -18,6 +19,7 @@ from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run
+    from frames.parts_data import Parts
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -89,11 +91,13 @@ def norm(x: Floats) -> float:
 
 @inlined
 def set_residual(
-    model: Model, run: Run, contacts: Contacts | None, linear: Floats, step: Floats, share: float
-) -> float:
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, linear: Floats,
+    step: Floats, share: float,
+) -> float:  # fmt: skip
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
-    residual = rhs - linear step - share force; infinite where the bearings have no state.
+    residual = rhs - linear step - share force; infinite where bearings or nonlinear parts of the
+    structure have no state.
     """
     n_b = step.shape[0]
     dt = run.clock[0].dt
@@ -109,6 +113,10 @@ def set_residual(
         for c in range(n_b):
             total -= linear[a, c] * step[c]
         run.residual[a] = total
+    if parts is not None:
+        if not settle_parts(model, run, parts, step):
+            return math.inf
+        add_part_forces(run, parts, run.residual)
     return norm(run.residual)
 
 
@@ -117,6 +125,7 @@ def newton(
     model: Model,
     run: Run,
     contacts: Contacts | None,
+    parts: Parts | None,
     linear: Floats,
     share: float,
     tolerance: float,
@@ -127,11 +136,11 @@ def newton(
     `run.step` holds the first guess. A step that does not reduce the residual is shortened.
     """
     n_b = run.step.shape[0]
-    size = set_residual(model, run, contacts, linear, run.step, share)
+    size = set_residual(model, run, contacts, parts, linear, run.step, share)
     if size == math.inf:  # start from rest instead
         for a in range(n_b):
             run.step[a] = 0.0
-        size = set_residual(model, run, contacts, linear, run.step, share)
+        size = set_residual(model, run, contacts, parts, linear, run.step, share)
         if size == math.inf:
             return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
     for _ in range(max_iterations):
@@ -143,13 +152,15 @@ def newton(
             for c in range(n_b):
                 run.tangent[a, c] = linear[a, c]
         bearing_tangents(model, run, contacts, share)
+        if parts is not None and not add_part_tangent(model, run, parts):
+            return _SINGULAR
         if not solve_many(run.tangent, run.h_b.reshape((n_b, 1)), n_b, 1):
             return _SINGULAR
         factor = 1.0
         for attempt in range(_TRIES):
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
-            new = set_residual(model, run, contacts, linear, run.g_b, share)
+            new = set_residual(model, run, contacts, parts, linear, run.g_b, share)
             if new < size or (attempt >= _PATIENCE and new < _RISE * size):
                 break
             factor *= _SHORTER
@@ -174,7 +185,7 @@ def solve_gravity(
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
-    code = newton(model, run, contacts, model.stiffness_b, 1.0, tolerance, max_iterations)
+    code = newton(model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations)
     if code != _OK:
         return code
     for a in range(n_b):

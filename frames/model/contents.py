@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from frames._errors import ModelError
 from frames.model.damping import Damping
+from frames.model.laws import PlasticHinge
 from frames.model.names import new_name
-from frames.model.parts import BearingLink, Diaphragm, Level, Member, Node, Spring
+from frames.model.parts import BearingLink, Diaphragm, Level, Link, Member, Node, Spring
 from frames.model.superelement import Superelement
 from lir_element.door import require_non_negative
 from lir_element.tables import html_table
@@ -43,6 +44,8 @@ class FrameContents:
         self._nodes: dict[str, Node] = {}
         self._members: dict[str, Member] = {}
         self._springs: dict[str, Spring] = {}
+        self._links: dict[str, Link] = {}
+        self._hinges: dict[str, tuple[PlasticHinge | None, PlasticHinge | None]] = {}
         self._superelements: dict[str, Superelement] = {}
         self._diaphragms: dict[str, Diaphragm] = {}
         self._bearings: dict[str, BearingLink] = {}
@@ -73,13 +76,15 @@ class FrameContents:
             One line.
         """
         parts = ["nodes", "members", "springs", "diaphragms", "bearings"]
-        if self._superelements:
-            parts.append("superelements")
+        parts += [part for part in ("links", "hinges", "superelements") if getattr(self, part)]
         counts = ", ".join(f"{len(getattr(self, part))} {part}" for part in parts)
         return f'Frame("{self._name}": {counts})'
 
     def _repr_html_(self) -> str:
-        kinds = ("nodes", "members", "springs", "superelements", "diaphragms", "bearings", "levels")
+        kinds = (
+            "nodes", "members", "springs", "links", "hinges", "superelements", "diaphragms",
+            "bearings", "levels",
+        )  # fmt: skip
         rows = [(kind, str(len(getattr(self, kind)))) for kind in kinds if getattr(self, kind)]
         lumped = sum(float(values[0]) for values in self._masses.values())
         rows.append(("lumped mass", f"{1e-3 * lumped:.5g} t at {len(self._masses)} nodes"))
@@ -115,6 +120,16 @@ class FrameContents:
     def springs(self) -> Mapping[str, Spring]:
         """Springs by name, in the order added."""
         return MappingProxyType(self._springs)
+
+    @property
+    def links(self) -> Mapping[str, Link]:
+        """Nonlinear links by name, in the order added."""
+        return MappingProxyType(self._links)
+
+    @property
+    def hinges(self) -> Mapping[str, tuple[PlasticHinge | None, PlasticHinge | None]]:
+        """Plastic hinges at ends i and j by member."""
+        return MappingProxyType(self._hinges)
 
     @property
     def superelements(self) -> Mapping[str, Superelement]:

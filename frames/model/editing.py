@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
 from frames._errors import ModelError
-from frames.model.builder import FrameBuilder
 from frames.model.names import known_name, new_name
+from frames.model.nonlinear import NonlinearBuilder
 from frames.model.parts import BearingLink, bearing_height
 from frames.model.placing import fits, require_bearing_place
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 
-class FrameEditor(FrameBuilder):
+class FrameEditor(NonlinearBuilder):
     """A frame that can be copied, put on other bearings, and lose parts."""
 
     def copy(self, name: str | None = None) -> Self:
@@ -77,9 +77,9 @@ class FrameEditor(FrameBuilder):
 
         Parameters
         ----------
-        kind : {"member", "spring", "bearing", "diaphragm", "level", "mass", "load"}
-            What it is; a mass or a load has the name of its node. A member's uniform load goes
-            with it.
+        kind : {"member", "spring", "link", "hinges", "bearing", "diaphragm", "level", "mass", "load"}
+            What it is; a mass or a load has the name of its node, hinges that of their member. A
+            member's uniform load and hinges go with it.
         name : str
             Its name.
 
@@ -89,7 +89,8 @@ class FrameEditor(FrameBuilder):
             If there is no such part.
         """
         groups: dict[str, dict[str, Any]] = {
-            "member": self._members, "spring": self._springs, "bearing": self._bearings,
+            "member": self._members, "spring": self._springs, "link": self._links,
+            "hinges": self._hinges, "bearing": self._bearings,
             "diaphragm": self._diaphragms, "level": self._levels, "mass": self._masses,
             "load": self._loads,
         }  # fmt: skip
@@ -100,6 +101,7 @@ class FrameEditor(FrameBuilder):
         del groups[kind][name]
         if kind == "member":
             self._uniform_loads.pop(name, None)
+            self._hinges.pop(name, None)
 
     def _settle_under(self, name: str, link: BearingLink, height: float) -> None:
         # Moves the node below a bearing so that a device of another height fits.
@@ -109,6 +111,7 @@ class FrameEditor(FrameBuilder):
         ends: list[tuple[str, ...]] = [
             *((member.i, member.j) for member in self._members.values()),
             *((spring.i, spring.j) for spring in self._springs.values()),
+            *((part.i, part.j) for part in self._links.values()),
             *((other.i, other.j) for key, other in self._bearings.items() if key != name),
             *(part.nodes for part in self._superelements.values()),
         ]

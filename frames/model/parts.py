@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames.model.laws import Law
 from frames.model.sections import Section
 from lir_element.door import require_non_negative, require_positive
 
@@ -58,6 +59,21 @@ class Spring:
     i: str
     j: str
     stiffness: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Link:
+    """A nonlinear part of one deformation between nodes `i` and `j`.
+
+    `direction` is a unit vector in global axes; with `turns` it is an axis of rotation.
+    """
+
+    name: str
+    i: str
+    j: str
+    law: Law
+    direction: tuple[float, ...]
+    turns: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,100 @@
+"""Nonlinear parts of a structure under its permanent loads: at rest, and elastic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.kernels.hinges import HINGE, STRIDE, is_inside, set_stress, surface
+from frames.kernels.laws import BOUC_WEN
+from frames.model.laws import Bilinear, BoucWen
+from frames.parts_data import STATE_SIZE, parts_arrays
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.assembly.basis import Basis
+    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.system import System
+    from frames.parts_data import Parts
+
+
+def parts_at_rest(system: System, basis: Basis, displacement: FloatArray) -> Parts | None:
+    """Return the nonlinear parts as a time history starts with them.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    basis : Basis
+        It in bearing coordinates.
+    displacement : ndarray, (n_free,)
+        Displacements under permanent loads.
+
+    Returns
+    -------
+    Parts or None
+        Deformed as the structure is; what is put in under permanent loads is not. None without.
+
+    Raises
+    ------
+    ModelError
+        If one yields under permanent loads.
+    """
+    found = system.parts
+    if not len(found.kind):
+        return None
+    parts = parts_arrays(found, system.part_rows, basis)
+    d = np.asarray(system.part_rows @ displacement)
+    d[found.elastic == 0.0] = 0.0
+    refuse_yielding(found, d)
+    parts.d_old[:], parts.d[:] = d, d
+    for k in np.flatnonzero(found.kind == BOUC_WEN):
+        parts.old[k, 0] = d[found.first[k]] / found.par[k, 6]
+    parts.new[:] = parts.old
+    return parts
+
+
+def refuse_yielding(found: NonlinearParts, d: FloatArray) -> None:
+    """Raise a ModelError if a part yields at deformations (m,) under permanent loads."""
+    for k, link in enumerate(found.links):
+        if not isinstance(link.law, Bilinear | BoucWen):
+            continue
+        force = link.law.stiffness * abs(float(d[found.first[k]]))
+        if force > link.law.yield_force:
+            message = (
+                f'link "{link.name}" carries {force:.4g} N (N m) of the permanent loads and yields '
+                f"at {link.law.yield_force:.4g}: make it stronger, let other parts carry them, or "
+                "turn it out of their direction"
+            )
+            raise ModelError(message)
+    for k, member in enumerate(found.hinged, start=len(found.links)):
+        at = found.first[k]
+        for end, forces, value in hinge_states(found.par[k], d[at : at + 5]):
+            if value > 0.0:
+                n, m_y, m_z = forces
+                message = (
+                    f'the hinge at end {end} of member "{member}" yields under the permanent '
+                    f"loads, with N = {n:.4g} N, My = {m_y:.4g} N m, Mz = {m_z:.4g} N m: make the "
+                    "member stronger, or release its moments there"
+                )
+                raise ModelError(message)
+
+
+def hinge_states(
+    par: FloatArray, d: FloatArray
+) -> list[tuple[str, tuple[float, float, float], float]]:
+    """Return end, forces (N, My, Mz) and yield function of each hinge of an elastic member."""
+    forces = par[25:30] + par[:25].reshape(5, 5) @ d
+    found = []
+    first, second = np.zeros(3), np.zeros((3, 3))
+    for hinge, end in enumerate("ij"):
+        at = HINGE + STRIDE * hinge
+        if par[at + 8] > 0.0:
+            sigma = np.zeros(3)
+            set_stress(par, hinge, np.zeros(STATE_SIZE), forces, sigma)
+            value = -1.0 if is_inside(par, at, sigma) else surface(par, at, sigma, first, second)
+            found.append((end, (float(sigma[0]), float(sigma[1]), float(sigma[2])), float(value)))
+    return found
+

@@ -1,0 +1,146 @@
+"""What nonlinear parts of a structure did over a time history, as labelled variables and forces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.kernels.hinges import N_PLASTIC, place
+from frames.kernels.yielding import WORK_DONE
+from frames.model.laws import PlasticHinge
+from lir_element.results.dataset import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.system import System
+    from frames.kernel_data import Output
+    from frames.model.contents import FrameContents
+
+HINGE_FORCES = ("N", "My", "Mz")
+"""Forces on a hinge, in local axes of its member."""
+
+
+def part_variables(
+    found: NonlinearParts, frame: FrameContents, out: Output, count: int
+) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
+    """Return the variables of links and hinges over the first `count` records; coordinates too."""
+    variables: dict[str, xr.Variable] = {}
+    coordinates: dict[str, list[str]] = {}
+    if found.links:
+        coordinates["link"] = [link.name for link in found.links]
+        variables |= _link_variables(found, out, count)
+    if found.hinged:
+        coordinates["hinge"] = hinge_names(found, frame)
+        coordinates["hinge_force_component"] = list(HINGE_FORCES)
+        variables |= _hinge_variables(found, frame, out, count)
+    return variables, coordinates
+
+
+def hinge_names(found: NonlinearParts, frame: FrameContents) -> list[str]:
+    """Return the names of the hinges, "member:end"."""
+    return [f"{member}:{'ij'[end]}" for member, end in _hinges(found, frame)]
+
+
+def _hinges(found: NonlinearParts, frame: FrameContents) -> list[tuple[str, int]]:
+    return [
+        (member, end) for member in found.hinged for end in (0, 1) if frame.hinges[member][end]
+    ]
+
+
+def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str, xr.Variable]:
+    n = len(found.links)
+    d = out.deformation[:count, :n].copy()
+    history = ("time", "link")
+    limits = [getattr(link.law, "yield_deformation", np.nan) for link in found.links]
+    return {
+        "link_deformation": labelled(
+            history, d, "m, rad", "deformation of the link; of dampers, ties and stops from gravity"
+        ),
+        "link_force": labelled(
+            history, out.beyond[:count, :n] + found.elastic[:n] * d, "N, N m", "force of the link"
+        ),
+        "link_work": labelled(
+            history,
+            out.part_state[:count, :n, WORK_DONE].copy(),
+            "J",
+            "work that the link has dissipated (stops and ties: taken up)",
+        ),
+        "link_yield_deformation": labelled(
+            ("link",), np.array(limits), "m, rad", "deformation at first yield, NaN without"
+        ),
+    }
+
+
+def _hinge_variables(
+    found: NonlinearParts, frame: FrameContents, out: Output, count: int
+) -> dict[str, xr.Variable]:
+    hinges = _hinges(found, frame)
+    order = {member: k for k, member in enumerate(found.hinged, start=len(found.links))}
+    shape = (count, len(hinges), 3)
+    force, plastic = np.zeros(shape), np.zeros(shape)
+    turn, work = np.zeros(shape[:2]), np.zeros(shape[:2])
+    for h, (member, end) in enumerate(hinges):
+        k = order[member]
+        at = slice(found.first[k], found.first[k + 1])
+        stiffness = found.par[k, :25].reshape(5, 5)
+        five = found.par[k, 25:30] + out.deformation[:count, at] @ stiffness
+        five += out.beyond[:count, at]
+        force[:, h] = five[:, [place(end, part) for part in range(3)]]
+        plastic[:, h] = out.part_state[:count, k, 3 * end : 3 * end + 3]
+        turn[:, h] = out.part_state[:count, k, N_PLASTIC + end]
+        work[:, h] = out.part_state[:count, k, WORK_DONE + end]
+    history = ("time", "hinge")
+    limits = [_hinge(frame, member, end) for member, end in hinges]
+    return {
+        "hinge_force": labelled(
+            (*history, "hinge_force_component"), force, "N, N m", "N (tension +), My, Mz there"
+        ),
+        "hinge_rotation": labelled(
+            (*history, "hinge_force_component"),
+            plastic,
+            "m, rad",
+            "plastic elongation, and rotations about local y and z",
+        ),
+        "hinge_turn": labelled(history, turn, "rad", "plastic rotation run through since the start"),
+        "hinge_work": labelled(history, work, "J", "work that the hinge has dissipated"),
+        "hinge_moment": labelled(
+            ("hinge", "hinge_force_component"),
+            np.array([(each.axial, each.moment_y, each.moment_z) for each in limits]),
+            "N, N m",
+            "plastic forces of the hinge: axial from its centre, moments",
+        ),
+    }
+
+
+def _hinge(frame: FrameContents, member: str, end: int) -> PlasticHinge:
+    found = frame.hinges[member][end]
+    assert found is not None
+    return found
+
+
+def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
+    """Return what nonlinear parts add to the elastic forces g of a time history, (time, m)."""
+    found = system.parts
+    beyond = np.zeros((data.sizes["time"], int(found.first[-1])))
+    n = len(found.links)
+    if n:
+        d = data["link_deformation"].transpose("time", "link").to_numpy()
+        force = data["link_force"].transpose("time", "link").to_numpy()
+        beyond[:, :n] = force - found.elastic[:n] * d
+    if found.hinged:
+        plastic = data["hinge_rotation"].transpose("time", "hinge", ...).to_numpy()
+        names = {str(name): h for h, name in enumerate(data["hinge"].to_numpy())}
+        for k, member in enumerate(found.hinged, start=n):
+            stiffness = found.par[k, :25].reshape(5, 5)
+            for end in (0, 1):
+                h = names.get(f"{member}:{'ij'[end]}")
+                if h is not None:
+                    columns = stiffness[:, [place(end, part) for part in range(3)]]
+                    at = slice(found.first[k], found.first[k + 1])
+                    beyond[:, at] -= plastic[:, h] @ columns.T
+    return beyond
+

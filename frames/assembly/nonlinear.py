@@ -1,0 +1,230 @@
+"""Nonlinear parts of a frame as arrays: their deformations, constants and elastic stiffness."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from frames.assembly.members import local_stiffness
+from frames.kernels import laws as kinds
+from frames.kernels.hinges import HINGE, STRIDE
+from frames.model.laws import (
+    Bilinear,
+    BoucWen,
+    HertzStop,
+    Law,
+    PlasticHinge,
+    Stop,
+    Tie,
+    ViscousDamper,
+    elastic_stiffness,
+)
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.assembly.system import MemberTable
+    from frames.model.contents import FrameContents
+    from frames.model.parts import Link
+
+CONSTANTS = 50
+"""Constants of a part, at most: those of two hinges."""
+
+BASIC = np.array([6, 5, 11, 4, 10])
+"""Places among a member's 12 local displacements of its five deformations, the rest being held."""
+
+HINGED = -1.0
+"""Marks a deformation of a hinged member among the elastic stiffnesses of parts."""
+
+
+@dataclass(frozen=True, repr=False)
+class NonlinearParts:
+    """Links and hinged members of a frame; `n` parts with `m` deformations.
+
+    Attributes
+    ----------
+    links : tuple of Link
+        The links, first among the parts.
+    hinged : tuple of str
+        Members with hinges, after them.
+    kind : ndarray, (n,)
+        Law by number (frames/kernels/laws.py).
+    first : ndarray, (n + 1,)
+        First deformation of each part.
+    par : ndarray, (n, 50)
+        Constants of the laws.
+    elastic : ndarray, (m,)
+        Stiffness in the linear structure [N/m, N m/rad]; 0 of what is put in under permanent loads,
+        -1 of hinged members, whose stiffness is the member's.
+    scale : ndarray, (m,)
+        Factor that makes a force of a moment: 1 / length of the member [1, 1/m].
+    node_rows : csr_array, (m, 6 n_nodes)
+        Deformations from the nodes' displacements.
+    """
+
+    links: tuple[Link, ...]
+    hinged: tuple[str, ...]
+    kind: IntArray
+    first: IntArray
+    par: FloatArray
+    elastic: FloatArray
+    scale: FloatArray
+    node_rows: SparseMatrix
+
+    def stiffness(self) -> SparseMatrix:
+        """Return the elastic stiffness of the links over all nodal displacements."""
+        values = sparse.diags_array(self.elastic.clip(0.0))
+        return sparse.csr_array(self.node_rows.T @ values @ self.node_rows)
+
+
+def nonlinear_parts(
+    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, members: MemberTable
+) -> NonlinearParts:
+    """Gather the nonlinear parts of a frame.
+
+    Parameters
+    ----------
+    frame : Frame
+        The frame.
+    index : dict
+        Places of the nodes by name.
+    coordinates : ndarray, (n_nodes, 3)
+        Coordinates [m].
+    members : MemberTable
+        The members, all elastic.
+
+    Returns
+    -------
+    NonlinearParts
+        The parts; none of them in a linear frame.
+    """
+    links, hinged = tuple(frame.links.values()), tuple(frame.hinges)
+    kind, par, elastic, scale = [], [], [], []
+    rows: list[FloatArray] = []
+    for link in links:
+        number, constants = _law(link.law)
+        kind.append(number)
+        par.append(constants)
+        elastic.append(elastic_stiffness(link.law))
+        scale.append(1.0)
+        rows.append(_link_row(link, index, coordinates)[None])
+    stiffness = local_stiffness(members.arrays) if hinged else np.zeros((0, 12, 12))
+    for name in hinged:
+        place = members.names.index(name)
+        length = float(members.arrays.length[place])
+        kind.append(kinds.HINGES)
+        par.append(_hinges(stiffness[place], members.fixed_end[place], frame.hinges[name]))
+        elastic.extend([HINGED] * 5)
+        scale.extend([1.0, *[1.0 / length] * 4])
+        rows.append(_basic_rows(members, place, length, len(index)))
+    widths = np.array([len(row) for row in rows], dtype=np.int64)
+    return NonlinearParts(
+        links=links,
+        hinged=hinged,
+        kind=np.array(kind, dtype=np.int64),
+        first=np.concatenate([[0], np.cumsum(widths)]).astype(np.int64),
+        par=np.array(par, dtype=np.float64).reshape(-1, CONSTANTS),
+        elastic=np.array(elastic, dtype=np.float64),
+        scale=np.array(scale, dtype=np.float64),
+        node_rows=sparse.csr_array(
+            np.concatenate(rows) if rows else np.zeros((0, 6 * len(index)))
+        ),
+    )
+
+
+def _law(law: Law) -> tuple[int, FloatArray]:
+    # Its number and constants, in the order frames/kernels/laws.py reads them.
+    values: tuple[float, ...]
+    if isinstance(law, Bilinear):
+        kind, values = kinds.BILINEAR, (law.stiffness, law.yield_force, _modulus(law))
+    elif isinstance(law, BoucWen):
+        kind = kinds.BOUC_WEN
+        values = (
+            law.stiffness, law.hardening, law.exponent, law.shape, law.strength_loss,
+            law.stiffness_loss, law.yield_deformation,
+        )  # fmt: skip
+        pinch = law.pinching
+        if pinch is not None:
+            values += (
+                pinch.slip, pinch.rate, pinch.place, pinch.width, pinch.spreading, pinch.severity,
+            )  # fmt: skip
+    elif isinstance(law, Tie):
+        kind, values = kinds.TIE, (law.stiffness, law.yield_force, _modulus(law), law.slack)
+    elif isinstance(law, ViscousDamper):
+        kind = kinds.VISCOUS if law.stiffness == math.inf else kinds.MAXWELL
+        values = (law.coefficient, law.exponent, law.linear_below, law.stiffness)
+    elif isinstance(law, Stop):
+        kind, values = kinds.STOP, (law.gap, law.stiffness, law.damping, law.soft)
+    else:
+        assert isinstance(law, HertzStop)
+        damping = 0.75 * (1.0 - law.restitution**2)
+        kind, values = kinds.HERTZ, (law.gap, law.stiffness, law.exponent, damping)
+    return kind, _padded(values)
+
+
+def _modulus(law: Bilinear | Tie) -> float:
+    # Plastic modulus, with which the stiffness after yielding is the hardening's share.
+    return law.hardening / (1.0 - law.hardening) * law.stiffness
+
+
+def _padded(values: tuple[float, ...]) -> FloatArray:
+    constants = np.zeros(CONSTANTS)
+    constants[: len(values)] = values
+    return constants
+
+
+def _link_row(link: Link, index: dict[str, int], coordinates: FloatArray) -> FloatArray:
+    # Its deformation from all nodal displacements: it sits at node j, with a rigid lever to i.
+    i, j = index[link.i], index[link.j]
+    row = np.zeros(6 * len(index))
+    direction = np.array(link.direction)
+    at = 3 if link.turns else 0
+    row[6 * j + at : 6 * j + at + 3] += direction
+    row[6 * i + at : 6 * i + at + 3] -= direction
+    if not link.turns:
+        row[6 * i + 3 : 6 * i + 6] -= np.cross(coordinates[j] - coordinates[i], direction)
+    return row
+
+
+def _basic_rows(members: MemberTable, place: int, length: float, n_nodes: int) -> FloatArray:
+    # The five deformations of a member from all nodal displacements.
+    local = np.zeros((5, 12))
+    local[0, [0, 6]] = -1.0, 1.0
+    for row, turn in ((1, 5), (2, 11)):
+        local[row, turn] = 1.0
+        local[row, [1, 7]] = 1.0 / length, -1.0 / length
+    for row, turn in ((3, 4), (4, 10)):
+        local[row, turn] = 1.0
+        local[row, [2, 8]] = -1.0 / length, 1.0 / length
+    turned = np.kron(np.eye(4), members.arrays.axes[place])
+    rows = np.zeros((5, 6 * n_nodes))
+    rows[:, members.dofs[place]] = local @ members.follow[place] @ turned
+    return rows
+
+
+def _hinges(
+    stiffness: FloatArray,
+    fixed_end: FloatArray,
+    ends: tuple[PlasticHinge | None, PlasticHinge | None],
+) -> FloatArray:
+    # Constants of a hinged member: stiffness and permanent parts of its five forces, its hinges.
+    basic = stiffness[np.ix_(BASIC, BASIC)]
+    constants = np.zeros(CONSTANTS)
+    constants[:25] = basic.ravel()
+    constants[25:30] = fixed_end[BASIC]
+    constants[25] = 0.5 * (fixed_end[6] - fixed_end[0])
+    for end, hinge in enumerate(ends):
+        if hinge is None:
+            continue
+        ratio = hinge.hardening / (1.0 - hinge.hardening)
+        bent = basic[[1, 3], [1, 3]] + basic[[1, 3], [2, 4]]  # 6 E I / L about z and y
+        axial = ratio * basic[0, 0] if math.isfinite(hinge.axial) else 0.0
+        at = HINGE + STRIDE * end
+        constants[at : at + 9] = (
+            1.0 / hinge.axial, 1.0 / hinge.moment_y, 1.0 / hinge.moment_z, hinge.axial_centre,
+            hinge.axial_exponent, axial, ratio * bent[1], ratio * bent[0], 1.0,
+        )  # fmt: skip
+    return constants

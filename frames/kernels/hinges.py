@@ -1,0 +1,279 @@
+"""Kernels of plastic hinges at a member's ends: N, My and Mz interact on a smooth convex surface.
+
+A member has five deformations: elongation, rotations of its ends from the chord about z (i, j)
+and about y (i, j); its forces are N, Mz and My there. A hinge adds plastic elongation and rotation
+along the normal of its surface (closest point of the elastic trial, both hinges together).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._jit import kernel
+from lir_element.kernels.linear import solve_many
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats
+
+N_PLASTIC = 6
+"""Plastic elongation, rotation about y and z of hinge i, then of hinge j: first in the state."""
+
+HINGE = 30
+"""Where the constants of hinge i begin in `par`; those of hinge j follow after `STRIDE`."""
+
+STRIDE = 10
+_CORNER = 0.02  # rounds the surface where no moment, and where no axial force is left
+_TOLERANCE = 1e-11  # of the surface
+_MOST = 40
+_TRIES = 8
+
+
+@kernel
+def place(hinge: int, part: int) -> int:
+    """Return which of the five forces is N, My, Mz (0, 1, 2) of a hinge (0, 1)."""
+    if part == 0:
+        return 0
+    return 3 + hinge if part == 1 else 1 + hinge
+
+
+@kernel
+def surface(par: Floats, at: int, sigma: Floats, first: Floats, second: Floats) -> float:
+    """Return the yield function of `sigma` (N, My, Mz less the back stress), negative inside.
+
+    Sets its gradient `first` (3,) and its second derivatives `second` (3, 3).
+    """
+    c = _CORNER
+    a = (sigma[0] - par[at + 3]) * par[at]
+    x, y = sigma[1] * par[at + 1], sigma[2] * par[at + 2]
+    size = math.sqrt(x * x + y * y + c * c)
+    scale = 1.0 / (math.sqrt(1.0 + c * c) - c)
+    half = 0.5 * par[at + 4]
+    square = a * a + c * c
+    power = square ** (half - 1.0)
+    axial = 1.0 / ((1.0 + c * c) ** half - c ** (2.0 * half))
+    value = scale * (size - c) + axial * (power * square - c ** (2.0 * half)) - 1.0
+    first[0] = axial * 2.0 * half * a * power * par[at]
+    first[1] = scale * x / size * par[at + 1]
+    first[2] = scale * y / size * par[at + 2]
+    for p in range(3):
+        for q in range(3):
+            second[p, q] = 0.0
+    bend = 2.0 * half * axial * power * (1.0 + 2.0 * (half - 1.0) * a * a / square)
+    second[0, 0] = bend * par[at] * par[at]
+    cube = scale / (size * size * size)
+    second[1, 1] = cube * (y * y + c * c) * par[at + 1] * par[at + 1]
+    second[2, 2] = cube * (x * x + c * c) * par[at + 2] * par[at + 2]
+    second[1, 2] = -cube * x * y * par[at + 1] * par[at + 2]
+    second[2, 1] = second[1, 2]
+    return value
+
+
+@kernel
+def is_inside(par: Floats, at: int, sigma: Floats) -> bool:
+    """Return whether forces are surely elastic: inside what is inscribed in the surface."""
+    x, y = sigma[1] * par[at + 1], sigma[2] * par[at + 2]
+    return math.sqrt(x * x + y * y) + abs((sigma[0] - par[at + 3]) * par[at]) <= 1.0
+
+
+@kernel
+def set_forces(par: Floats, p: Floats, d: Floats, s: Floats) -> None:
+    """Set the member's five forces from its deformations and the plastic parts of its hinges."""
+    for a in range(5):
+        s[a] = par[25 + a]
+    for c in range(5):
+        elastic = d[c]
+        for hinge in range(2):
+            for part in range(3):
+                if place(hinge, part) == c:
+                    elastic -= p[3 * hinge + part]
+        for a in range(5):
+            s[a] += par[5 * a + c] * elastic
+
+
+@kernel
+def set_stress(par: Floats, hinge: int, p: Floats, s: Floats, sigma: Floats) -> None:
+    """Set N, My, Mz of a hinge less its back stress."""
+    at = HINGE + STRIDE * hinge
+    for part in range(3):
+        sigma[part] = s[place(hinge, part)] - par[at + 5 + part] * p[3 * hinge + part]
+
+
+@kernel
+def stress_slope(par: Floats, h: int, i: int, g: int, j: int) -> float:
+    """Return how part `i` of hinge h's stress falls with part `j` of hinge g's plastic part."""
+    value = par[5 * place(h, i) + place(g, j)]
+    if h == g and i == j:
+        value += par[HINGE + STRIDE * h + 5 + i]
+    return value
+
+
+@kernel
+def set_system(
+    par: Floats, old: Floats, p: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
+) -> float:
+    """Set Jacobian ``w[:8, :8]`` and residual ``w[:8, 8]`` of both hinges; returns the error.
+
+    Unknowns are the six plastic increments and both multipliers; what is off rests.
+    """
+    s, sigma, first, second = w[9, :5], w[10, :3], w[11:13, :3], w[13:16, :3]
+    set_forces(par, p, d, s)
+    error = 0.0
+    for a in range(8):
+        for c in range(9):
+            w[a, c] = 0.0
+        w[a, a] = 1.0
+    for h in range(2):
+        if on[h] == 0.0:
+            continue
+        at = HINGE + STRIDE * h
+        set_stress(par, h, p, s, sigma)
+        value = surface(par, at, sigma, first[h], second)
+        w[6 + h, 6 + h] = 0.0
+        w[6 + h, 8] = value
+        error = max(error, abs(value))
+        for i in range(3):
+            row = 3 * h + i
+            w[row, 8] = p[row] - old[row] - lam[h] * first[h, i]
+            w[row, 6 + h] = -first[h, i]
+            error = max(error, abs(w[row, 8]) * stress_slope(par, h, i, h, i) * par[at + i])
+            for g in range(2):
+                if on[g] == 0.0:
+                    continue
+                for j in range(3):
+                    for q in range(3):
+                        slope = stress_slope(par, h, q, g, j)
+                        w[row, 3 * g + j] += lam[h] * second[i, q] * slope
+                        if i == 0:
+                            w[6 + h, 3 * g + j] -= first[h, q] * slope
+    return error
+
+
+@kernel
+def return_map(
+    par: Floats, old: Floats, new: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
+) -> bool:
+    """Find the plastic parts of the hinges that are on; returns whether that succeeded."""
+    step, back = w[16, :8], w[17, :8]
+    for a in range(N_PLASTIC):
+        new[a] = old[a]
+    lam[0], lam[1] = 0.0, 0.0
+    error = set_system(par, old, new, lam, on, d, w)
+    for _ in range(_MOST):
+        if error <= _TOLERANCE:
+            return True
+        for a in range(8):
+            step[a] = -w[a, 8]
+            back[a] = new[a] if a < N_PLASTIC else lam[a - N_PLASTIC]
+        if not solve_many(w, step.reshape((8, 1)), 8, 1):
+            return False
+        factor, found = 1.0, math.inf
+        for _ in range(_TRIES):
+            for a in range(N_PLASTIC):
+                new[a] = back[a] + factor * step[a]
+            for h in range(2):
+                lam[h] = max(back[N_PLASTIC + h] + factor * step[N_PLASTIC + h], 0.0)
+            found = set_system(par, old, new, lam, on, d, w)
+            if found < error:
+                break
+            factor *= 0.5
+        if not found < error:
+            return error <= 1e3 * _TOLERANCE
+        error = found
+    return error <= 1e3 * _TOLERANCE
+
+
+@kernel
+def hinged_member(
+    par: Floats, old: Floats, new: Floats, d: Floats, g: Floats, slope: Floats, w: Floats
+) -> int:
+    """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
+
+    Returns 0 where nothing yields, 1 where a hinge does, -1 where no state was found. `w` (18, 16)
+    is scratch.
+    """
+    s, sigma, on, lam = w[9, :5], w[10, :3], w[17, 8:10], w[17, 10:12]
+    for k in range(old.shape[0]):
+        new[k] = old[k]
+    yields = 0
+    set_forces(par, old, d, s)
+    for h in range(2):
+        set_stress(par, h, old, s, sigma)
+        on[h] = 0.0
+        at = HINGE + STRIDE * h
+        if par[at + 8] > 0.0 and not is_inside(par, at, sigma):
+            if surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 0.0:
+                on[h], yields = 1.0, 1
+    if yields and not settle_hinges(par, old, new, lam, on, d, w):
+        return -1
+    for a in range(5):
+        g[a] = 0.0
+        for c in range(5):
+            slope[a, c] = 0.0
+        for h in range(2):
+            for part in range(3):
+                g[a] -= par[5 * a + place(h, part)] * new[3 * h + part]
+    if yields:
+        set_slope(par, old, new, lam, on, d, slope, w)
+        for h in range(2):
+            turn = math.hypot(new[3 * h + 1] - old[3 * h + 1], new[3 * h + 2] - old[3 * h + 2])
+            new[N_PLASTIC + h] = old[N_PLASTIC + h] + turn
+    return yields
+
+
+@kernel
+def settle_hinges(
+    par: Floats, old: Floats, new: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
+) -> bool:
+    """Return-map with the hinges that turn out to yield: none pulled back, none left outside."""
+    s, sigma = w[9, :5], w[10, :3]
+    for _ in range(6):
+        if not return_map(par, old, new, lam, on, d, w):
+            return False
+        same = True
+        for h in range(2):
+            at = HINGE + STRIDE * h
+            if on[h] > 0.0:
+                if lam[h] <= 0.0:
+                    on[h], same = 0.0, False
+            elif par[at + 8] > 0.0:
+                set_forces(par, new, d, s)
+                set_stress(par, h, new, s, sigma)
+                if surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 1e-9:
+                    on[h], same = 1.0, False
+        if same:
+            return True
+    return False
+
+
+@kernel
+def set_slope(
+    par: Floats, old: Floats, p: Floats, lam: Floats, on: Floats, d: Floats, slope: Floats,
+    w: Floats,
+) -> None:  # fmt: skip
+    """Set the derivatives of the forces beyond the elastic ones by the five deformations."""
+    set_system(par, old, p, lam, on, d, w)
+    right = w[:8, 9:14]
+    first, second = w[11:13, :3], w[13:16, :3]
+    sigma, s = w[16, :3], w[17, :5]
+    set_forces(par, p, d, s)
+    for a in range(8):
+        for c in range(5):
+            right[a, c] = 0.0
+    for h in range(2):
+        if on[h] == 0.0:
+            continue
+        set_stress(par, h, p, s, sigma)
+        surface(par, HINGE + STRIDE * h, sigma, first[h], second)
+        for c in range(5):
+            for q in range(3):
+                stiff = par[5 * place(h, q) + c]
+                right[6 + h, c] -= first[h, q] * stiff
+                for i in range(3):
+                    right[3 * h + i, c] += lam[h] * second[i, q] * stiff
+    solve_many(w, right, 8, 5)
+    for a in range(5):
+        for c in range(5):
+            for h in range(2):
+                for part in range(3):
+                    slope[a, c] -= par[5 * a + place(h, part)] * right[3 * h + part, c]

@@ -1,0 +1,499 @@
+"""Kernels of nonlinear parts in a linear frame: equilibrium, tangent, commit, energy.
+
+The force of a part is ``k0 d + g(d)``; k0 is in the frame's stiffness. Within a step of the time
+integration the deformations are ``d = linear - F (g - g_old)``, linear in the step of b, with the
+flexibility F of the frame at that step (docs/theory.md, 5): only parts whose g changes, the loose
+ones, need a solution, and what stays elastic costs its deformation alone.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._jit import inlined, kernel
+from frames.kernels.effective import effective
+from frames.kernels.hinges import N_PLASTIC, hinged_member, set_forces
+from frames.kernels.laws import BOUC_WEN, HERTZ, HINGES, MAXWELL, STOP, VISCOUS, uniaxial
+from lir_element.kernels.linear import solve_many
+
+if TYPE_CHECKING:
+    from frames.kernel_data import Model, Run, Setup
+    from frames.parts_data import Parts
+    from lir_element.layout import Floats, Words
+
+WORK_DONE = 8
+"""Where the state of a part has the work it has done; of hinge j it is the next one."""
+
+_MOST = 40  # iterations over the loose parts
+_TRIES = 6
+_SHORTER = 0.4
+
+
+@kernel
+def part_trial(
+    kind: Words, first: Words, par: Floats, elastic: Floats, old: Floats, new: Floats,
+    d_old: Floats, d: Floats, v_old: Floats, v: Floats, g_old: Floats, g: Floats, change: Floats,
+    slope: Floats, small: Floats, k: int, rate: float, dt: float,
+) -> int:  # fmt: skip
+    """Set g, its change and its slope of part `k` at `d`.
+
+    Returns 0 where g does not change, 1 where it does, -1 where there is no state.
+    """
+    at = first[k]
+    if kind[k] == HINGES:
+        end = at + 5
+        yields = hinged_member(
+            par[k], old[k], new[k], d[at:end], g[at:end], slope[at:end], small
+        )  # fmt: skip
+        for i in range(at, end):
+            change[i] = g[i] - g_old[i] if yields else 0.0
+        return yields
+    k_0 = elastic[at]
+    force, stiffness = uniaxial(
+        kind[k], par[k], old[k], new[k], d_old[at], d[at], v_old[at], v[at], rate, dt
+    )
+    g[at] = force - k_0 * d[at]
+    slope[at, 0] = stiffness - k_0
+    change[at] = g[at] - g_old[at]
+    if not math.isfinite(force):
+        return -1
+    if k_0 > 0.0 and kind[k] != BOUC_WEN and stiffness == k_0:
+        change[at] = 0.0
+        return 0
+    return 1 if change[at] != 0.0 or slope[at, 0] != 0.0 else 0
+
+
+@inlined
+def try_part(parts: Parts, k: int, dt: float) -> int:
+    """Run part `k` at its deformations, with the speeds that the time integration implies."""
+    speed, known_v, known_a = parts.scheme[0], parts.scheme[1], parts.scheme[2]
+    for i in range(parts.first[k], parts.first[k + 1]):
+        parts.v[i] = (
+            speed * (parts.d[i] - parts.d_old[i])
+            + known_v * parts.v_old[i]
+            + known_a * parts.a_old[i]
+        )
+    return part_trial(
+        parts.kind, parts.first, parts.par, parts.elastic, parts.old, parts.new, parts.d_old,
+        parts.d, parts.v_old, parts.v, parts.g_old, parts.g, parts.change, parts.slope, parts.small,
+        k, speed, dt,
+    )  # fmt: skip
+
+
+@kernel
+def flexibility_row(
+    to_e: Floats, still: Floats, inverse: Floats, i: int, share: float, out: Floats, scratch: Floats
+) -> None:
+    """Set row `i` of the flexibility, the modes' own being the rows of `inverse` (full) or one."""
+    m, n_e = to_e.shape
+    if inverse.shape[0] == 1:
+        for k in range(n_e):
+            scratch[k] = share * inverse[0, k] * to_e[i, k]
+    else:
+        for k in range(n_e):
+            total = 0.0
+            for j in range(n_e):
+                total += inverse[k, j] * to_e[i, j]
+            scratch[k] = share * total
+    for j in range(m):
+        total = still[i, j]
+        for k in range(n_e):
+            total += scratch[k] * to_e[j, k]
+        out[j] = total
+
+
+@kernel
+def follow_of(
+    to_b: Floats, to_e: Floats, mass_eb: Floats, inverse: Floats, factor: float, full: Floats,
+    out: Floats,
+) -> None:  # fmt: skip
+    """Set how deformations follow b with the modes: by `full` damping's, or the diagonal one."""
+    m, n_b = to_b.shape
+    for i in range(m):
+        for a in range(n_b):
+            out[i, a] = to_b[i, a]
+        for k in range(to_e.shape[1]):
+            value = to_e[i, k]
+            if full.shape[0] > 0:
+                for a in range(n_b):
+                    out[i, a] -= value * full[k, a]
+            else:
+                value *= factor * inverse[0, k]
+                for a in range(n_b):
+                    out[i, a] -= value * mass_eb[k, a]
+
+
+@inlined
+def set_mode_flexibility(
+    model: Model, parts: Parts, c_m: float, c_c: float, c_k: float
+) -> None:
+    """Set ``parts.modes[0]``, the modes' flexibility at a step where damping is diagonal."""
+    for k in range(parts.to_e.shape[1]):
+        parts.modes[0, k] = 1.0 / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+
+
+@inlined
+def set_part_follow(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
+    """Set how the deformations follow b at the present step size."""
+    at = run.clock[0].halvings
+    c_m, c_c, c_k = effective(settings, run.clock[0].dt)
+    set_mode_flexibility(model, parts, c_m, c_c, c_k)
+    n_full = model.damping_ee.shape[0]
+    follow_of(
+        parts.to_b, parts.to_e, model.mass_eb, parts.modes[:1], c_m, run.follow_e[at][:n_full],
+        parts.follow[at],
+    )  # fmt: skip
+
+
+@inlined
+def row_of(model: Model, run: Run, parts: Parts, i: int) -> int:
+    """Return the place in the pool of row `i` of the flexibility at the present step size."""
+    at = run.clock[0].halvings
+    place = parts.slot[at, i]
+    if place > 0:
+        return int(place - 1)
+    place, share = parts.count[1], parts.scheme[3]
+    if model.damping_ee.shape[0] > 0:
+        flexibility_row(
+            parts.to_e, parts.still, run.inverse_e[at], i, share, parts.pool[place], parts.modes[1]
+        )
+    else:
+        flexibility_row(
+            parts.to_e, parts.still, parts.modes[:1], i, share, parts.pool[place], parts.modes[1]
+        )
+    parts.slot[at, i] = place + 1
+    parts.count[1] = place + 1
+    return int(place)
+
+
+@inlined
+def begin_parts(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
+    """Set the deformations at the end of the step if b rests and no force g changes.
+
+    Needs ``run.h_e``, what the modes do then.
+    """
+    c_m, c_c, c_k = effective(settings, run.clock[0].dt)
+    parts.scheme[0] = settings.gamma / (settings.beta * run.clock[0].dt)
+    parts.scheme[1] = 1.0 - settings.gamma / settings.beta
+    parts.scheme[2] = run.clock[0].dt * (1.0 - 0.5 * settings.gamma / settings.beta)
+    parts.scheme[3] = c_k
+    parts.scheme[4] = settings.force_tolerance
+    set_mode_flexibility(model, parts, c_m, c_c, c_k)
+    for i in range(parts.d.shape[0]):
+        total = parts.d_old[i]
+        for k in range(run.h_e.shape[0]):
+            total += parts.to_e[i, k] * run.h_e[k]
+        parts.known[i] = total
+        parts.change[i] = 0.0
+    for k in range(parts.kind.shape[0]):
+        parts.loose[k] = 0
+    parts.count[0] = 0
+    m = parts.d.shape[0]
+    if parts.count[1] + m > parts.pool.shape[0]:  # room for a row each
+        parts.slot[:, :] = 0
+        parts.count[1] = 0
+
+
+@inlined
+def loosen(parts: Parts, k: int) -> None:
+    """Add a part to the loose ones."""
+    parts.loose[k] = 1
+    for i in range(parts.first[k], parts.first[k + 1]):
+        parts.active[parts.count[0]] = i
+        parts.count[0] += 1
+
+
+@inlined
+def follow_change(model: Model, run: Run, parts: Parts) -> None:
+    """Set the deformations of what is not loose from those of the step and the changes of g."""
+    for i in range(parts.d.shape[0]):
+        parts.vector[0, i] = parts.linear[i]
+    for n in range(parts.count[0]):
+        change = parts.change[parts.active[n]]
+        if change != 0.0:
+            row = parts.pool[row_of(model, run, parts, parts.active[n])]
+            for i in range(parts.d.shape[0]):
+                parts.vector[0, i] -= row[i] * change
+    for k in range(parts.kind.shape[0]):
+        if parts.loose[k] == 0:
+            for i in range(parts.first[k], parts.first[k + 1]):
+                parts.d[i] = parts.vector[0, i]
+
+
+@inlined
+def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
+    """Set what the loose deformations lack of what the frame gives; returns its size as a force."""
+    size = 0.0
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        row = parts.pool[row_of(model, run, parts, i)]
+        total = parts.linear[i] - parts.d[i]
+        for p in range(parts.count[0]):
+            total -= row[parts.active[p]] * parts.change[parts.active[p]]
+        parts.vector[1, n] = total
+        size = max(size, abs(total) / row[i] * parts.scale[i])
+    return size
+
+
+@inlined
+def try_loose(model: Model, run: Run, parts: Parts) -> float:
+    """Run the loose parts and return the size of what they lack; infinite without a state."""
+    for k in range(parts.kind.shape[0]):
+        if parts.loose[k] == 1 and try_part(parts, k, run.clock[0].dt) < 0:
+            return math.inf
+    return set_part_gap(model, run, parts)
+
+
+@inlined
+def set_part_matrix(model: Model, run: Run, parts: Parts) -> None:
+    """Set ``1 + F slope`` over the loose deformations."""
+    count = parts.count[0]
+    for n in range(count):
+        row = parts.pool[row_of(model, run, parts, parts.active[n])]
+        for p in range(count):
+            parts.matrix[n, p] = 1.0 if n == p else 0.0
+        p = 0
+        while p < count:  # by parts: those of one lie together
+            width = part_width(parts, parts.active[p])
+            for r in range(width):
+                flexible = row[parts.active[p + r]]
+                for q in range(width):
+                    parts.matrix[n, p + q] += flexible * parts.slope[parts.active[p + r], q]
+            p += width
+
+
+@inlined
+def part_width(parts: Parts, i: int) -> int:
+    """Return how many deformations the part has whose first one is `i`."""
+    return 5 if i + 1 < parts.d.shape[0] and parts.elastic[i] < 0.0 else 1
+
+
+@inlined
+def newton_loose(model: Model, run: Run, parts: Parts) -> bool:
+    """Bring the loose parts into equilibrium with the frame; returns whether that succeeded."""
+    tolerance = parts.scheme[4]
+    size = try_loose(model, run, parts)
+    for _ in range(_MOST):
+        if size <= tolerance:
+            return True
+        if size == math.inf:
+            return False
+        count = parts.count[0]
+        set_part_matrix(model, run, parts)
+        for n in range(count):
+            parts.right[n, 0] = parts.vector[1, n]
+        if not solve_many(parts.matrix, parts.right, count, 1):
+            return False
+        for n in range(count):
+            parts.d[parts.active[n]] += parts.right[n, 0]
+        factor = 1.0
+        for attempt in range(_TRIES):
+            found = try_loose(model, run, parts)
+            if found < size or attempt == _TRIES - 1:
+                break
+            for n in range(count):
+                parts.d[parts.active[n]] -= (1.0 - _SHORTER) * factor * parts.right[n, 0]
+            factor *= _SHORTER
+        size = found
+    return size <= tolerance
+
+
+@inlined
+def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
+    """Find the deformations and forces of all parts for a step of b; returns success."""
+    follow = parts.follow[run.clock[0].halvings]
+    for i in range(parts.d.shape[0]):
+        total = parts.known[i]
+        for a in range(step.shape[0]):
+            total += follow[i, a] * step[a]
+        parts.linear[i] = total
+    for n in range(parts.count[0]):  # the first guess: forces as they were
+        i = parts.active[n]
+        row = parts.pool[row_of(model, run, parts, i)]
+        parts.d[i] = parts.linear[i]
+        for p in range(parts.count[0]):
+            parts.d[i] -= row[parts.active[p]] * parts.change[parts.active[p]]
+    for _ in range(parts.kind.shape[0] + 1):
+        if parts.count[0] > 0 and not newton_loose(model, run, parts):
+            return False
+        follow_change(model, run, parts)
+        more = False
+        for k in range(parts.kind.shape[0]):
+            if parts.loose[k] == 0:
+                found = try_part(parts, k, run.clock[0].dt)
+                if found < 0:
+                    return False
+                if found > 0:
+                    loosen(parts, k)
+                    more = True
+        if not more:
+            return True
+    return False
+
+
+@inlined
+def add_part_forces(run: Run, parts: Parts, out: Floats) -> None:
+    """Take the change of the forces g from a residual of b."""
+    follow = parts.follow[run.clock[0].halvings]
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        value = parts.scheme[3] * parts.change[i]
+        if value != 0.0:
+            for a in range(out.shape[0]):
+                out[a] -= value * follow[i, a]
+
+
+@inlined
+def add_part_tangent(model: Model, run: Run, parts: Parts) -> bool:
+    """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
+    count, n_b = parts.count[0], run.step.shape[0]
+    if count == 0:
+        return True
+    follow = parts.follow[run.clock[0].halvings]
+    set_part_matrix(model, run, parts)
+    for n in range(count):
+        for a in range(n_b):
+            parts.right[n, a] = follow[parts.active[n], a]
+    if not solve_many(parts.matrix, parts.right, count, n_b):
+        return False
+    p = 0
+    while p < count:
+        width = part_width(parts, parts.active[p])
+        for r in range(width):
+            i = parts.active[p + r]
+            for q in range(width):
+                value = parts.scheme[3] * parts.slope[i, q]
+                if value != 0.0:
+                    for a in range(n_b):
+                        for c in range(n_b):
+                            run.tangent[a, c] += value * follow[i, a] * parts.right[p + q, c]
+        p += width
+    return True
+
+
+@inlined
+def part_load_on_modes(parts: Parts, out: Floats) -> None:
+    """Take the change of the forces g from loads on the modes."""
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        value = parts.scheme[3] * parts.change[i]
+        if value != 0.0:
+            for k in range(out.shape[0]):
+                out[k] -= value * parts.to_e[i, k]
+
+
+@inlined
+def plastic_work(parts: Parts, k: int) -> float:
+    """Add what part `k` of the structure dissipated in the step (and stores by hardening)."""
+    at = parts.first[k]
+    total = 0.0
+    if parts.kind[k] == HINGES:
+        before, after = parts.small[9, :5], parts.small[10, :5]
+        set_forces(parts.par[k], parts.old[k], parts.d_old[at : at + 5], before)
+        set_forces(parts.par[k], parts.new[k], parts.d[at : at + 5], after)
+        for p in range(N_PLASTIC):
+            hinge, part = p // 3, p % 3
+            c = 0 if part == 0 else (3 + hinge if part == 1 else 1 + hinge)
+            done = 0.5 * (before[c] + after[c]) * (parts.new[k, p] - parts.old[k, p])
+            parts.new[k, WORK_DONE + hinge] += done
+            total += done
+        return total
+    elastic = parts.elastic[at]
+    mean = 0.5 * (elastic * (parts.d_old[at] + parts.d[at]) + 2.0 * parts.g_old[at])
+    mean += 0.5 * parts.change[at]
+    done = -mean * parts.change[at] / elastic
+    parts.new[k, WORK_DONE] += done
+    return float(done)
+
+
+@inlined
+def add_part_work(parts: Parts) -> None:
+    """Add the step's works of all parts: of yielding, of dampers, of stops and ties."""
+    for k in range(parts.kind.shape[0]):
+        at = parts.first[k]
+        if parts.kind[k] == HINGES or parts.elastic[at] > 0.0:
+            if parts.loose[k] == 1:
+                parts.work[0] += plastic_work(parts, k)
+            continue
+        done = (parts.g_old[at] + 0.5 * parts.change[at]) * (parts.d[at] - parts.d_old[at])
+        parts.new[k, WORK_DONE] += done
+        damper = parts.kind[k] == VISCOUS or parts.kind[k] == MAXWELL
+        parts.work[1 if damper else 2] += done
+
+
+@inlined
+def commit_parts(parts: Parts, beta: float, gamma: float, dt: float) -> None:
+    """Accept the trial state of all parts, and their forces in frame coordinates."""
+    add_part_work(parts)
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        change = parts.change[i]
+        if change != 0.0:
+            for a in range(parts.load_b.shape[0]):
+                parts.load_b[a] += change * parts.to_b[i, a]
+            for k in range(parts.load_e.shape[0]):
+                parts.load_e[k] += change * parts.to_e[i, k]
+    for i in range(parts.d.shape[0]):
+        way = parts.d[i] - parts.d_old[i]
+        a_new = (way / dt - parts.v_old[i]) / (beta * dt) - (0.5 / beta - 1.0) * parts.a_old[i]
+        parts.v_old[i] += dt * ((1.0 - gamma) * parts.a_old[i] + gamma * a_new)
+        parts.a_old[i] = a_new
+        parts.d_old[i] = parts.d[i]
+        parts.g_before[i] = parts.g_old[i]
+        parts.g_old[i] += parts.change[i]
+    for k in range(parts.kind.shape[0]):
+        for n in range(parts.old.shape[1]):
+            parts.old[k, n] = parts.new[k, n]
+
+
+@inlined
+def part_energy_on(load: Floats, parts: Parts, to: Floats, step: Floats) -> float:
+    """Return the work of the parts' forces g over a step of coordinates, by the trapezoid."""
+    total = 0.0
+    for a in range(step.shape[0]):
+        total += load[a] * step[a]
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        value = 0.5 * parts.change[i]
+        if value != 0.0:
+            for a in range(step.shape[0]):
+                total += value * to[i, a] * step[a]
+    return total
+
+
+@inlined
+def part_error(parts: Parts, ratio: float) -> float:
+    """Return the squared second difference of the parts' forces, for the error of a step."""
+    total = 0.0
+    for i in range(parts.d.shape[0]):
+        bend = parts.change[i] - ratio * (parts.g_old[i] - parts.g_before[i])
+        bend *= parts.scale[i]
+        total += bend * bend
+    return total
+
+
+@inlined
+def part_defect(parts: Parts) -> float:
+    """Return the energy that stops make or lose by opening and closing within the step."""
+    total = 0.0
+    for k in range(parts.kind.shape[0]):
+        if (parts.kind[k] == STOP or parts.kind[k] == HERTZ) and parts.loose[k] == 1:
+            i = parts.first[k]
+            x_old, x = parts.d_old[i] - parts.par[k, 0], parts.d[i] - parts.par[k, 0]
+            if (x_old > 0.0) != (x > 0.0):
+                power = parts.par[k, 2] if parts.kind[k] == HERTZ else 1.0
+                total += wall_defect(parts.par[k, 1], power, x_old, x)
+    return total
+
+
+@kernel
+def wall_defect(stiffness: float, power: float, x_old: float, x: float) -> float:
+    """Return how far the trapezoid's work is from what an elastic wall stores between x_old, x."""
+    store, mean = 0.0, 0.0
+    for sign, depth in ((-1.0, x_old), (1.0, x)):
+        if depth > 0.0:
+            force = stiffness * depth**power
+            store += sign * force * depth / (power + 1.0)
+            mean += 0.5 * force
+    return abs(mean * (x - x_old) - store)

@@ -1,0 +1,370 @@
+"""Laws of force and deformation for nonlinear links: what `Frame.add_link` takes.
+
+A link has one deformation d, positive in tension or along its direction, and one force f. Laws
+with an elastic stiffness belong to the structure and carry permanent loads; the others (dampers,
+stops, ties) are put in afterwards: their deformation counts from the state under permanent loads.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from frames._errors import ModelError
+from lir_element.door import require_between, require_non_negative, require_positive
+
+KINDS = ("bilinear", "bouc-wen", "tie", "viscous", "maxwell", "stop", "hertz-stop", "hinges")
+"""Kinds of law as the kernels number them."""
+
+_TOP = 1.0 - 1e-9
+
+
+def _positive(law: object, name: str, unit: str) -> None:
+    what = f"{type(law).__name__}: {name} [{unit}]"
+    require_positive(what, getattr(law, name), error=ModelError)
+
+
+def _share(law: object, name: str, high: float, low: float = 0.0) -> None:
+    what = f"{type(law).__name__}: {name}"
+    require_between(what, getattr(law, name), low, high, "-", error=ModelError)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bilinear:
+    """Elastic-plastic law with linear kinematic hardening: a yielding storey, a brace that yields.
+
+    Attributes
+    ----------
+    stiffness : float
+        Elastic stiffness k [N/m, N m/rad].
+    yield_force : float
+        Force at first yield [N, N m].
+    hardening : float
+        Stiffness after yielding over the elastic one [-], in [0, 1).
+    """
+
+    stiffness: float
+    yield_force: float
+    hardening: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        _positive(self, "stiffness", "N/m")
+        _positive(self, "yield_force", "N")
+        _share(self, "hardening", _TOP)
+
+    @property
+    def yield_deformation(self) -> float:
+        """Deformation at first yield [m, rad]."""
+        return self.yield_force / self.stiffness
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pinching:
+    """Pinching of a Bouc-Wen law, after Baber and Noori (1985) and Foliente (1995); all in [-].
+
+    Attributes
+    ----------
+    slip : float
+        Largest share zeta_s of the stiffness that slip takes away, in [0, 1).
+    rate : float
+        How fast it grows with the energy dissipated, p.
+    place : float
+        Force over the largest one where pinching is deepest, q.
+    width : float
+        Spread psi of the pinched part, of the largest force.
+    spreading : float
+        Growth delta_psi of the spread with the energy dissipated.
+    severity : float
+        lambda, by which the spread follows the depth.
+    """
+
+    slip: float = 0.9
+    rate: float = 0.5
+    place: float = 0.1
+    width: float = 0.2
+    spreading: float = 0.005
+    severity: float = 0.1
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        _share(self, "slip", _TOP)
+        for name in ("rate", "spreading"):
+            require_non_negative(f"Pinching: {name} [-]", getattr(self, name), error=ModelError)
+        _share(self, "place", 1.0)
+        for name in ("width", "severity"):
+            _positive(self, name, "-")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoucWen:
+    """Smooth hysteresis that may lose strength and stiffness and pinch: concrete, timber, steel.
+
+    ``f = r k d + (1 - r) k u_y z``, with ``dz = h (1 - nu |z|^n (beta sgn(z dd) + 1 - beta))
+    / eta * dd / u_y``; ``nu = 1 + strength_loss E``, ``eta = 1 + stiffness_loss E``, E the energy
+    that z has dissipated over ``yield_force * u_y``. Source: Baber and Noori (1985); the pinching h
+    after Foliente (1995).
+
+    Attributes
+    ----------
+    stiffness : float
+        Elastic stiffness k [N/m, N m/rad].
+    yield_force : float
+        k u_y, the force that is reached asymptotically without hardening [N, N m].
+    hardening : float
+        Stiffness after yielding over the elastic one, r [-], in [0, 1).
+    exponent : float
+        n [-], at least 1: how sharply it yields.
+    shape : float
+        beta [-] in (0, 1]: 0.5 unloads straight, larger values unload in a curve.
+    strength_loss, stiffness_loss : float
+        Degradation a unit of normalised energy [-], >= 0.
+    pinching : Pinching or None
+        Slip that pinches the loops.
+    """
+
+    stiffness: float
+    yield_force: float
+    hardening: float = 0.0
+    exponent: float = 2.0
+    shape: float = 0.5
+    strength_loss: float = 0.0
+    stiffness_loss: float = 0.0
+    pinching: Pinching | None = None
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        _positive(self, "stiffness", "N/m")
+        _positive(self, "yield_force", "N")
+        _share(self, "hardening", _TOP)
+        _share(self, "exponent", 20.0, 1.0)
+        _share(self, "shape", 1.0, 1e-6)
+        for name in ("strength_loss", "stiffness_loss"):
+            require_non_negative(f"BoucWen: {name} [-]", getattr(self, name), error=ModelError)
+        if self.pinching is not None and not isinstance(self.pinching, Pinching):
+            msg = f"BoucWen: pinching = {self.pinching!r} must be a Pinching or None"
+            raise ModelError(msg)
+
+    @property
+    def yield_deformation(self) -> float:
+        """Deformation u_y at which it would yield without its curve [m, rad]."""
+        return self.yield_force / self.stiffness
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tie:
+    """A slender brace, rod or cable: it pulls only, yields, and is slack by what it yielded.
+
+    Attributes
+    ----------
+    stiffness : float
+        Stiffness in tension [N/m].
+    yield_force : float
+        Force at yield [N]; infinity for one that stays elastic.
+    hardening : float
+        Stiffness after yielding over the elastic one [-], in [0, 1).
+    slack : float
+        Elongation from the state under permanent loads at which it begins to pull [m], >= 0.
+    """
+
+    stiffness: float
+    yield_force: float = math.inf
+    hardening: float = 0.0
+    slack: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        _positive(self, "stiffness", "N/m")
+        if self.yield_force != math.inf:
+            _positive(self, "yield_force", "N")
+        _share(self, "hardening", _TOP)
+        require_non_negative("Tie: slack [m]", self.slack, error=ModelError)
+
+    @property
+    def yield_deformation(self) -> float:
+        """Elongation from the beginning of its pull to yield [m]."""
+        return self.yield_force / self.stiffness
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViscousDamper:
+    """A fluid damper, ``f = c |v|^exponent sgn(v)``; with a stiffness in series (Maxwell).
+
+    Attributes
+    ----------
+    coefficient : float
+        c [N (s/m)^exponent].
+    exponent : float
+        [-] in [0.1, 2]: 1 is linear; devices have 0.15 to 1.
+    stiffness : float
+        Of brace, clevis and fluid in series [N/m]; infinity for none.
+    linear_below : float
+        Speed about which the force turns over smoothly where the exponent is below 1 [m/s].
+    """
+
+    coefficient: float
+    exponent: float = 1.0
+    stiffness: float = math.inf
+    linear_below: float = 1e-3
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        _positive(self, "coefficient", "N (s/m)^exponent")
+        _share(self, "exponent", 2.0, 0.1)
+        if self.stiffness != math.inf:
+            _positive(self, "stiffness", "N/m")
+        _positive(self, "linear_below", "m/s")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stop:
+    """A wall or buffer behind a gap, with linear stiffness and damping (Kelvin-Voigt).
+
+    It pushes only, ``f = k x + c v`` for a penetration x > 0, and never pulls. So that the force
+    is continuous the damping comes in over the first `soft` metres.
+
+    Attributes
+    ----------
+    gap : float
+        Deformation at which it is met [m], >= 0.
+    stiffness : float
+        k [N/m].
+    damping : float
+        c [N s/m], >= 0; `Stop.damping_for` gives it for a coefficient of restitution.
+    soft : float
+        Penetration over which the damping comes in [m].
+    """
+
+    gap: float
+    stiffness: float
+    damping: float = 0.0
+    soft: float = 1e-4
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        require_non_negative("Stop: gap [m]", self.gap, error=ModelError)
+        _positive(self, "stiffness", "N/m")
+        require_non_negative("Stop: damping [N s/m]", self.damping, error=ModelError)
+        _positive(self, "soft", "m")
+
+    @staticmethod
+    def damping_for(restitution: float, stiffness: float, mass: float) -> float:
+        """Return the damping that makes a mass rebound with a share of its speed.
+
+        Parameters
+        ----------
+        restitution : float
+            Speed after over speed before the impact [-], in (0, 1].
+        stiffness : float
+            Of the stop [N/m].
+        mass : float
+            Of what runs into it, against a fixed wall [kg].
+
+        Returns
+        -------
+        float
+            c [N s/m], ``2 xi (k m)^(1/2)`` with ``xi = -ln e / (pi^2 + ln^2 e)^(1/2)``
+            (Anagnostopoulos 1988): for one that may pull at the end of the contact. A stop does
+            not, and gives back up to some per cent more.
+        """
+        what = "Stop.damping_for: restitution"
+        e = require_between(what, restitution, 1e-3, 1.0, "-", error=ModelError)
+        k = require_positive("Stop.damping_for: stiffness [N/m]", stiffness, error=ModelError)
+        m = require_positive("Stop.damping_for: mass [kg]", mass, error=ModelError)
+        ratio = -math.log(e) / math.hypot(math.pi, math.log(e))
+        return 2.0 * ratio * math.sqrt(k * m)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HertzStop:
+    """A wall behind a gap with Hertz' contact and damping: pounding of bodies.
+
+    ``f = k x^n (1 + 3/4 (1 - e^2) v / v_0)`` for a penetration x > 0, v_0 the speed of approach.
+    Source: Muthukumar and DesRoches (2006), eq. 9; Lankarani and Nikravesh (1990).
+
+    Attributes
+    ----------
+    gap : float
+        Deformation at which it is met [m], >= 0.
+    stiffness : float
+        k [N/m^exponent].
+    restitution : float
+        e, speed after over speed before the impact [-], in [0.3, 1].
+    exponent : float
+        n [-], in [1, 3]; 1.5 of two spheres.
+    """
+
+    gap: float
+    stiffness: float
+    restitution: float = 0.7
+    exponent: float = 1.5
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        require_non_negative("HertzStop: gap [m]", self.gap, error=ModelError)
+        _positive(self, "stiffness", "N/m^exponent")
+        _share(self, "restitution", 1.0, 0.3)
+        _share(self, "exponent", 3.0, 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlasticHinge:
+    """A plastic hinge at a member's end with interaction of axial force and both moments.
+
+    It is rigid until ``m + |n|^axial_exponent = 1`` with ``m^2 = (My/moment_y)^2 +
+    (Mz/moment_z)^2`` and ``n = (N - axial_centre) / axial``; then it turns, and lengthens, along
+    the normal of that surface (associated flow), with linear kinematic hardening. Member's axes.
+
+    Attributes
+    ----------
+    moment_y, moment_z : float
+        Plastic moments about local y and z [N m]; infinity where it does not yield.
+    axial : float
+        Axial force from `axial_centre` at which no moment is left [N]; infinity: no interaction.
+    axial_centre : float
+        Axial force at the largest moment, tension positive [N]: 0 of steel; of a concrete column
+        the force at balance, with the moments that belong to it.
+    axial_exponent : float
+        [-] in [1, 4]: 1.3 of I-sections about the strong axis (Duan and Chen 1989), 2 of
+        rectangles and of concrete.
+    hardening : float
+        Stiffness of the hinged member in double curvature after yielding over the elastic one [-],
+        in [0, 1); steel beams 0.03 (ASCE/SEI 41-17, 9.4.2.2).
+    """
+
+    moment_y: float = math.inf
+    moment_z: float = math.inf
+    axial: float = math.inf
+    axial_centre: float = 0.0
+    axial_exponent: float = 2.0
+    hardening: float = 0.01
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        for name in ("moment_y", "moment_z", "axial"):
+            if getattr(self, name) != math.inf:
+                _positive(self, name, "N m" if name != "axial" else "N")
+        if self.moment_y == self.moment_z == math.inf:
+            msg = "PlasticHinge: moment_y and moment_z are both infinite: give a plastic moment"
+            raise ModelError(msg)
+        if not math.isfinite(self.axial_centre) or abs(self.axial_centre) >= self.axial:
+            msg = (
+                f"PlasticHinge: axial_centre = {self.axial_centre!r} N must be finite and smaller "
+                f"than axial = {self.axial!r} N"
+            )
+            raise ModelError(msg)
+        if self.axial == math.inf and self.axial_centre != 0.0:
+            msg = "PlasticHinge: axial_centre without axial: give the axial force without moment"
+            raise ModelError(msg)
+        _share(self, "axial_exponent", 4.0, 1.0)
+        _share(self, "hardening", 0.9)
+
+
+Law: TypeAlias = Bilinear | BoucWen | Tie | ViscousDamper | Stop | HertzStop
+LAWS = (Bilinear, BoucWen, Tie, ViscousDamper, Stop, HertzStop)
+
+
+def elastic_stiffness(law: Law) -> float:
+    """Return the stiffness that a link has in the elastic structure; 0 of what is put in later."""
+    return law.stiffness if isinstance(law, Bilinear | BoucWen) else 0.0
