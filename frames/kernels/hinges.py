@@ -172,7 +172,7 @@ def return_map(
             for a in range(N_PLASTIC):
                 new[a] = back[a] + factor * step[a]
             for h in range(2):
-                lam[h] = max(back[N_PLASTIC + h] + factor * step[N_PLASTIC + h], 0.0)
+                lam[h] = back[N_PLASTIC + h] + factor * step[N_PLASTIC + h]
             found = set_system(par, old, new, lam, on, d, w)
             if found < error:
                 break

@@ -26,6 +26,7 @@ WORK_DONE = 8
 """Where the state of a part has the work it has done; of hinge j it is the next one."""
 
 _MOST = 40  # iterations over the loose parts
+_NOISE = 2e-15  # of a deformation: no difference is looked at that is round-off
 _TRIES = 6
 _SHORTER = 0.4
 
@@ -232,7 +233,9 @@ def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
         for p in range(parts.count[0]):
             total -= row[parts.active[p]] * parts.change[parts.active[p]]
         parts.vector[1, n] = total
-        size = max(size, abs(total) / row[i] * parts.scale[i])
+        noise = _NOISE * (abs(parts.linear[i]) + abs(parts.d[i]))
+        if abs(total) > noise:
+            size = max(size, abs(total) / row[i] * parts.scale[i])
     return size
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -14,8 +14,9 @@ from frames.library.grid import bearing_grid, pair
 from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.moment_frames import moment_frame as moment_frame
 from frames.model.damping import Damping
+from frames.model.laws import Bilinear, BoucWen
 from frames.model.parts import bearing_axial_stiffness
-from lir_element.door import require_between, require_positive
+from lir_element.door import require_between, require_positive, require_type
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
     Storeys: TypeAlias = float | Sequence[float] | FloatArray
     """One number for every storey, or one for each from below."""
+
+    StoreyLaws: TypeAlias = Callable[[float], Bilinear | BoucWen] | Sequence[Bilinear | BoucWen]
+    """A function that makes a storey's law of its stiffness, or a law each from below."""
 
     Plan: TypeAlias = tuple[int | tuple[int, int], float | tuple[float, float]]
     """Numbers of bays and bay widths [m], each one number or a pair for x and y."""
@@ -97,6 +101,7 @@ def shear_building(
     axial_stiffness: Storeys | None = None,
     plan: Plan | None = None,
     eccentricity: tuple[float, float] = (0.0, 0.0),
+    storey_law: StoreyLaws | None = None,
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
     name: str = "shear building",
@@ -129,6 +134,10 @@ def shear_building(
         Distance of the masses of base and floors from the middle of the plan along x and y, over
         the sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). They stand on nodes
         "base-mass", "floor-1-mass", ...
+    storey_law : callable or sequence of Bilinear or BoucWen, optional
+        Storeys that yield, the same along x and y: a law each from below, whose stiffness then is
+        the storey's, or a function that makes a law of a stiffness. They are the links
+        "storey-1-x", "storey-1-y", ...
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float
@@ -171,11 +180,45 @@ def shear_building(
     frame.fix("base", *held)
     _add_mass(frame, "base", base, gyration, off, tied)
     frame.add_level("base", ["base"])
+    laws = _laws(storey_law, chains[1])
     for k, values in enumerate(zip(*chains, strict=True), start=1):
+        if laws:
+            values = values[0], laws[k - 1].stiffness, values[2]
         _add_storey(frame, k, level + k * height, values, polar, held)
+        if laws:
+            _let_yield(frame, k, laws[k - 1])
         _add_mass(frame, f"floor-{k}", values[0], gyration, off)
     frame.set_damping(damping)
     return frame
+
+
+def _laws(given: StoreyLaws | None, stiffness: list[float]) -> list[Bilinear | BoucWen]:
+    # Laws of the storeys from below; none of a linear building.
+    if given is None:
+        return []
+    laws = [given(k) for k in stiffness] if callable(given) else list(given)
+    if len(laws) != len(stiffness):
+        message = (
+            f"shear_building: storey_law has {len(laws)} laws for {len(stiffness)} storeys: give "
+            "one each, or a function of the storey's stiffness"
+        )
+        raise ModelError(message)
+    for k, law in enumerate(laws, start=1):
+        require_type(
+            f"shear_building: storey_law of storey {k}", law, (Bilinear, BoucWen),
+            "a Bilinear or BoucWen law",
+        )  # fmt: skip
+    return laws
+
+
+def _let_yield(frame: Frame, number: int, law: Bilinear | BoucWen) -> None:
+    # Puts links in the place of the lateral springs of a storey.
+    name = f"storey-{number}"
+    spring = frame.springs[name]
+    frame.remove("spring", name)
+    frame.add_spring(name, spring.i, spring.j, (0.0, 0.0, *spring.stiffness[2:]))
+    for axis in "xy":
+        frame.add_link(f"{name}-{axis}", spring.i, spring.j, law, f"u{axis}")
 
 
 def _add_storey(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -11,8 +12,14 @@ from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
 from frames.model.damping import Damping, ModalDamping
+from frames.model.laws import PlasticHinge
 from frames.model.sections import Section
-from lir_element.door import require_finite, require_non_negative, require_positive
+from lir_element.door import (
+    require_choice,
+    require_finite,
+    require_non_negative,
+    require_positive,
+)
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -29,6 +36,10 @@ DEFAULT_BEAM = Section.i_shape(0.55, 0.22, 0.020, 0.012)
 DEFAULT_BASE_BEAM = Section.i_shape(0.80, 0.30, 0.030, 0.016)
 
 
+KINDS = ("column", "beam", "base_beam")
+"""Kinds of members of a moment frame."""
+
+
 def moment_frame(
     bays: tuple[int, int] = (2, 2),
     storeys: int = 3,
@@ -41,6 +52,7 @@ def moment_frame(
     column: Section | None = None,
     beam: Section | None = None,
     base_beam: Section | None = None,
+    hinges: Mapping[str, PlasticHinge] | None = None,
     eccentricity: tuple[float, float] = (0.0, 0.0),
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
@@ -68,6 +80,8 @@ def moment_frame(
     column, beam, base_beam : Section, optional
         Sections; default a box 400 x 25 mm, an I of 550 mm and, above the bearings, an I of
         800 mm. Their density adds the mass of the steel: set it to 0 to leave that out.
+    hinges : mapping, optional
+        Plastic hinges at both ends of all members of a kind: "column", "beam", "base_beam".
     eccentricity : tuple of two floats
         Distance of the floors' centre of mass from the middle of the plan along x and y, over the
         sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). The masses of the
@@ -111,8 +125,21 @@ def moment_frame(
             frame.add_member(f"column-{storey}-{ix}-{iy}", foot, head, column or DEFAULT_COLUMN)
         _add_floor(frame, floor, masses, beam or DEFAULT_BEAM)
         below = floor
+    _add_hinges(frame, hinges or {})
     frame.set_damping(damping)
     return frame
+
+
+def _add_hinges(frame: Frame, hinges: Mapping[str, PlasticHinge]) -> None:
+    # Hinges at the ends of all members of a kind.
+    for kind, hinge in hinges.items():
+        require_choice("moment_frame: kind of member with hinges", kind, KINDS, error=ModelError)
+        for name in frame.members:
+            own = "column" if name.startswith("column") else "beam"
+            if own == "beam" and name[len("beam-x-") :].startswith("base"):
+                own = "base_beam"
+            if own == kind:
+                frame.add_hinges(name, hinge)
 
 
 def _masses(
