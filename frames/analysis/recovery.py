@@ -5,6 +5,7 @@ Everything is linear in the recorded displacements, so that nothing has to be ke
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -206,6 +207,7 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
     require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
     axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
+    system = replace(system, parts=system.parts.loaded(system.members, axial))
     beyond = forces_beyond(system, data)
     return _Structure(system, axial, data, u.reshape(len(u), -1), beyond)
 

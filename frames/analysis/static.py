@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -165,6 +165,7 @@ def gravity(
     linear = first_displacement(system, points)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
+    system = replace(system, parts=system.parts.loaded(system.members, member_forces))
     basis = build_basis(system, geometric, frame.damping)
     found = find_equilibrium(system, basis, linear, levels, None)
     compiling = found.compiling

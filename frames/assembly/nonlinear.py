@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
 
-from frames.assembly.members import local_stiffness
+from frames.assembly.members import local_geometric_stiffness, local_stiffness
 from frames.kernels import laws as kinds
 from frames.kernels.hinges import HINGE, STRIDE
 from frames.model.laws import (
@@ -73,6 +73,39 @@ class NonlinearParts:
     elastic: FloatArray
     scale: FloatArray
     node_rows: SparseMatrix
+
+    def loaded(self, members: MemberTable, axial_forces: FloatArray) -> NonlinearParts:
+        """Return the parts with the geometric stiffness of the hinged members.
+
+        A hinge turns the member's end against its node, so that the geometric stiffness acts on
+        what is left: a member that turns in hinges at both ends stays straight.
+
+        Parameters
+        ----------
+        members : MemberTable
+            The members.
+        axial_forces : ndarray, (n_members,)
+            Axial forces, tension positive [N].
+
+        Returns
+        -------
+        NonlinearParts
+            The same parts.
+        """
+        if not self.hinged:
+            return self
+        own = local_geometric_stiffness(members.arrays, axial_forces)
+        whole = local_stiffness(members.arrays) + own
+        rows, par = self.node_rows.tolil(copy=True), self.par.copy()
+        for k, name in enumerate(self.hinged, start=len(self.links)):
+            place = members.names.index(name)
+            basic = whole[place][np.ix_(BASIC, BASIC)]
+            par[k, :25] = basic.ravel()
+            to_five = np.linalg.solve(basic, whole[place][BASIC])
+            rows[self.first[k] : self.first[k + 1], members.dofs[place]] = _globally(
+                to_five, members, place
+            )
+        return replace(self, par=par, node_rows=sparse.csr_array(rows))
 
     def stiffness(self) -> SparseMatrix:
         """Return the elastic stiffness of the links over all nodal displacements."""
@@ -199,10 +232,15 @@ def _basic_rows(members: MemberTable, place: int, length: float, n_nodes: int) -
     for row, turn in ((3, 4), (4, 10)):
         local[row, turn] = 1.0
         local[row, [2, 8]] = -1.0 / length, 1.0 / length
-    turned = np.kron(np.eye(4), members.arrays.axes[place])
     rows = np.zeros((5, 6 * n_nodes))
-    rows[:, members.dofs[place]] = local @ members.follow[place] @ turned
+    rows[:, members.dofs[place]] = _globally(local, members, place)
     return rows
+
+
+def _globally(local: FloatArray, members: MemberTable, place: int) -> FloatArray:
+    # Rows over a member's 12 local displacements as rows over its nodes' displacements.
+    turned = np.kron(np.eye(4), members.arrays.axes[place])
+    return np.asarray(local @ members.follow[place] @ turned)
 
 
 def _hinges(

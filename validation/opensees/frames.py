@@ -18,6 +18,7 @@ from frames.assembly.assemble import assemble
 from frames.model.axes import default_up
 from frames.model.parts import DOFS
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads
+from validation.opensees.nonlinear import add_links, add_twins
 from validation.opensees.runs import Track, respond
 
 if TYPE_CHECKING:
@@ -43,12 +44,15 @@ class Built:
         Nodes above the bearings, in the frame's order.
     bearings : tuple of int
         Elements of the bearings in that order; none where they were left out.
+    links : dict of str to int
+        Nonlinear links by name.
     """
 
     nodes: dict[str, int]
     members: dict[str, int]
     bases: tuple[int, ...]
     bearings: tuple[int, ...]
+    links: dict[str, int]
 
 
 def frame_history(
@@ -124,8 +128,8 @@ def build(
     Built
         The tags.
     """
-    links = frame.bearings.values()
-    left_out = {link.i for link in links} if place is None else set()
+    devices = frame.bearings.values()
+    left_out = {link.i for link in devices} if place is None else set()
     system = assemble(frame)
     nodes = {name: k for k, name in enumerate((n for n in frame.nodes if n not in left_out), 1)}
     for name, tag in nodes.items():
@@ -139,17 +143,23 @@ def build(
         if diaphragms is None or diaphragm.name in diaphragms:
             ops.rigidDiaphragm(3, *(nodes[name] for name in diaphragm.nodes))
     members = {name: k for k, name in enumerate(frame.members, start=1)}
+    hinged = list(frame.hinges)
     for name, member in frame.members.items():
-        _member(ops, frame, members[name], member, nodes, transformation)
+        ends = nodes[member.i], nodes[member.j]
+        if name in hinged:
+            ends = add_twins(ops, frame, member, hinged.index(name), nodes)
+        _member(ops, frame, members[name], member, ends, transformation)
+    links = add_links(ops, frame, nodes)
     count = len(members)
     for tag, spring in enumerate(frame.springs.values(), start=count + 1):
         _spring(ops, tag, nodes[spring.i], nodes[spring.j], spring.stiffness)
     count += len(frame.springs)
-    bearings = () if place is None else tuple(range(count + 1, count + len(links) + 1))
+    bearings = () if place is None else tuple(range(count + 1, count + len(devices) + 1))
     if place is not None:
-        for tag, link in zip(bearings, links, strict=True):
+        for tag, link in zip(bearings, devices, strict=True):
             place(tag, nodes[link.i], nodes[link.j], link.bearing)
-    return Built(nodes, members, tuple(nodes[link.j] for link in links), bearings)
+    bases = tuple(nodes[link.j] for link in devices)
+    return Built(nodes, members, bases, bearings, links)
 
 
 def add_loads(ops: Any, frame: Frame, built: Built) -> None:
@@ -164,7 +174,7 @@ def add_loads(ops: Any, frame: Frame, built: Built) -> None:
 
 
 def _member(
-    ops: Any, frame: Frame, tag: int, member: Member, nodes: dict[str, int], transformation: str
+    ops: Any, frame: Frame, tag: int, member: Member, ends: tuple[int, int], transformation: str
 ) -> None:
     if any(member.releases):
         msg = f'member "{member.name}" has releases, which are not carried over to OpenSees here'
@@ -172,7 +182,7 @@ def _member(
     start, end = (np.array([frame.nodes[name].position]) for name in (member.i, member.j))
     up = default_up(start, end)[0].tolist() if member.up is None else member.up
     ops.geomTransf(transformation, tag, *up)
-    s, ends = member.section, (nodes[member.i], nodes[member.j])
+    s = member.section
     if math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z):
         ops.element(
             "elasticBeamColumn", tag, *ends, s.area, s.elastic_modulus, s.shear_modulus,
