@@ -21,6 +21,14 @@ from frames.library.models import moment_frame as moment_frame
 from frames.library.models import shear_building as shear_building
 from frames.model.damping import ModalDamping as ModalDamping
 from frames.model.damping import RayleighDamping as RayleighDamping
+from frames.model.laws import Bilinear as Bilinear
+from frames.model.laws import BoucWen as BoucWen
+from frames.model.laws import HertzStop as HertzStop
+from frames.model.laws import Pinching as Pinching
+from frames.model.laws import PlasticHinge as PlasticHinge
+from frames.model.laws import Stop as Stop
+from frames.model.laws import Tie as Tie
+from frames.model.laws import ViscousDamper as ViscousDamper
 from frames.model.sections import Section as Section
 from frames.motion.ground_motion import GroundMotion as GroundMotion
 from frames.results.auditing import Finding as Finding
@@ -44,11 +52,14 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 __all__ = [
     "AnalysisInterrupted",
     "AuditWarning",
+    "Bilinear",
+    "BoucWen",
     "Features",
     "Finding",
     "Frame",
     "GravityState",
     "GroundMotion",
+    "HertzStop",
     "ModalDamping",
     "ModelCheck",
     "ModelError",
@@ -56,8 +67,13 @@ __all__ = [
     "Modes",
     "MotionError",
     "MotionWarning",
+    "Pinching",
+    "PlasticHinge",
     "RayleighDamping",
     "Section",
+    "Stop",
+    "Tie",
+    "ViscousDamper",
     "audit",
     "audit_report",
     "drift_by_line",
