@@ -37,6 +37,7 @@ class Parts(NamedTuple):
     first: Array  # (n + 1,) first deformation of each part
     par: Array  # (n, constants)
     elastic: Array  # (m,) k0 of parts of one deformation, 0 where it is not of the structure
+    stiff: Array  # (m,) elastic stiffness, of hinged members too; 0 of what is put in later
     scale: Array  # (m,) to a force: 1, and 1 / length of the member for moments
     old: Array  # (n, STATE_SIZE)
     new: Array
@@ -49,6 +50,7 @@ class Parts(NamedTuple):
     g: Array
     g_before: Array  # one step before the committed one
     change: Array  # (m,) g - g_old
+    guess: Array  # (m,) the same as guessed, from which the deformations of loose parts are
     slope: Array  # (m, WIDEST) derivatives of g within the part
     loose: Array  # (n,) 1 where the force of the step is not linear
     active: Array  # (m,) deformations of loose parts
@@ -84,10 +86,10 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Par
 
     return Parts(
         kind=found.kind.copy(), first=found.first.copy(), par=found.par.copy(),
-        elastic=found.elastic.copy(), scale=found.scale.copy(),
+        elastic=found.elastic.copy(), stiff=found.own_stiffness(), scale=found.scale.copy(),
         old=np.zeros((n, STATE_SIZE)), new=np.zeros((n, STATE_SIZE)),
         d_old=each(), d=each(), v_old=each(), v=each(), a_old=each(), g_old=each(), g=each(),
-        g_before=each(), change=each(), slope=np.zeros((m, WIDEST)),
+        g_before=each(), change=each(), guess=each(), slope=np.zeros((m, WIDEST)),
         loose=np.zeros(n, np.int64), active=np.zeros(m, np.int64), count=np.zeros(2, np.int64),
         known=each(), linear=each(),
         to_b=np.ascontiguousarray(rows @ basis.expand_b),

@@ -107,6 +107,13 @@ class NonlinearParts:
             )
         return replace(self, par=par, node_rows=sparse.csr_array(rows))
 
+    def own_stiffness(self) -> FloatArray:
+        """Return the elastic stiffness of each deformation by itself, (m,) [N/m, N m/rad]."""
+        found = self.elastic.clip(0.0)
+        for k in range(len(self.links), len(self.kind)):
+            found[self.first[k] : self.first[k + 1]] = self.par[k, :25:6]
+        return found
+
     def stiffness(self) -> SparseMatrix:
         """Return the elastic stiffness of the links over all nodal displacements."""
         values = sparse.diags_array(self.elastic.clip(0.0))

@@ -26,9 +26,10 @@ WORK_DONE = 8
 """Where the state of a part has the work it has done; of hinge j it is the next one."""
 
 _MOST = 40  # iterations over the loose parts
-_NOISE = 2e-15  # of a deformation: no difference is looked at that is round-off
-_TRIES = 6
-_SHORTER = 0.4
+_HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
+_TRIES = 12  # of a step of Newton's method
+_LESS = 0.7  # of the error before: then a step does
+_FLAT = 0.2  # of the slope of the potential at the start of a step: then it does, too
 
 
 @kernel
@@ -202,6 +203,7 @@ def loosen(parts: Parts, k: int) -> None:
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
         parts.active[parts.count[0]] = i
+        parts.guess[i] = 0.0
         parts.count[0] += 1
 
 
@@ -224,17 +226,19 @@ def follow_change(model: Model, run: Run, parts: Parts) -> None:
 
 @inlined
 def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
-    """Set what the loose deformations lack of what the frame gives; returns its size as a force."""
+    """Set what the frame gives way to by forces that are guessed but not there; its size."""
     size = 0.0
     for n in range(parts.count[0]):
         i = parts.active[n]
         row = parts.pool[row_of(model, run, parts, i)]
-        total = parts.linear[i] - parts.d[i]
+        total = 0.0
         for p in range(parts.count[0]):
-            total -= row[parts.active[p]] * parts.change[parts.active[p]]
+            k = parts.active[p]
+            total += row[k] * (parts.guess[k] - parts.change[k])
         parts.vector[1, n] = total
-        noise = _NOISE * (abs(parts.linear[i]) + abs(parts.d[i]))
-        if abs(total) > noise:
+        if parts.stiff[i] > 0.0:
+            size = max(size, abs(total) * parts.stiff[i] * parts.scale[i])
+        elif row[i] > _HELD:
             size = max(size, abs(total) / row[i] * parts.scale[i])
     return size
 
@@ -273,33 +277,83 @@ def part_width(parts: Parts, i: int) -> int:
 
 
 @inlined
+def go_along(parts: Parts, share: float) -> None:
+    """Move the loose deformations and their forces by a share of Newton's step."""
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        parts.d[i] += share * parts.right[n, 0]
+        parts.guess[i] += share * parts.vector[0, n]
+
+
+@inlined
+def ascent(parts: Parts) -> float:
+    """Return the derivative of the potential along Newton's step; zero where it is smallest."""
+    total = 0.0
+    for n in range(parts.count[0]):
+        i = parts.active[n]
+        total += parts.right[n, 0] * (parts.change[i] - parts.guess[i])
+    return total
+
+
+@inlined
+def set_newton_step(model: Model, run: Run, parts: Parts) -> bool:
+    """Set Newton's step of the deformations (`right`) and forces (`vector[0]`) of loose parts."""
+    count = parts.count[0]
+    set_part_matrix(model, run, parts)
+    for n in range(count):
+        parts.right[n, 0] = parts.vector[1, n]
+    if not solve_many(parts.matrix, parts.right, count, 1):
+        return False
+    p = 0
+    while p < count:
+        width = part_width(parts, parts.active[p])
+        for r in range(width):
+            i = parts.active[p + r]
+            parts.vector[0, p + r] = parts.change[i] - parts.guess[i]
+            for q in range(width):
+                parts.vector[0, p + r] += parts.slope[i, q] * parts.right[p + q, 0]
+        p += width
+    return True
+
+
+@inlined
 def newton_loose(model: Model, run: Run, parts: Parts) -> bool:
-    """Bring the loose parts into equilibrium with the frame; returns whether that succeeded."""
-    tolerance = parts.scheme[4]
+    """Bring the loose parts into equilibrium with the frame; returns whether that succeeded.
+
+    With forces q guessed, ``d = linear - F q``; wanted is ``q = g(d) - g_old``. That is where a
+    potential is smallest, convex but for parts that soften (docs/theory.md, 5): a step of Newton's
+    method that goes too far is cut back to where the potential does not rise any more.
+    """
     size = try_loose(model, run, parts)
     for _ in range(_MOST):
-        if size <= tolerance:
+        if size <= parts.scheme[4]:
             return True
-        if size == math.inf:
+        if size == math.inf or not set_newton_step(model, run, parts):
             return False
-        count = parts.count[0]
-        set_part_matrix(model, run, parts)
-        for n in range(count):
-            parts.right[n, 0] = parts.vector[1, n]
-        if not solve_many(parts.matrix, parts.right, count, 1):
-            return False
-        for n in range(count):
-            parts.d[parts.active[n]] += parts.right[n, 0]
-        factor = 1.0
-        for attempt in range(_TRIES):
-            found = try_loose(model, run, parts)
-            if found < size or attempt == _TRIES - 1:
+        start = ascent(parts)
+        go_along(parts, 1.0)
+        found = try_loose(model, run, parts)
+        low, high, here = 0.0, 1.0, 1.0
+        down, up = start, ascent(parts)
+        for _ in range(_TRIES):
+            if found < _LESS * size or (up <= 0.0 and found < math.inf):
                 break
-            for n in range(count):
-                parts.d[parts.active[n]] -= (1.0 - _SHORTER) * factor * parts.right[n, 0]
-            factor *= _SHORTER
+            share = 0.5
+            if found < math.inf and up > down:
+                share = min(max(-down / (up - down), 0.1), 0.9)
+            there = low + share * (high - low)
+            go_along(parts, there - here)
+            here = there
+            found = try_loose(model, run, parts)
+            rise = ascent(parts)
+            if abs(rise) <= _FLAT * abs(start) and found < math.inf:
+                break
+            if rise > 0.0 or found == math.inf:
+                high, up = here, rise
+            else:
+                low, down = here, rise
         size = found
-    return size <= tolerance
+    return size <= parts.scheme[4]
 
 
 @inlined
@@ -316,9 +370,11 @@ def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
         row = parts.pool[row_of(model, run, parts, i)]
         parts.d[i] = parts.linear[i]
         for p in range(parts.count[0]):
-            parts.d[i] -= row[parts.active[p]] * parts.change[parts.active[p]]
+            parts.d[i] -= row[parts.active[p]] * parts.guess[parts.active[p]]
     for _ in range(parts.kind.shape[0] + 1):
         if parts.count[0] > 0 and not newton_loose(model, run, parts):
+            for n in range(parts.count[0]):  # no guess for what is tried next
+                parts.guess[parts.active[n]] = 0.0
             return False
         follow_change(model, run, parts)
         more = False

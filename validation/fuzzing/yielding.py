@@ -51,7 +51,7 @@ def random_yielding(seed: int, number: int) -> tuple[Frame, GroundMotion, dict[s
     more = [add(rng, frame) for share, add in _EXTRAS if rng.random() < share]
     length = next(iter(frame.bearings.values())).bearing.effective_radius
     motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / GRAVITY))
-    peak = max(float(np.abs(motion.components[:, :2]).max()), 1e-9)
+    peak = max(float(np.abs(motion.components).max()), 1e-9)
     motion = motion.scaled(log_uniform(rng, 2.0, 12.0) / peak)
     dt = None if rng.random() < 0.5 else float(rng.choice([0.002, 0.005, 0.01]))
     options: dict[str, Any] = {"dt": dt, "duration": min(motion.duration, 12.0)}
