@@ -231,6 +231,17 @@ def _scale(system: System, u: FloatArray, factor: float | None) -> float:
 def _draw(
     panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
 ) -> list[Any]:
+    # The model whole: the panel's own frame would cut what the view takes beyond it.
+    drawn = _parts(panel, model, system, u, plain=plain)
+    for artist in drawn:
+        artist.set_clip_on(False)
+        artist.set_in_layout(False)
+    return drawn
+
+
+def _parts(
+    panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
+) -> list[Any]:
     # The parts of the model at displacements that are already enlarged; returns what was drawn.
     place = system.coordinates + u[:, :3]
     index = {name: k for k, name in enumerate(system.node_names)}
