@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, fields, replace
 
 from frames._errors import ModelError
+from frames.model.rolled import catalogue_dimensions, rolled_i_constants
 from frames.model.shapes import circle_constants, dimensions, shear_modulus_of
 from lir_element.door import require_non_negative, require_positive
 from lir_element.tables import html_table
@@ -255,6 +256,98 @@ class Section:
             density=density,
             shear_area_y=5.0 / 6.0 * 2.0 * b * tf,
             shear_area_z=(d - tf) * tw,
+        )
+
+    @classmethod
+    def rolled_i(
+        cls,
+        depth: float,
+        flange_width: float,
+        flange_thickness: float,
+        web_thickness: float,
+        radius: float,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Build a rolled I shape with parallel flanges and fillets, web along local z.
+
+        The constants are those of its catalogue: `frames.model.rolled` has the formulas. Shear
+        areas are as in `i_shape`; warping is left out.
+
+        Parameters
+        ----------
+        depth : float
+            Outer depth along local z [m].
+        flange_width, flange_thickness : float
+            Width along local y and thickness of each flange [m].
+        web_thickness : float
+            Thickness of the web [m].
+        radius : float
+            Radius of the fillets between web and flanges [m]; of a W shape k - t_f.
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
+
+        Returns
+        -------
+        Section
+            The section.
+
+        Raises
+        ------
+        ModelError
+            If a dimension is not positive, or the parts do not fit.
+
+        Examples
+        --------
+        >>> heb_300 = Section.rolled_i(0.300, 0.300, 0.019, 0.011, 0.027)
+        >>> round(1e4 * heb_300.area, 1)  # cm2
+        149.1
+        """
+        constants = rolled_i_constants(depth, flange_width, flange_thickness, web_thickness, radius)
+        return cls(
+            elastic_modulus=elastic_modulus,
+            shear_modulus=shear_modulus_of(elastic_modulus, poisson_ratio),
+            density=density,
+            **constants,
+        )
+
+    @classmethod
+    def catalogue(
+        cls,
+        name: str,
+        *,
+        elastic_modulus: float = STEEL_ELASTIC_MODULUS,
+        poisson_ratio: float = STEEL_POISSON_RATIO,
+        density: float = STEEL_DENSITY,
+    ) -> Section:
+        """Return a European rolled I shape by its name, strong axis local y.
+
+        Parameters
+        ----------
+        name : str
+            Of the series IPE, HEA, HEB and HEM: "HEB 300", "HE 300 B", "IPE 270".
+        elastic_modulus, poisson_ratio, density : float
+            Material [Pa], [-], [kg/m3]; steel by default.
+
+        Returns
+        -------
+        Section
+            `rolled_i` of its dimensions.
+
+        Raises
+        ------
+        ModelError
+            If the catalogue does not have it.
+        ImportError
+            If steel-sections is not installed: ``pip install "lir-dcfp[sections]"``.
+        """
+        return cls.rolled_i(
+            *catalogue_dimensions(name),
+            elastic_modulus=elastic_modulus,
+            poisson_ratio=poisson_ratio,
+            density=density,
         )
 
     @classmethod
