@@ -18,12 +18,13 @@ from frames.assembly.members import (
     released,
     spring_stiffness,
 )
+from frames.assembly.node_loads import lumped_masses, permanent_loads
 from frames.assembly.span_loads import span_end_forces
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import System as System
 from frames.assembly.system import element_dofs
-from frames.model.applied import applied_loads, load_masses
-from frames.model.axes import default_up, matrix_to_global, to_global, to_local
+from frames.model.applied import applied_loads
+from frames.model.axes import default_up, matrix_to_global, to_local
 from frames.model.parts import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.model.superelement import Placed, lumped, placed
 from lir_element.device.features import Features
@@ -70,7 +71,7 @@ def assemble(
     coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
     applied = applied_loads(frame)
     members = _member_table(frame, index, coordinates, applied)
-    own_mass, weighing = _node_mass(frame, index, members, applied)
+    own_mass, weighing = lumped_masses(frame, index, members, applied)
     parts = placed(frame.superelements.values(), index)
     node_mass = own_mass + lumped(parts.mass)
     transform, labels = free_dofs(
@@ -84,7 +85,7 @@ def assemble(
     node_stiffness = sparse.csr_array(
         _node_stiffness(frame, index, coordinates, members) + parts.stiffness
     )
-    node_load = _node_load(frame, index, members, weighing, applied) + parts.load
+    node_load = permanent_loads(frame, index, members, weighing, applied) + parts.load
     translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
     masked = sparse.csr_array(transform @ sparse.diags_array(inert))
     system = System(
@@ -287,24 +288,6 @@ def _member_table(
     )
 
 
-def _node_mass(
-    frame: FrameContents, index: dict[str, int], members: MemberTable, applied: AppliedLoads
-) -> tuple[FloatArray, FloatArray]:
-    # Masses (n_nodes, 6), and those of them that weigh.
-    mass = np.zeros((len(index), 6))
-    for name, values in frame.masses.items():
-        mass[index[name]] += values
-    half = 0.5 * members.arrays.density * members.arrays.area * members.arrays.length
-    for end in (0, 1):
-        np.add.at(mass[:, :3], members.nodes[:, end], half[:, None])
-    weighing = mass.copy()
-    for name, values in frame.weightless_masses.items():
-        weighing[index[name]] -= values
-    for name, made in load_masses(frame, applied).items():
-        mass[index[name], :3] += made
-    return mass, weighing
-
-
 def _node_stiffness(
     frame: FrameContents, index: dict[str, int], coordinates: FloatArray, members: MemberTable
 ) -> SparseMatrix:
@@ -319,24 +302,6 @@ def _node_stiffness(
         ]
     )
     return scatter(blocks, np.concatenate([members.nodes, ends]), len(index))
-
-
-def _node_load(
-    frame: FrameContents,
-    index: dict[str, int],
-    members: MemberTable,
-    weighing: FloatArray,
-    applied: AppliedLoads,
-) -> FloatArray:
-    load = np.zeros((len(index), 6))
-    load[:, 2] -= frame.weight_factor * frame.gravity * weighing[:, 2]
-    for name, values in frame.loads.items():
-        load[index[name]] += values
-    for name, values, _ in applied.nodes:
-        load[index[name]] += values
-    flat = load.ravel()
-    np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
-    return flat
 
 
 def _reduced(

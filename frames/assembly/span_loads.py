@@ -6,7 +6,7 @@ are exact for end displacements, it is exact, with shear deformation and without
 
 Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sec. 5.6 [Prz68], with the shape
 functions of a beam with shear deformation as in Friedman & Kosmatka, An improved two-node
-Timoshenko beam finite element, Comput. Struct. 47 (1993), eq. (11).
+Timoshenko beam finite element, Comput. Struct. 47 (1993) 473-481.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError
-from frames.model.floors import panel_loads
+from frames.model.floors import members_at, panel_loads
 from frames.model.parts import TaperedLoad
 from frames.model.placing import member_ends
 
@@ -70,9 +70,10 @@ def applied_loads(frame: FrameContents) -> AppliedLoads:
     found = AppliedLoads([], [])
     for member, loads in frame.tapered_loads.items():
         found.spans.extend(SpanLoad(member, x, frame.mass_source.get(x.case, 0.0)) for x in loads)
+    around = members_at(frame.members) if frame.floor_loads else {}
     for panel in frame.floor_loads.values():
         share = frame.mass_source.get(panel.case, 0.0) if panel.mass is None else panel.mass
-        parts = panel_loads(frame.nodes, frame.members, panel)
+        parts = panel_loads(frame.nodes, around, panel)
         found.spans.extend(SpanLoad(member, load, share) for member, load in parts.members)
         found.nodes.extend(NodeLoad(node, forces, share) for node, forces in parts.nodes)
     return found

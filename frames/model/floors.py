@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from lir_element.door import require_vector
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.model.panels import Piece, Span
+
+Around: TypeAlias = Mapping[str, Sequence[Member]]
+"""Members at each node."""
 
 _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
 
@@ -89,15 +92,24 @@ def floor_panel(
     return chosen, (float(x) / size, float(y) / size)
 
 
-def panel_loads(
-    nodes: Mapping[str, Node], members: Mapping[str, Member], load: FloorLoad
-) -> PanelLoads:
+def members_at(members: Mapping[str, Member]) -> Around:
+    """Return the members that begin or end at each node, by its name."""
+    found: dict[str, list[Member]] = {}
+    for member in members.values():
+        for node in (member.i, member.j):
+            found.setdefault(node, []).append(member)
+    return found
+
+
+def panel_loads(nodes: Mapping[str, Node], around: Around, load: FloorLoad) -> PanelLoads:
     """Distribute a panel's load to the members along its edges.
 
     Parameters
     ----------
-    nodes, members : mapping
-        Nodes and members of the frame.
+    nodes : mapping of str to Node
+        Nodes of the frame.
+    around : Around
+        Its members, by `members_at`.
     load : FloorLoad
         The panel's load.
 
@@ -115,10 +127,6 @@ def panel_loads(
     corners = _plan(nodes, load.nodes)
     edges = nearest_edges(corners) if load.span is None else one_way(corners, np.array(load.span))
     found = PanelLoads([], [])
-    ends = [(node, member) for member in members.values() for node in (member.i, member.j)]
-    around: dict[str, list[Member]] = {}
-    for node, member in ends:
-        around.setdefault(node, []).append(member)
     for k, pieces in enumerate(edges):
         if pieces:
             first, last = load.nodes[k], load.nodes[(k + 1) % len(corners)]
@@ -132,7 +140,7 @@ def _plan(nodes: Mapping[str, Node], chosen: Sequence[str]) -> FloatArray:
 
 
 def _chain(
-    nodes: Mapping[str, Node], around: Mapping[str, list[Member]], edge: tuple[str, str], name: str
+    nodes: Mapping[str, Node], around: Around, edge: tuple[str, str], name: str
 ) -> list[_Bay]:
     # The members from corner to corner, each going on where the one before ends.
     origin = np.array(nodes[edge[0]].position)

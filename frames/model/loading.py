@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.model.contents import FrameContents, frozen
-from frames.model.floors import floor_panel, panel_loads
+from frames.model.floors import floor_panel, members_at, panel_loads
 from frames.model.names import known_name, new_name
 from frames.model.parts import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.placing import member_span
@@ -239,7 +239,7 @@ class FrameLoader(FrameContents):
                 raise ModelError(message)
         corners, direction = floor_panel(self._nodes, name, nodes, span)
         load = FloorLoad(name, corners, float(q), direction, share, new_name(case, (), "load case"))
-        panel_loads(self._nodes, self._members, load)  # refuses what no member carries
+        panel_loads(self._nodes, members_at(self._members), load)  # refuses what no member carries
         self._floor_loads[name] = load
 
 
