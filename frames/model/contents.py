@@ -96,8 +96,17 @@ class FrameContents:
         return f'Frame("{self._name}": {counts})'
 
     def _repr_html_(self) -> str:
-        kinds = ("nodes", "members", "springs", "superelements", "diaphragms", "bearings", "levels")
-        rows = [(kind, str(len(getattr(self, kind)))) for kind in kinds if getattr(self, kind)]
+        kinds = (
+            "nodes", "members", "springs", "superelements", "diaphragms", "bearings", "levels",
+            "floor_loads",
+        )  # fmt: skip
+        rows = [
+            (kind.replace("_", " "), str(len(getattr(self, kind))))
+            for kind in kinds
+            if getattr(self, kind)
+        ]
+        if self.load_cases:
+            rows.append(("load cases", ", ".join(self.load_cases)))
         lumped = sum(float(values[0]) for values in self._masses.values())
         rows.append(("lumped mass", f"{1e-3 * lumped:.5g} t at {len(self._masses)} nodes"))
         rows.append(("damping", repr(self._damping)))
