@@ -68,9 +68,10 @@ def member_forces(
     -------
     xarray.DataArray
         (time, member, end i and j, component N, Vy, Vz, T, My, Mz) [N, N m]: forces and moments on
-        the ends of the member, at the faces of its rigid end zones if it has some, positive along and about its local axes, permanent loads
-        included. So a compressed member has N > 0 at end i and N < 0 at end j. Second-order
-        effects are those of the analysis: the permanent axial forces' geometric stiffness.
+        the ends of the member (the faces of its rigid end zones, where it has some), positive
+        along and about its local axes, permanent loads included. So a compressed member has N > 0
+        at end i and N < 0 at end j. Second-order effects are those of the analysis: the permanent
+        axial forces' geometric stiffness.
 
     Raises
     ------

@@ -107,6 +107,9 @@ class FrameContents:
         ]
         if self.load_cases:
             rows.append(("load cases", ", ".join(self.load_cases)))
+        if self._mass_source:
+            shares = ", ".join(f"{share:g} {case}" for case, share in self._mass_source.items())
+            rows.append(("mass of loads", shares))
         lumped = sum(float(values[0]) for values in self._masses.values())
         rows.append(("lumped mass", f"{1e-3 * lumped:.5g} t at {len(self._masses)} nodes"))
         rows.append(("damping", repr(self._damping)))

@@ -80,7 +80,8 @@ def doubts(frame: FrameContents) -> tuple[str, ...]:
         Each names the value, what is usual, and the unit to suspect.
     """
     return (
-        *_of_gravity(frame), *_of_members(frame), *_of_sections(frame), *_of_floors(frame)
+        *_of_gravity(frame), *_of_members(frame), *_of_sections(frame), *_of_floors(frame),
+        *_of_mass_source(frame),
     )  # fmt: skip
 
 
@@ -142,4 +143,15 @@ def _of_floors(frame: FrameContents) -> list[str]:
     return [
         f'floor load "{load.name}" has {load.q:g} N/m2, less than snow or sheeting: '
         f"{meant(load.q, 'N/m2', (('kN/m2', 1e3),), 300.0, 5e4)}"
+    ]
+
+
+def _of_mass_source(frame: FrameContents) -> list[str]:
+    cases = frame.load_cases
+    empty = [name for name, share in frame.mass_source.items() if share and name not in cases]
+    if not empty:
+        return []
+    return [
+        f'set_mass_source takes mass from load case "{empty[0]}", of which there is no load: '
+        f"there are {', '.join(cases) or 'no load cases'}"
     ]

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError, Section
 from frames.assembly.assemble import assemble
 from frames.model.applied import applied_loads
-from frames.model.panels import nearest_edges
+from frames.model.panels import nearest_edges, one_way, turning
 from frames.model.plausible import doubts
 
 BEAM = Section(
@@ -227,3 +227,40 @@ def test_depths_do_not_depend_on_where_the_panel_lies():
         nearest_edges(corners), nearest_edges(corners @ matrix.T + 100.0), strict=True
     ):
         assert_allclose(ours, theirs, atol=1e-10)
+
+
+def random_outline(rng):
+    """Return a convex outline of three to eight corners, some of them on an edge."""
+    while True:
+        angles = np.sort(rng.uniform(0.0, 2.0 * math.pi, rng.integers(3, 9)))
+        gaps = np.diff([*angles, angles[0] + 2.0 * math.pi])
+        if gaps.min() > 1e-2 and gaps.max() < math.pi - 1e-2:
+            break
+    corners = np.stack([np.cos(angles), np.sin(angles)], axis=1) * rng.uniform(0.5, 20.0, 2)
+    if rng.uniform() < 0.3:
+        middle = corners[0] + rng.uniform(0.2, 0.8) * (corners[1] - corners[0])
+        corners = np.insert(corners, 1, middle, axis=0)
+    return corners
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_outlines_lose_nothing(seed):
+    """Sum and first moments of the pieces on all edges are those of the area."""
+    rng = np.random.default_rng(seed)
+    corners = random_outline(rng)
+    assert turning(corners, "it") == 1.0
+    assert turning(corners[::-1], "it") == -1.0
+    area, x, y = area_and_centre(corners)
+    along = corners[1] - corners[0]
+    spans = [along / np.linalg.norm(along), np.array([0.6, 0.8])]
+    for edges in (nearest_edges(corners), *(one_way(corners, span) for span in spans)):
+        force, moments = 0.0, np.zeros(2)
+        for start, end, pieces in zip(corners, np.roll(corners, -1, axis=0), edges, strict=True):
+            way = (end - start) / np.linalg.norm(end - start)
+            for s0, h0, s1, h1 in pieces:
+                assert min(h0, h1) > -1e-9
+                part = 0.5 * (h0 + h1) * (s1 - s0)
+                lever = (s1 - s0) / 6.0 * (s0 * (2.0 * h0 + h1) + s1 * (h0 + 2.0 * h1))
+                force, moments = force + part, moments + part * start + lever * way
+        assert force == pytest.approx(area, rel=1e-9)
+        assert_allclose(moments / area, [x, y], atol=1e-9 * np.ptp(corners))

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import Frame, ModelError, Section, gravity, isolator_combinations, moment_frame
 from frames.assembly.assemble import assemble
+from frames.model.plausible import doubts
 from lir_element import CoulombFriction, LIRBearing
 
 SECTION = Section.box(0.3, 0.3, 0.02)
@@ -152,6 +153,16 @@ def test_what_cannot_be_mass():
     floating = Frame("space", gravity=0.0)
     with pytest.raises(ModelError, match="gravity = 0 m/s2 makes no mass"):
         floating.set_mass_source({"D": 1.0})
+
+
+def test_a_mass_source_without_loads_is_a_doubt():
+    frame = table(("D", "L"))
+    frame.set_mass_source({"D": 1.0, "LL": 0.25, "S": 0.0})
+    (doubt,) = [note for note in doubts(frame) if "set_mass_source" in note]
+    assert '"LL"' in doubt
+    assert "there are D, L" in doubt
+    frame.set_mass_source({"D": 1.0, "L": 0.25})
+    assert not [note for note in doubts(frame) if "set_mass_source" in note]
 
 
 def test_superelements_count_as_weight():
