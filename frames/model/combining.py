@@ -11,7 +11,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.model.applied import applied_loads, load_masses
 from frames.model.contents import FrameContents, frozen
-from lir_element.door import require_finite, require_non_negative
+from lir_element.door import require_finite, require_non_negative, require_type
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -73,6 +73,8 @@ def combination(
     ModelError
         If a case of the frame, or that of the weight, has no factor, or one is not finite.
     """
+    what = 'factors by load case: write {"D": 1.2, "L": 1.0}'
+    require_type("factors of combined", factors, Mapping, what)
     found = {
         case: require_finite(f'factor of load case "{case}"', value, error=ModelError)
         for case, value in factors.items()

@@ -13,7 +13,7 @@ from frames.model.floors import floor_panel, members_at, panel_loads
 from frames.model.names import known_name, new_name
 from frames.model.parts import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.placing import member_span
-from lir_element.door import require_non_negative, require_positive, require_vector
+from lir_element.door import require_non_negative, require_positive, require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -87,6 +87,8 @@ class FrameLoader(FrameContents):
         after; a node whose loads pull upwards in sum is refused then. Horizontal loads, moments
         and loads of superelements make none.
         """
+        what = 'shares by load case: write {"D": 1.0, "L": 0.25}'
+        require_type("shares of set_mass_source", shares, (Mapping, type(None)), what)
         found = {}
         for case, share in dict(shares or {}).items():
             new_name(case, (), "load case")

@@ -12,7 +12,7 @@ from frames._errors import ModelError
 from frames.model.axes import default_up, local_axes
 from frames.model.names import known_name
 from frames.model.parts import RELEASABLE, Diaphragm, Level, Member, Node, Vector, bearing_height
-from lir_element.door import require_finite, require_vector
+from lir_element.door import require_finite, require_type, require_vector
 from lir_element.units import LENGTHS, meant
 
 if TYPE_CHECKING:
@@ -107,6 +107,8 @@ def member_offsets(
     name: str, offsets: Mapping[str, Sequence[float]] | None
 ) -> tuple[Vector, Vector]:
     """Return the vectors [m] from nodes i and j of a member to its ends, checked."""
+    what = 'vectors by end: write {"i": (0.25, 0, 0)}'
+    require_type(f'offsets of member "{name}"', offsets, (Mapping, type(None)), what)
     given = dict(offsets or {})
     unknown = [end for end in given if end not in {"i", "j"}]
     if unknown:

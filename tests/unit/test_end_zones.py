@@ -205,4 +205,6 @@ def test_offsets_that_cannot_be(offsets, words):
     frame.add_node("b", 4.0, 0.0, 0.0)
     with pytest.raises(ModelError, match=words):
         frame.add_member("m", "a", "b", PLAIN, offsets=offsets)
+    with pytest.raises(TypeError, match="vectors by end"):
+        frame.add_member("m", "a", "b", PLAIN, offsets=(0.0, 0.0, 0.2))
     assert not frame.members

@@ -144,6 +144,10 @@ def test_masses_of_loads_stay_in_a_combination_or_follow_it():
 
 def test_what_cannot_be_mass():
     frame = table()
+    with pytest.raises(TypeError, match=r'write {"D": 1.0'):
+        frame.set_mass_source(0.25)
+    with pytest.raises(TypeError, match=r'write {"D": 1.2'):
+        frame.combined(1.2)
     with pytest.raises(ModelError, match='share of case "L"'):
         frame.set_mass_source({"L": -0.1})
     frame.add_load("d", (0.0, 0.0, 9e9, 0.0, 0.0, 0.0), case="wind")
