@@ -116,7 +116,7 @@ def load_masses(frame: FrameContents, applied: AppliedLoads) -> dict[str, float]
 
 def _at_nodes(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
     # Downward forces that are mass, of loads on nodes.
-    for node, cases in frame._loads.items():
+    for node, cases in frame.loads_by_case.items():
         for case, forces in cases.items():
             share = frame.mass_source.get(case, 0.0)
             if share:
@@ -128,7 +128,7 @@ def _at_nodes(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str
 
 def _along_members(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
     # The same of loads along members, by the rule of the lever at their ends.
-    for name, cases in frame._uniform_loads.items():
+    for name, cases in frame.uniform_loads_by_case.items():
         member = frame.members[name]
         for case, q in cases.items():
             share = frame.mass_source.get(case, 0.0)

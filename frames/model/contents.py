@@ -196,6 +196,16 @@ class FrameContents:
         return MappingProxyType({node: _total(cases) for node, cases in self._loads.items()})
 
     @property
+    def loads_by_case(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """The same permanent forces by node and load case."""
+        return MappingProxyType(self._loads)
+
+    @property
+    def uniform_loads_by_case(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """Uniform loads by member and load case, as `uniform_loads`."""
+        return MappingProxyType(self._uniform_loads)
+
+    @property
     def uniform_loads(self) -> Mapping[str, FloatArray]:
         """Permanent loads by member, (3,) each in global axes [N/m]; all cases."""
         found = {member: _total(cases) for member, cases in self._uniform_loads.items()}
