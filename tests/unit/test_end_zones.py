@@ -6,7 +6,12 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from frames import Frame, ModelError, Section
-from frames.assembly.assemble import assemble, geometric_stiffness, member_end_forces
+from frames.assembly.assemble import (
+    assemble,
+    geometric_stiffness,
+    member_axial_forces,
+    member_end_forces,
+)
 from frames.assembly.end_zones import arms_geometric_stiffness
 from frames.plots.model_geometry import member_lines
 
@@ -141,8 +146,10 @@ def test_loads_and_end_forces_are_those_of_stiff_members(section, releases):
         q = np.linalg.solve(system.stiffness.toarray(), system.load)
         u = np.asarray(system.transform @ q)
         place = system.node_names.index("b")
-        found.append((u[6 * place : 6 * place + 6], member_end_forces(system, u)[0]))
-    (u, forces), (u_ref, ref) = found
+        axial = member_axial_forces(system, q)[0]
+        found.append((u[6 * place : 6 * place + 6], member_end_forces(system, u)[0], axial))
+    (u, forces, axial), (u_ref, ref, axial_ref) = found
+    assert axial == pytest.approx(axial_ref, rel=1e-3)
     assert_allclose(u, u_ref, rtol=0.0, atol=1e-4 * np.abs(u_ref).max())
     assert_allclose(forces, ref, rtol=0.0, atol=1e-4 * np.abs(ref).max())
 
