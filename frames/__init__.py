@@ -19,6 +19,7 @@ from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
 from frames.library.models import shear_building as shear_building
+from frames.model.combining import isolator_combinations as isolator_combinations
 from frames.model.damping import ModalDamping as ModalDamping
 from frames.model.damping import RayleighDamping as RayleighDamping
 from frames.model.laws import Bilinear as Bilinear
@@ -83,6 +84,7 @@ __all__ = [
     "floor_spectrum",
     "force_tables",
     "gravity",
+    "isolator_combinations",
     "load",
     "lumped_mass",
     "member_forces",

@@ -269,7 +269,19 @@ def output_arrays(
 ) -> tuple[Output, Array, Array]:
     """Return arrays for `count` output steps, the bearing states and the bodies as records.
 
-    `parts` are the numbers of nonlinear deformations and parts, and of what is kept of a part.
+    Parameters
+    ----------
+    model, contacts : Model, Contacts or None
+        What is recorded.
+    count : int
+        Output steps.
+    parts : tuple of three ints
+        Numbers of nonlinear deformations and parts, and of what is kept of a part.
+
+    Returns
+    -------
+    tuple
+        Output, states (count, n_bearings), bodies (count, bearings with contact points).
     """
     n_deformations, n_parts, n_state = parts
     n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)

@@ -54,7 +54,7 @@ class Parts(NamedTuple):
     slope: Array  # (m, WIDEST) derivatives of g within the part
     loose: Array  # (n,) 1 where the force of the step is not linear
     active: Array  # (m,) deformations of loose parts
-    count: Array  # (2,) number of those; number of flexibilities in the pool
+    number: Array  # (2,) number of those; number of flexibilities in the pool
     known: Array  # (m,) deformation if b rests
     linear: Array  # (m,) deformation if nothing is loose
     to_b: Array  # (m, n_b) deformations of b and of the modes
@@ -90,7 +90,7 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Par
         old=np.zeros((n, STATE_SIZE)), new=np.zeros((n, STATE_SIZE)),
         d_old=each(), d=each(), v_old=each(), v=each(), a_old=each(), g_old=each(), g=each(),
         g_before=each(), change=each(), guess=each(), slope=np.zeros((m, WIDEST)),
-        loose=np.zeros(n, np.int64), active=np.zeros(m, np.int64), count=np.zeros(2, np.int64),
+        loose=np.zeros(n, np.int64), active=np.zeros(m, np.int64), number=np.zeros(2, np.int64),
         known=each(), linear=each(),
         to_b=np.ascontiguousarray(rows @ basis.expand_b),
         to_e=np.ascontiguousarray(rows @ basis.expand_e),
@@ -100,4 +100,3 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Par
         matrix=np.zeros((m, m)), right=np.zeros((m, max(n_b, 1))), small=np.zeros((18, 16)),
         vector=np.zeros((2, m)), modes=np.zeros((2, n_e)), scheme=np.zeros(5), work=np.zeros(4),
     )  # fmt: skip
-

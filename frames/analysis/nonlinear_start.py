@@ -47,7 +47,7 @@ def parts_at_rest(system: System, basis: Basis, displacement: FloatArray) -> Par
         return None
     parts = parts_arrays(found, system.part_rows, basis)
     d = np.asarray(system.part_rows @ displacement)
-    d[found.elastic == 0.0] = 0.0
+    d[np.abs(found.elastic) <= 0.0] = 0.0  # put in later
     refuse_yielding(found, d)
     parts.d_old[:], parts.d[:] = d, d
     for k in np.flatnonzero(found.kind == BOUC_WEN):
@@ -97,4 +97,3 @@ def hinge_states(
             value = -1.0 if is_inside(par, at, sigma) else surface(par, at, sigma, first, second)
             found.append((end, (float(sigma[0]), float(sigma[1]), float(sigma[2])), float(value)))
     return found
-

@@ -1,6 +1,7 @@
 """Forces in the structure, from the displacements of a time history: members, storeys, supports.
 
-Everything is linear in the recorded displacements, so that nothing has to be kept in a run for it.
+All but what yields is linear in the recorded displacements, and what yields is recorded: nothing
+else has to be kept in a run for it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from frames.assembly.assemble import (
     node_geometric_stiffness,
     scatter,
 )
-from frames.analysis.yielding import forces_beyond
+from frames.assembly.end_zones import at_ends
 from frames.model.axes import matrix_to_global, to_global, to_local
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
@@ -72,9 +73,10 @@ def member_forces(
     -------
     xarray.DataArray
         (time, member, end i and j, component N, Vy, Vz, T, My, Mz) [N, N m]: forces and moments on
-        the ends of the member, positive along and about its local axes, permanent loads
-        included. So a compressed member has N > 0 at end i and N < 0 at end j. Second-order
-        effects are those of the analysis: the permanent axial forces' geometric stiffness.
+        the ends of the member (the faces of its rigid end zones, where it has some), positive
+        along and about its local axes, permanent loads included. So a compressed member has N > 0
+        at end i and N < 0 at end j. Second-order effects are those of the analysis: the permanent
+        axial forces' geometric stiffness.
 
     Raises
     ------
@@ -247,7 +249,8 @@ def _hinge_share(found: _Structure, member: str) -> FloatArray:
     at = slice(parts.first[k], parts.first[k + 1])
     row = table.names.index(member)
     nodal = np.asarray(parts.node_rows[at].T @ found.beyond[:, at].T).T[:, table.dofs[row]]
-    return to_local(nodal[:, None], table.arrays.axes[[row]])[:, 0]
+    local = to_local(nodal[:, None], table.arrays.axes[[row]])
+    return at_ends(local, table.arms[[row]])[:, 0]
 
 
 def _support_reactions(found: _Structure) -> xr.DataArray:

@@ -65,8 +65,8 @@ def is_plane(system: System) -> bool:
         system.transform[across][:, ~outside],
     )
     rows = abs(system.part_rows)
-    reach = np.column_stack([rows[:, chosen].sum(axis=1) for chosen in (outside, ~outside)])
-    if (reach > 0.0).all(axis=1).any():
+    crossing = [np.asarray(rows[:, chosen].sum(axis=1)) > 0.0 for chosen in (outside, ~outside)]
+    if (crossing[0] & crossing[1]).any():
         return False
     if any(abs(part).max() > 0.0 for part in parts if part.shape[0] and part.shape[1]):
         return False

@@ -42,12 +42,15 @@ def part_variables(
 
 def hinge_names(found: NonlinearParts, frame: FrameContents) -> list[str]:
     """Return the names of the hinges, "member:end"."""
-    return [f"{member}:{'ij'[end]}" for member, end in _hinges(found, frame)]
+    return [f"{member}:{'ij'[end]}" for member, end, _ in _hinges(found, frame)]
 
 
-def _hinges(found: NonlinearParts, frame: FrameContents) -> list[tuple[str, int]]:
+def _hinges(found: NonlinearParts, frame: FrameContents) -> list[tuple[str, int, PlasticHinge]]:
     return [
-        (member, end) for member in found.hinged for end in (0, 1) if frame.hinges[member][end]
+        (member, end, hinge)
+        for member in found.hinged
+        for end, hinge in enumerate(frame.hinges[member])
+        if hinge is not None
     ]
 
 
@@ -83,7 +86,7 @@ def _hinge_variables(
     shape = (count, len(hinges), 3)
     force, plastic = np.zeros(shape), np.zeros(shape)
     turn, work = np.zeros(shape[:2]), np.zeros(shape[:2])
-    for h, (member, end) in enumerate(hinges):
+    for h, (member, end, _) in enumerate(hinges):
         k = order[member]
         at = slice(found.first[k], found.first[k + 1])
         stiffness = found.par[k, :25].reshape(5, 5)
@@ -94,7 +97,6 @@ def _hinge_variables(
         turn[:, h] = out.part_state[:count, k, N_PLASTIC + end]
         work[:, h] = out.part_state[:count, k, WORK_DONE + end]
     history = ("time", "hinge")
-    limits = [_hinge(frame, member, end) for member, end in hinges]
     return {
         "hinge_force": labelled(
             (*history, "hinge_force_component"), force, "N, N m", "N (tension +), My, Mz there"
@@ -105,21 +107,17 @@ def _hinge_variables(
             "m, rad",
             "plastic elongation, and rotations about local y and z",
         ),
-        "hinge_turn": labelled(history, turn, "rad", "plastic rotation run through since the start"),
+        "hinge_turn": labelled(
+            history, turn, "rad", "plastic rotation run through since the start"
+        ),
         "hinge_work": labelled(history, work, "J", "work that the hinge has dissipated"),
         "hinge_moment": labelled(
             ("hinge", "hinge_force_component"),
-            np.array([(each.axial, each.moment_y, each.moment_z) for each in limits]),
+            np.array([(each.axial, each.moment_y, each.moment_z) for _, _, each in hinges]),
             "N, N m",
             "plastic forces of the hinge: axial from its centre, moments",
         ),
     }
-
-
-def _hinge(frame: FrameContents, member: str, end: int) -> PlasticHinge:
-    found = frame.hinges[member][end]
-    assert found is not None
-    return found
 
 
 def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
@@ -143,4 +141,3 @@ def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
                     at = slice(found.first[k], found.first[k + 1])
                     beyond[:, at] -= plastic[:, h] @ columns.T
     return beyond
-

@@ -10,6 +10,7 @@ from scipy import sparse
 from frames.assembly.check import check_connections, check_mass, check_restraint
 from frames.assembly.constraints import free_dofs
 from frames.assembly.elimination import eliminate, separate_massless
+from frames.assembly.end_zones import at_ends, rigid_arms
 from frames.assembly.members import (
     fixed_end_forces,
     local_stiffness,
@@ -17,11 +18,14 @@ from frames.assembly.members import (
     released,
     spring_stiffness,
 )
+from frames.assembly.node_loads import lumped_masses, permanent_loads
 from frames.assembly.nonlinear import nonlinear_parts
+from frames.assembly.span_loads import span_end_forces
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import System as System
 from frames.assembly.system import element_dofs
-from frames.model.axes import default_up, matrix_to_global, to_global, to_local
+from frames.model.applied import applied_loads
+from frames.model.axes import default_up, matrix_to_global, to_local
 from frames.model.parts import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.model.superelement import Placed, lumped, placed
 from lir_element.device.features import Features
@@ -30,6 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames.model.applied import AppliedLoads
     from frames.model.contents import FrameContents
 
 
@@ -65,8 +70,9 @@ def assemble(
     names = tuple(frame.nodes)
     index = {name: place for place, name in enumerate(names)}
     coordinates = np.array([node.position for node in frame.nodes.values()], dtype=np.float64)
-    members = _member_table(frame, index, coordinates)
-    own_mass = _node_mass(frame, index, members)
+    applied = applied_loads(frame)
+    members = _member_table(frame, index, coordinates, applied)
+    own_mass, weighing = lumped_masses(frame, index, members, applied)
     parts = placed(frame.superelements.values(), index)
     node_mass = own_mass + lumped(parts.mass)
     transform, labels = free_dofs(
@@ -83,7 +89,7 @@ def assemble(
         + nonlinear.stiffness()
         + parts.stiffness
     )
-    node_load = _node_load(frame, index, members, own_mass) + parts.load
+    node_load = permanent_loads(frame, index, members, weighing, applied) + parts.load
     translations = np.tile(np.eye(6)[:, :3], (len(names), 1))
     masked = sparse.csr_array(transform @ sparse.diags_array(inert))
     system = System(
@@ -142,8 +148,9 @@ def member_axial_forces(system: System, q: FloatArray) -> FloatArray:
     """
     table = system.members
     u = np.asarray(system.transform @ q.T).T
+    ends = (table.follow[:, 6] - table.follow[:, 0])[..., None]
     local = to_local(u[..., table.dofs], table.arrays.axes)
-    elongation = local[..., 6] - local[..., 0]
+    elongation = (local[..., None, :] @ ends)[..., 0, 0]
     forces: FloatArray = (
         table.arrays.elastic_modulus * table.arrays.area / table.arrays.length * elongation
     )
@@ -212,8 +219,8 @@ def member_end_forces(
     Returns
     -------
     ndarray, (..., n_members, 12)
-        Forces and moments on ends i and j, positive along positive local displacements, with the
-        fixed-end forces of the uniform loads [N, N m].
+        Forces and moments on ends i and j, those of the length between its offsets, positive along
+        positive local displacements, with the fixed-end forces of its loads [N, N m].
     """
     table = system.members
     stiffness = table.stiffness
@@ -222,7 +229,7 @@ def member_end_forces(
     chosen = slice(None) if places is None else places
     local = to_local(u[..., table.dofs[chosen]], table.arrays.axes[chosen])
     forces: FloatArray = np.einsum("mab,...mb->...ma", stiffness[chosen], local)
-    return forces + table.fixed_end[chosen]
+    return at_ends(forces + table.fixed_end[chosen], table.arms[chosen])
 
 
 def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:
@@ -250,11 +257,12 @@ def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:
 
 
 def _member_table(
-    frame: FrameContents, index: dict[str, int], coordinates: FloatArray
+    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, applied: AppliedLoads
 ) -> MemberTable:
     members = tuple(frame.members.values())
     nodes = np.array([(index[m.i], index[m.j]) for m in members], dtype=np.int64).reshape(-1, 2)
-    start, end = coordinates[nodes[:, 0]], coordinates[nodes[:, 1]]
+    offsets = np.array([m.offsets for m in members], dtype=np.float64).reshape(-1, 2, 3)
+    start, end = (coordinates[nodes[:, k]] + offsets[:, k] for k in range(2))
     up = default_up(start, end)
     for place, member in enumerate(members):
         if member.up is not None:
@@ -267,26 +275,22 @@ def _member_table(
         [6 * end + places[part] for end in (0, 1) for part in member.releases[end]]
         for member in members
     ]
-    follow = released(elastic, free)
+    arms = np.einsum("nab,nkb->nka", arrays.axes, offsets)
+    follow = released(elastic, free) @ rigid_arms(arms)
     back = follow.transpose(0, 2, 1)
+    rows = {name: row for row, name in enumerate(frame.members)}
+    forces = fixed_end_forces(arrays, load.reshape(-1, 3))
+    forces += span_end_forces(arrays, rows, applied.spans)
     return MemberTable(
         names=tuple(frame.members),
         arrays=arrays,
         nodes=nodes,
+        offsets=offsets,
+        arms=arms,
         follow=follow,
         stiffness=back @ elastic @ follow,
-        fixed_end=np.einsum("nab,nb->na", back, fixed_end_forces(arrays, load.reshape(-1, 3))),
+        fixed_end=np.einsum("nab,nb->na", back, forces),
     )
-
-
-def _node_mass(frame: FrameContents, index: dict[str, int], members: MemberTable) -> FloatArray:
-    mass = np.zeros((len(index), 6))
-    for name, values in frame.masses.items():
-        mass[index[name]] += values
-    half = 0.5 * members.arrays.density * members.arrays.area * members.arrays.length
-    for end in (0, 1):
-        np.add.at(mass[:, :3], members.nodes[:, end], half[:, None])
-    return mass
 
 
 def _node_stiffness(
@@ -303,18 +307,6 @@ def _node_stiffness(
         ]
     )
     return scatter(blocks, np.concatenate([members.nodes, ends]), len(index))
-
-
-def _node_load(
-    frame: FrameContents, index: dict[str, int], members: MemberTable, mass: FloatArray
-) -> FloatArray:
-    load = np.zeros((len(index), 6))
-    load[:, 2] -= frame.gravity * mass[:, 2]
-    for name, values in frame.loads.items():
-        load[index[name]] += values
-    flat = load.ravel()
-    np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
-    return flat
 
 
 def _reduced(

@@ -142,9 +142,7 @@ def _static_following(
     return solution[:, :-1], solution[:, -1]
 
 
-def _still_shapes(
-    stiffness: FloatArray, massless: IntArray, static: FloatArray
-) -> FloatArray:
+def _still_shapes(stiffness: FloatArray, massless: IntArray, static: FloatArray) -> FloatArray:
     # Shapes of stiffness 1 of all that has no mass; `static` are those of modes without.
     if not len(massless):
         return static

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
+from frames.assembly.end_zones import at_ends
 from frames.assembly.members import local_geometric_stiffness, local_stiffness
 from frames.kernels import laws as kinds
 from frames.kernels.hinges import HINGE, STRIDE
 from frames.model.laws import (
     Bilinear,
     BoucWen,
-    HertzStop,
     Law,
     PlasticHinge,
     Stop,
@@ -152,11 +152,12 @@ def nonlinear_parts(
         scale.append(1.0)
         rows.append(_link_row(link, index, coordinates)[None])
     stiffness = local_stiffness(members.arrays) if hinged else np.zeros((0, 12, 12))
+    fixed_end = at_ends(members.fixed_end, members.arms)
     for name in hinged:
         place = members.names.index(name)
         length = float(members.arrays.length[place])
         kind.append(kinds.HINGES)
-        par.append(_hinges(stiffness[place], members.fixed_end[place], frame.hinges[name]))
+        par.append(_hinges(stiffness[place], fixed_end[place], frame.hinges[name]))
         elastic.extend([HINGED] * 5)
         scale.extend([1.0, *[1.0 / length] * 4])
         rows.append(_basic_rows(members, place, length, len(index)))
@@ -169,9 +170,7 @@ def nonlinear_parts(
         par=np.array(par, dtype=np.float64).reshape(-1, CONSTANTS),
         elastic=np.array(elastic, dtype=np.float64),
         scale=np.array(scale, dtype=np.float64),
-        node_rows=sparse.csr_array(
-            np.concatenate(rows) if rows else np.zeros((0, 6 * len(index)))
-        ),
+        node_rows=sparse.csr_array(np.concatenate(rows) if rows else np.zeros((0, 6 * len(index)))),
     )
 
 
@@ -199,7 +198,6 @@ def _law(law: Law) -> tuple[int, FloatArray]:
     elif isinstance(law, Stop):
         kind, values = kinds.STOP, (law.gap, law.stiffness, law.damping, law.soft)
     else:
-        assert isinstance(law, HertzStop)
         damping = 0.75 * (1.0 - law.restitution**2)
         kind, values = kinds.HERTZ, (law.gap, law.stiffness, law.exponent, damping)
     return kind, _padded(values)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
+from frames.assembly.end_zones import arms_geometric_stiffness
 from frames.assembly.members import MemberArrays, local_geometric_stiffness
 
 if TYPE_CHECKING:
@@ -28,17 +29,21 @@ class MemberTable:
         Section constants, lengths and local axes.
     nodes : ndarray, (n, 2)
         Node indices of the ends i and j.
+    offsets, arms : ndarray, (n, 2, 3)
+        Vectors from nodes i and j to the members' ends [m], in global and in local axes.
     follow : ndarray, (n, 12, 12)
-        Local displacements of the members from those of their nodes: what releases do.
+        Local displacements of the members from those of their nodes: what releases and offsets do.
     stiffness : ndarray, (n, 12, 12)
         Elastic stiffness in local axes, over the displacements of the nodes.
     fixed_end : ndarray, (n, 12)
-        Fixed-end forces of the uniform loads in local axes [N, N m].
+        Fixed-end forces of the members' loads in local axes, on their nodes [N, N m].
     """
 
     names: tuple[str, ...]
     arrays: MemberArrays
     nodes: IntArray
+    offsets: FloatArray
+    arms: FloatArray
     follow: FloatArray
     stiffness: FloatArray
     fixed_end: FloatArray
@@ -57,7 +62,8 @@ class MemberTable:
             Symmetric [N/m, N, N m].
         """
         own = local_geometric_stiffness(self.arrays, axial_forces)
-        return np.asarray(self.follow.transpose(0, 2, 1) @ own @ self.follow)
+        bent = np.asarray(self.follow.transpose(0, 2, 1) @ own @ self.follow)
+        return bent + arms_geometric_stiffness(self.arms, axial_forces)
 
     @property
     def dofs(self) -> IntArray:

@@ -77,6 +77,14 @@ def is_inside(par: Floats, at: int, sigma: Floats) -> bool:
 
 
 @kernel
+def is_outside(par: Floats, at: int, sigma: Floats, w: Floats) -> bool:
+    """Return whether forces are outside the surface; the costly test only where there is need."""
+    if is_inside(par, at, sigma):
+        return False
+    return surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 0.0
+
+
+@kernel
 def set_forces(par: Floats, p: Floats, d: Floats, s: Floats) -> None:
     """Set the member's five forces from its deformations and the plastic parts of its hinges."""
     for a in range(5):
@@ -201,9 +209,8 @@ def hinged_member(
         set_stress(par, h, old, s, sigma)
         on[h] = 0.0
         at = HINGE + STRIDE * h
-        if par[at + 8] > 0.0 and not is_inside(par, at, sigma):
-            if surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 0.0:
-                on[h], yields = 1.0, 1
+        if par[at + 8] > 0.0 and is_outside(par, at, sigma, w):
+            on[h], yields = 1.0, 1
     if yields and not settle_hinges(par, old, new, lam, on, d, w):
         return -1
     for a in range(5):

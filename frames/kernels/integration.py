@@ -68,9 +68,7 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
 
 
 @inlined
-def set_load(
-    model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
-) -> None:
+def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 BILINEAR, BOUC_WEN, TIE, VISCOUS, MAXWELL, STOP, HERTZ, HINGES = range(8)
-_FINEST = 0.1  # of the yield deformation: substep of the Bouc-Wen law (4th order: 1e-5 of its force)
+_FINEST = (
+    0.1  # of the yield deformation: substep of the Bouc-Wen law (4th order: 1e-5 of its force)
+)
 _SDIRK = 1.0 - math.sqrt(0.5)  # Alexander (1977): two stages, second order, L-stable
 _MOST = 60  # iterations of a scalar solution
 
@@ -52,9 +54,7 @@ def bouc_wen_rate(par: Floats, z: float, energy: float, sense: float) -> float:
 
 
 @kernel
-def bouc_wen(
-    par: Floats, old: Floats, new: Floats, d_old: float, d: float
-) -> tuple[float, float]:
+def bouc_wen(par: Floats, old: Floats, new: Floats, d_old: float, d: float) -> tuple[float, float]:
     """Bouc-Wen hysteresis by Runge-Kutta steps; state: z, normalised energy.
 
     par: k, r, n, beta, strength loss, stiffness loss, yield deformation, then the pinching. The

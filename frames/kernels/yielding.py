@@ -127,9 +127,7 @@ def follow_of(
 
 
 @inlined
-def set_mode_flexibility(
-    model: Model, parts: Parts, c_m: float, c_c: float, c_k: float
-) -> None:
+def set_mode_flexibility(model: Model, parts: Parts, c_m: float, c_c: float, c_k: float) -> None:
     """Set ``parts.modes[0]``, the modes' flexibility at a step where damping is diagonal."""
     for k in range(parts.to_e.shape[1]):
         parts.modes[0, k] = 1.0 / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
@@ -155,7 +153,7 @@ def row_of(model: Model, run: Run, parts: Parts, i: int) -> int:
     place = parts.slot[at, i]
     if place > 0:
         return int(place - 1)
-    place, share = parts.count[1], parts.scheme[3]
+    place, share = parts.number[1], parts.scheme[3]
     if model.damping_ee.shape[0] > 0:
         flexibility_row(
             parts.to_e, parts.still, run.inverse_e[at], i, share, parts.pool[place], parts.modes[1]
@@ -165,7 +163,7 @@ def row_of(model: Model, run: Run, parts: Parts, i: int) -> int:
             parts.to_e, parts.still, parts.modes[:1], i, share, parts.pool[place], parts.modes[1]
         )
     parts.slot[at, i] = place + 1
-    parts.count[1] = place + 1
+    parts.number[1] = place + 1
     return int(place)
 
 
@@ -190,11 +188,11 @@ def begin_parts(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
         parts.change[i] = 0.0
     for k in range(parts.kind.shape[0]):
         parts.loose[k] = 0
-    parts.count[0] = 0
+    parts.number[0] = 0
     m = parts.d.shape[0]
-    if parts.count[1] + m > parts.pool.shape[0]:  # room for a row each
+    if parts.number[1] + m > parts.pool.shape[0]:  # room for a row each
         parts.slot[:, :] = 0
-        parts.count[1] = 0
+        parts.number[1] = 0
 
 
 @inlined
@@ -202,9 +200,9 @@ def loosen(parts: Parts, k: int) -> None:
     """Add a part to the loose ones."""
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
-        parts.active[parts.count[0]] = i
+        parts.active[parts.number[0]] = i
         parts.guess[i] = 0.0
-        parts.count[0] += 1
+        parts.number[0] += 1
 
 
 @inlined
@@ -212,7 +210,7 @@ def follow_change(model: Model, run: Run, parts: Parts) -> None:
     """Set the deformations of what is not loose from those of the step and the changes of g."""
     for i in range(parts.d.shape[0]):
         parts.vector[0, i] = parts.linear[i]
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         change = parts.change[parts.active[n]]
         if change != 0.0:
             row = parts.pool[row_of(model, run, parts, parts.active[n])]
@@ -228,11 +226,11 @@ def follow_change(model: Model, run: Run, parts: Parts) -> None:
 def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
     """Set what the frame gives way to by forces that are guessed but not there; its size."""
     size = 0.0
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         row = parts.pool[row_of(model, run, parts, i)]
         total = 0.0
-        for p in range(parts.count[0]):
+        for p in range(parts.number[0]):
             k = parts.active[p]
             total += row[k] * (parts.guess[k] - parts.change[k])
         parts.vector[1, n] = total
@@ -255,7 +253,7 @@ def try_loose(model: Model, run: Run, parts: Parts) -> float:
 @inlined
 def set_part_matrix(model: Model, run: Run, parts: Parts) -> None:
     """Set ``1 + F slope`` over the loose deformations."""
-    count = parts.count[0]
+    count = parts.number[0]
     for n in range(count):
         row = parts.pool[row_of(model, run, parts, parts.active[n])]
         for p in range(count):
@@ -279,7 +277,7 @@ def part_width(parts: Parts, i: int) -> int:
 @inlined
 def go_along(parts: Parts, share: float) -> None:
     """Move the loose deformations and their forces by a share of Newton's step."""
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         parts.d[i] += share * parts.right[n, 0]
         parts.guess[i] += share * parts.vector[0, n]
@@ -289,7 +287,7 @@ def go_along(parts: Parts, share: float) -> None:
 def ascent(parts: Parts) -> float:
     """Return the derivative of the potential along Newton's step; zero where it is smallest."""
     total = 0.0
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         total += parts.right[n, 0] * (parts.change[i] - parts.guess[i])
     return total
@@ -298,7 +296,7 @@ def ascent(parts: Parts) -> float:
 @inlined
 def set_newton_step(model: Model, run: Run, parts: Parts) -> bool:
     """Set Newton's step of the deformations (`right`) and forces (`vector[0]`) of loose parts."""
-    count = parts.count[0]
+    count = parts.number[0]
     set_part_matrix(model, run, parts)
     for n in range(count):
         parts.right[n, 0] = parts.vector[1, n]
@@ -365,15 +363,15 @@ def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
         for a in range(step.shape[0]):
             total += follow[i, a] * step[a]
         parts.linear[i] = total
-    for n in range(parts.count[0]):  # the first guess: forces as they were
+    for n in range(parts.number[0]):  # the first guess: forces as they were
         i = parts.active[n]
         row = parts.pool[row_of(model, run, parts, i)]
         parts.d[i] = parts.linear[i]
-        for p in range(parts.count[0]):
+        for p in range(parts.number[0]):
             parts.d[i] -= row[parts.active[p]] * parts.guess[parts.active[p]]
     for _ in range(parts.kind.shape[0] + 1):
-        if parts.count[0] > 0 and not newton_loose(model, run, parts):
-            for n in range(parts.count[0]):  # no guess for what is tried next
+        if parts.number[0] > 0 and not newton_loose(model, run, parts):
+            for n in range(parts.number[0]):  # no guess for what is tried next
                 parts.guess[parts.active[n]] = 0.0
             return False
         follow_change(model, run, parts)
@@ -395,7 +393,7 @@ def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
 def add_part_forces(run: Run, parts: Parts, out: Floats) -> None:
     """Take the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         value = parts.scheme[3] * parts.change[i]
         if value != 0.0:
@@ -406,7 +404,7 @@ def add_part_forces(run: Run, parts: Parts, out: Floats) -> None:
 @inlined
 def add_part_tangent(model: Model, run: Run, parts: Parts) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
-    count, n_b = parts.count[0], run.step.shape[0]
+    count, n_b = parts.number[0], run.step.shape[0]
     if count == 0:
         return True
     follow = parts.follow[run.clock[0].halvings]
@@ -434,7 +432,7 @@ def add_part_tangent(model: Model, run: Run, parts: Parts) -> bool:
 @inlined
 def part_load_on_modes(parts: Parts, out: Floats) -> None:
     """Take the change of the forces g from loads on the modes."""
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         value = parts.scheme[3] * parts.change[i]
         if value != 0.0:
@@ -485,7 +483,7 @@ def add_part_work(parts: Parts) -> None:
 def commit_parts(parts: Parts, beta: float, gamma: float, dt: float) -> None:
     """Accept the trial state of all parts, and their forces in frame coordinates."""
     add_part_work(parts)
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         change = parts.change[i]
         if change != 0.0:
@@ -512,7 +510,7 @@ def part_energy_on(load: Floats, parts: Parts, to: Floats, step: Floats) -> floa
     total = 0.0
     for a in range(step.shape[0]):
         total += load[a] * step[a]
-    for n in range(parts.count[0]):
+    for n in range(parts.number[0]):
         i = parts.active[n]
         value = 0.5 * parts.change[i]
         if value != 0.0:

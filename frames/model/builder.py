@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from frames._errors import ModelError
-from frames.model.contents import FrameContents, frozen
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
+from frames.model.loading import FrameLoader
 from frames.model.names import known_name, new_name
 from frames.model.parts import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.placing import (
+    member_offsets,
     member_releases,
     member_up,
     node_list,
@@ -24,14 +23,14 @@ from frames.model.placing import (
 )
 from frames.model.sections import Section
 from frames.model.superelement import superelement
-from lir_element.door import require_non_negative, require_type, require_vector
+from lir_element.door import require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike
     from lir_element import LIRBearing
 
 
-class FrameBuilder(FrameContents):
+class FrameBuilder(FrameLoader):
     """The verbs of `Frame` that add parts; each leaves it as it was when it refuses."""
 
     def add_node(self, name: str, x: float, y: float, z: float) -> None:
@@ -66,37 +65,6 @@ class FrameBuilder(FrameContents):
         chosen = frozenset(DOFS) if "all" in dofs else frozenset(dofs)
         self._fixed[node] = self._fixed.get(node, frozenset()) | chosen
 
-    def add_mass(self, node: str, mass: float, inertia: Sequence[float] = (0.0, 0.0, 0.0)) -> None:
-        """Add a lumped mass to a node; repeated calls accumulate.
-
-        Parameters
-        ----------
-        node : str
-            Name of the node.
-        mass : float
-            Mass in all three directions [kg], >= 0. It also weighs, mass * gravity along -z.
-        inertia : sequence of 3 floats
-            Rotary inertia about global x, y, z through the node [kg m2], each >= 0.
-
-        Raises
-        ------
-        ModelError
-            If the node does not exist or a number is negative or not finite.
-        """
-        known_name(node, self._nodes, "node")
-        number = require_non_negative(
-            f'mass [kg] at node "{node}"', mass, remedy="masses add up, give kg", error=ModelError
-        )
-        rotary = require_vector(f'inertia [kg m2] at node "{node}"', inertia, 3, error=ModelError)
-        if (rotary < 0.0).any():
-            message = (
-                f'inertia [kg m2] at node "{node}" = {rotary.tolist()} must be 0 or greater: '
-                "give the moments of inertia about global x, y, z"
-            )
-            raise ModelError(message)
-        total = self._masses.get(node, np.zeros(6))
-        self._masses[node] = frozen(total + np.concatenate([np.full(3, number), rotary]))
-
     def add_member(
         self,
         name: str,
@@ -106,6 +74,7 @@ class FrameBuilder(FrameContents):
         up: Sequence[float] | None = None,
         *,
         releases: Mapping[str, Sequence[str]] | None = None,
+        offsets: Mapping[str, Sequence[float]] | None = None,
     ) -> None:
         """Add an elastic beam-column, rigidly joined to its nodes but for its releases.
 
@@ -124,18 +93,27 @@ class FrameBuilder(FrameContents):
             Moments that an end does not pass on, of "T", "My" and "Mz" about local x, y and z: a
             strut that is hinged at both ends has ``{"i": ("My", "Mz"), "j": ("My", "Mz")}``. A node
             whose rotation nothing else holds must be fixed.
+        offsets : mapping, optional
+            Rigid end zones: vectors from node i and from node j to the member's ends, in global
+            axes [m]: a beam along x between columns 0.5 m wide has
+            ``{"i": (0.25, 0, 0), "j": (-0.25, 0, 0)}``. The member, its loads, its mass and its
+            end forces are those of the length between its ends; half of its mass is lumped to
+            each node.
 
         Raises
         ------
         ModelError
-            If a name is unknown or taken, the length is zero, `up` is parallel to the member, or
-            torsion is released at both ends.
+            If a name is unknown or taken, the length is zero, `up` is parallel to the member,
+            torsion is released at both ends, or offsets leave no length.
         """
         new_name(name, self._members, "member")
         require_two_nodes(self._nodes, i, j, f'member "{name}"')
         require_type(f'section of member "{name}"', section, Section, "a Section: Section.box(...)")
-        fixed_up = member_up(self._nodes, name, i, j, up)
-        self._members[name] = Member(name, i, j, section, fixed_up, member_releases(name, releases))
+        zones = member_offsets(name, offsets)
+        fixed_up = member_up(self._nodes, name, i, j, up, zones)
+        self._members[name] = Member(
+            name, i, j, section, fixed_up, member_releases(name, releases), zones
+        )
 
     def add_spring(self, name: str, i: str, j: str, stiffness: Sequence[float]) -> None:
         """Add a linear 6-component spring between two nodes, in global axes.
@@ -238,18 +216,6 @@ class FrameBuilder(FrameContents):
         refuse_shared(name, chosen, self._diaphragms)
         one_elevation(self._nodes, chosen, f'diaphragm "{name}"')
         self._diaphragms[name] = Diaphragm(name, chosen)
-
-    def add_load(self, node: str, forces: Sequence[float]) -> None:
-        """Add permanent forces (3 x N) and moments (3 x N m), global axes; they carry no mass."""
-        known_name(node, self._nodes, "node")
-        values = require_vector(f'forces [N, N m] at node "{node}"', forces, 6, error=ModelError)
-        self._loads[node] = frozen(self._loads.get(node, np.zeros(6)) + values)
-
-    def add_uniform_load(self, member: str, q: Sequence[float]) -> None:
-        """Add a permanent load per unit length [N/m], (3,) in global axes; it carries no mass."""
-        known_name(member, self._members, "member")
-        values = require_vector(f'uniform load [N/m] on member "{member}"', q, 3, error=ModelError)
-        self._uniform_loads[member] = frozen(self._uniform_loads.get(member, np.zeros(3)) + values)
 
     def add_bearing(self, name: str, i: str, j: str, bearing: LIRBearing) -> None:
         """Put a bearing between two nodes of one vertical.

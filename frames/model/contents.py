@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from frames._errors import ModelError
 from frames.model.damping import Damping
 from frames.model.laws import PlasticHinge
 from frames.model.names import new_name
-from frames.model.parts import BearingLink, Diaphragm, Level, Link, Member, Node, Spring
+from frames.model.parts import (
+    BearingLink,
+    Diaphragm,
+    FloorLoad,
+    Level,
+    Link,
+    Member,
+    Node,
+    Spring,
+    TaperedLoad,
+)
 from frames.model.superelement import Superelement
 from lir_element.door import require_non_negative
 from lir_element.tables import html_table
@@ -52,8 +64,13 @@ class FrameContents:
         self._levels: dict[str, Level] = {}
         self._fixed: dict[str, frozenset[str]] = {}
         self._masses: dict[str, FloatArray] = {}
-        self._loads: dict[str, FloatArray] = {}
-        self._uniform_loads: dict[str, FloatArray] = {}
+        self._weightless: dict[str, FloatArray] = {}  # of the masses, what does not weigh
+        self._loads: dict[str, dict[str, FloatArray]] = {}  # by node and case; never changed within
+        self._uniform_loads: dict[str, dict[str, FloatArray]] = {}
+        self._tapered_loads: dict[str, tuple[TaperedLoad, ...]] = {}
+        self._floor_loads: dict[str, FloorLoad] = {}
+        self._mass_source: dict[str, float] = {}
+        self._weight_factor = 1.0
         self._damping: Damping | None = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -63,7 +80,8 @@ class FrameContents:
     def __setstate__(self, state: dict[str, Any]) -> None:
         # copies of arrays can be written to: they are frozen again
         vars(self).update(state)
-        for group in (self._masses, self._loads, self._uniform_loads):
+        cases = (*self._loads.values(), *self._uniform_loads.values())
+        for group in (self._masses, self._weightless, *cases):
             for values in group.values():
                 frozen(values)
 
@@ -83,9 +101,18 @@ class FrameContents:
     def _repr_html_(self) -> str:
         kinds = (
             "nodes", "members", "springs", "links", "hinges", "superelements", "diaphragms",
-            "bearings", "levels",
+            "bearings", "levels", "floor_loads",
         )  # fmt: skip
-        rows = [(kind, str(len(getattr(self, kind)))) for kind in kinds if getattr(self, kind)]
+        rows = [
+            (kind.replace("_", " "), str(len(getattr(self, kind))))
+            for kind in kinds
+            if getattr(self, kind)
+        ]
+        if self.load_cases:
+            rows.append(("load cases", ", ".join(self.load_cases)))
+        if self._mass_source:
+            shares = ", ".join(f"{share:g} {case}" for case, share in self._mass_source.items())
+            rows.append(("mass of loads", shares))
         lumped = sum(float(values[0]) for values in self._masses.values())
         rows.append(("lumped mass", f"{1e-3 * lumped:.5g} t at {len(self._masses)} nodes"))
         rows.append(("damping", repr(self._damping)))
@@ -158,15 +185,68 @@ class FrameContents:
 
     @property
     def masses(self) -> Mapping[str, FloatArray]:
-        """Lumped masses by node, (6,) each: 3 x kg, 3 x kg m2; members not included."""
+        """Lumped masses by node, (6,) each: 3 x kg, 3 x kg m2; members and loads not included."""
         return MappingProxyType(self._masses)
 
     @property
+    def weightless_masses(self) -> Mapping[str, FloatArray]:
+        """Those of the lumped masses that do not weigh, by node, (6,) each."""
+        return MappingProxyType(self._weightless)
+
+    @property
+    def weight_factor(self) -> float:
+        """By what the weight of masses counts [-]: 1, or that of a load combination."""
+        return self._weight_factor
+
+    @property
+    def mass_source(self) -> Mapping[str, float]:
+        """Shares of permanent loads that are masses, by case [-]."""
+        return MappingProxyType(self._mass_source)
+
+    @property
     def loads(self) -> Mapping[str, FloatArray]:
-        """Permanent forces by node, (6,) each: 3 x N, 3 x N m; weights not included."""
+        """Permanent forces by node, (6,) each: 3 x N, 3 x N m; all cases, no weights."""
+        return MappingProxyType({node: _total(cases) for node, cases in self._loads.items()})
+
+    @property
+    def loads_by_case(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """The same permanent forces by node and load case."""
         return MappingProxyType(self._loads)
 
     @property
-    def uniform_loads(self) -> Mapping[str, FloatArray]:
-        """Permanent loads by member, (3,) each in global axes [N/m]."""
+    def uniform_loads_by_case(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """Uniform loads by member and load case, as `uniform_loads`."""
         return MappingProxyType(self._uniform_loads)
+
+    @property
+    def uniform_loads(self) -> Mapping[str, FloatArray]:
+        """Permanent loads by member, (3,) each in global axes [N/m]; all cases."""
+        found = {member: _total(cases) for member, cases in self._uniform_loads.items()}
+        return MappingProxyType(found)
+
+    @property
+    def tapered_loads(self) -> Mapping[str, tuple[TaperedLoad, ...]]:
+        """Permanent loads of linear size by member; those of floor panels not included."""
+        return MappingProxyType(self._tapered_loads)
+
+    @property
+    def floor_loads(self) -> Mapping[str, FloorLoad]:
+        """Loads on floor panels by name, in the order added."""
+        return MappingProxyType(self._floor_loads)
+
+    @property
+    def load_cases(self) -> tuple[str, ...]:
+        """Cases of all permanent loads, in alphabetical order."""
+        return tuple(sorted(set(self._cases())))
+
+    def _cases(self) -> Iterator[str]:
+        for group in (self._loads, self._uniform_loads):
+            for cases in group.values():
+                yield from cases
+        for loads in self._tapered_loads.values():
+            yield from (load.case for load in loads)
+        yield from (load.case for load in self._floor_loads.values())
+
+
+def _total(cases: Mapping[str, FloatArray]) -> FloatArray:
+    return frozen(np.sum(list(cases.values()), axis=0))

@@ -8,9 +8,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
 from frames._errors import ModelError
+from frames.model.combining import combination, factor_all, factor_loads
 from frames.model.names import known_name, new_name
 from frames.model.nonlinear import NonlinearBuilder
-from frames.model.parts import BearingLink, bearing_height
+from frames.model.parts import DEFAULT_CASE, BearingLink, bearing_height
 from frames.model.placing import fits, require_bearing_place
 
 if TYPE_CHECKING:
@@ -72,14 +73,56 @@ class FrameEditor(NonlinearBuilder):
             found._bearings[each] = replace(link, bearing=device)
         return found
 
+    def combined(
+        self,
+        factors: Mapping[str, float],
+        name: str | None = None,
+        *,
+        weight: str = DEFAULT_CASE,
+        masses: bool = False,
+    ) -> Self:
+        """Return a copy whose permanent loads are a combination of the load cases.
+
+        Parameters
+        ----------
+        factors : mapping of str to float
+            Factor of each load case [-], as in ``{"D": 1.2, "L": 0.5}``; `isolator_combinations`
+            has those of ASCE 7. A case of the frame that is left out is refused, one that the
+            frame does not have does no harm.
+        name : str, optional
+            Name of the copy; that of this frame if None.
+        weight : str
+            The case to which the weight of masses, members and superelements belongs.
+        masses : bool
+            False: masses stay as they are, those that loads make (`set_mass_source`) included.
+            True: all that weighs in the combination is mass, lumped masses and those of members
+            by the factor of `weight`, loads by their own.
+
+        Returns
+        -------
+        Frame
+            The copy; `weight_factor` says by what masses weigh.
+
+        Raises
+        ------
+        ModelError
+            If a case has no factor, or masses cannot follow.
+        """
+        found = self.copy(name)
+        chosen = combination(self, factors, weight)
+        (factor_all if masses else factor_loads)(found, chosen, weight)
+        return found
+
     def remove(self, kind: str, name: str) -> None:
         """Take a part out of the frame.
 
         Parameters
         ----------
-        kind : {"member", "spring", "link", "hinges", "bearing", "diaphragm", "level", "mass", "load"}
-            What it is; a mass or a load has the name of its node, hinges that of their member. A
-            member's uniform load and hinges go with it.
+        kind : str
+            "member", "spring", "link", "hinges", "bearing", "diaphragm", "level", "mass", "load" or
+            "floor load": a mass or a load has the name of its node, and goes in all load cases;
+            hinges have that of their member. A member's hinges and own loads go with it, a floor
+            load that rests on it must go as well.
         name : str
             Its name.
 
@@ -92,7 +135,7 @@ class FrameEditor(NonlinearBuilder):
             "member": self._members, "spring": self._springs, "link": self._links,
             "hinges": self._hinges, "bearing": self._bearings,
             "diaphragm": self._diaphragms, "level": self._levels, "mass": self._masses,
-            "load": self._loads,
+            "load": self._loads, "floor load": self._floor_loads,
         }  # fmt: skip
         if kind not in groups:
             msg = f"kind = {kind!r}: choose one of {', '.join(groups)}"
@@ -102,6 +145,9 @@ class FrameEditor(NonlinearBuilder):
         if kind == "member":
             self._uniform_loads.pop(name, None)
             self._hinges.pop(name, None)
+            self._tapered_loads.pop(name, None)
+        elif kind == "mass":
+            self._weightless.pop(name, None)
 
     def _settle_under(self, name: str, link: BearingLink, height: float) -> None:
         # Moves the node below a bearing so that a device of another height fits.

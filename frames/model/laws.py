@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from frames._errors import ModelError
-from lir_element.door import require_between, require_non_negative, require_positive
+from lir_element.door import require_between, require_non_negative, require_positive, require_type
 
 KINDS = ("bilinear", "bouc-wen", "tie", "viscous", "maxwell", "stop", "hertz-stop", "hinges")
 """Kinds of law as the kernels number them."""
@@ -142,9 +142,9 @@ class BoucWen:
         _share(self, "shape", 1.0, 1e-6)
         for name in ("strength_loss", "stiffness_loss"):
             require_non_negative(f"BoucWen: {name} [-]", getattr(self, name), error=ModelError)
-        if self.pinching is not None and not isinstance(self.pinching, Pinching):
-            msg = f"BoucWen: pinching = {self.pinching!r} must be a Pinching or None"
-            raise ModelError(msg)
+        require_type(
+            "BoucWen: pinching", self.pinching, (Pinching, type(None)), "a Pinching or None"
+        )
 
     @property
     def yield_deformation(self) -> float:
@@ -354,7 +354,7 @@ class PlasticHinge:
                 f"than axial = {self.axial!r} N"
             )
             raise ModelError(msg)
-        if self.axial == math.inf and self.axial_centre != 0.0:
+        if self.axial == math.inf and abs(self.axial_centre) > 0.0:
             msg = "PlasticHinge: axial_centre without axial: give the axial force without moment"
             raise ModelError(msg)
         _share(self, "axial_exponent", 4.0, 1.0)

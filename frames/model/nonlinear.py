@@ -76,7 +76,7 @@ class NonlinearBuilder(FrameBuilder):
         Raises
         ------
         ModelError
-            If the member is unknown, has hinges already, or an end with a hinge is released.
+            If the member is unknown, has hinges already, or releases.
         """
         known_name(member, self._members, "member")
         new_name(member, self._hinges, "pair of hinges on member")
@@ -87,13 +87,12 @@ class NonlinearBuilder(FrameBuilder):
                 f'hinge at end {end} of member "{member}"', each, PlasticHinge,
                 "a PlasticHinge(moment_y=..., moment_z=...)",
             )  # fmt: skip
-            free = self._members[member].releases["ij".index(end)]
-            if free:
-                message = (
-                    f'member "{member}" is released of {", ".join(free)} at end {end}: a hinge '
-                    "there would have no moment; leave out one of them"
-                )
-                raise ModelError(message)
+        if any(self._members[member].releases):
+            message = (
+                f'member "{member}" has releases, and plastic hinges do not go with them: leave '
+                "out one of the two"
+            )
+            raise ModelError(message)
         if not given:
             message = f'add_hinges("{member}", {{}}) names no end: give "i", "j" or one hinge'
             raise ModelError(message)
@@ -116,8 +115,8 @@ class NonlinearBuilder(FrameBuilder):
             Nodes that may run into a wall, as the corners of the base slab: each has walls on all
             sides that the law names.
         law : Stop, HertzStop or mapping
-            Of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-" (where
-            the wall stands, seen from the node).
+            Of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
+            where the wall stands, seen from the node.
 
         Raises
         ------

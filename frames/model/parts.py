@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
 from frames.model.laws import Law
@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 DOFS = ("ux", "uy", "uz", "rx", "ry", "rz")
 """Names of a node's degrees of freedom: translations along and rotations about global x, y, z."""
 
+DEFAULT_CASE = "D"
+"""Case of permanent loads that are given none, and of what masses weigh: dead load."""
+
+Vector: TypeAlias = tuple[float, float, float]
+"""Components along global x, y, z."""
 
 RELEASABLE = ("T", "My", "Mz")
 """Moments about a member's local axes that its ends may be free of."""
@@ -40,7 +45,8 @@ class Node:
 class Member:
     """A beam-column from node `i` to node `j`; `up` fixes its local axes, None the default.
 
-    `releases` are the moments of `RELEASABLE` that it does not pass on at end i and at end j.
+    `releases` are the moments of `RELEASABLE` that it does not pass on at end i and at end j,
+    `offsets` the rigid vectors from its nodes to its ends, in global axes [m].
     """
 
     name: str
@@ -49,6 +55,43 @@ class Member:
     section: Section
     up: tuple[float, float, float] | None
     releases: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+    offsets: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+    @property
+    def has_offsets(self) -> bool:
+        """Whether an end lies away from its node."""
+        return any(any(offset) for offset in self.offsets)
+
+
+@dataclass(frozen=True)
+class TaperedLoad:
+    """A load along a member, linear from `start` to `end` [N/m], global axes.
+
+    It reaches from `a` to `b`, distances from the member's end i along its axis [m].
+    """
+
+    a: float
+    b: float
+    start: Vector
+    end: Vector
+    case: str
+
+
+@dataclass(frozen=True)
+class FloorLoad:
+    """A load on a horizontal panel, carried by the members along its edges.
+
+    `nodes` are its corners in order, `q` acts downwards [N/m2]. `span` is the unit vector in plan
+    of a panel that carries one way, None of one that carries to all edges; `mass` the share of the
+    load that is mass, None what the frame's mass source says of `case`.
+    """
+
+    name: str
+    nodes: tuple[str, ...]
+    q: float
+    span: tuple[float, float] | None
+    mass: float | None
+    case: str
 
 
 @dataclass(frozen=True)

@@ -11,15 +11,19 @@ import numpy as np
 from frames._errors import ModelError
 from frames.model.axes import default_up, local_axes
 from frames.model.names import known_name
-from frames.model.parts import RELEASABLE, Diaphragm, Level, Node, bearing_height
-from lir_element.door import require_vector
-from lir_element.units import LENGTHS
+from frames.model.parts import RELEASABLE, Diaphragm, Level, Member, Node, Vector, bearing_height
+from lir_element.door import require_finite, require_type, require_vector
+from lir_element.units import LENGTHS, meant
 
 if TYPE_CHECKING:
+    from frames._types import FloatArray
     from lir_element import LIRBearing
 
 POSITION_TOLERANCE = 1e-3
 """How far positions that should agree may differ: diaphragm planes, bearing ends [m]."""
+
+LARGEST_OFFSET = 20.0
+"""Length of a rigid end zone that no member has [m]."""
 
 Nodes = Mapping[str, Node]
 
@@ -64,15 +68,28 @@ def one_elevation(nodes: Nodes, chosen: tuple[str, ...], owner: str) -> float:
 
 
 def member_up(
-    nodes: Nodes, name: str, i: str, j: str, up: Sequence[float] | None
-) -> tuple[float, float, float] | None:
+    nodes: Nodes,
+    name: str,
+    i: str,
+    j: str,
+    up: Sequence[float] | None,
+    offsets: tuple[Vector, Vector],
+) -> Vector | None:
     """Return `up` as a member keeps it, or raise where it has no length or no local axes."""
-    start, end = (np.array([nodes[node].position]) for node in (i, j))
+    first, second = (np.array([nodes[node].position]) for node in (i, j))
+    start, end = first + np.array([offsets[0]]), second + np.array([offsets[1]])
     length = float(np.linalg.norm(end - start))
+    between = f'"{i}" to "{j}"' + (" less its offsets" if any(map(any, offsets)) else "")
     if length < POSITION_TOLERANCE:
         message = (
-            f'member "{name}" from "{i}" to "{j}" is {length:g} m long, it must be longer '
+            f'member "{name}" from {between} is {length:g} m long, it must be longer '
             f"than {POSITION_TOLERANCE:g} m: join coincident nodes by add_spring"
+        )
+        raise ModelError(message)
+    if float(((end - start) * (second - first)).sum()) < 0.0:
+        message = (
+            f'member "{name}" from {between} runs backwards, its ends overlap by {length:g} m: '
+            "give shorter offsets, as vectors from node to end in global axes [m]"
         )
         raise ModelError(message)
     given = None
@@ -84,6 +101,61 @@ def member_up(
         message = f'member "{name}" has no local axes: {cause}'
         raise ModelError(message) from cause
     return None if given is None else (float(given[0]), float(given[1]), float(given[2]))
+
+
+def member_offsets(
+    name: str, offsets: Mapping[str, Sequence[float]] | None
+) -> tuple[Vector, Vector]:
+    """Return the vectors [m] from nodes i and j of a member to its ends, checked."""
+    what = 'vectors by end: write {"i": (0.25, 0, 0)}'
+    require_type(f'offsets of member "{name}"', offsets, (Mapping, type(None)), what)
+    given = dict(offsets or {})
+    unknown = [end for end in given if end not in {"i", "j"}]
+    if unknown:
+        message = (
+            f'offsets of member "{name}": {unknown[0]!r} is no end; give "i" and "j" with vectors '
+            'from node to end [m], such as {"j": (-0.25, 0, 0)}'
+        )
+        raise ModelError(message)
+    found = []
+    for end in "ij":
+        what = f'offset [m] of member "{name}" at end {end}'
+        x, y, z = require_vector(what, given.get(end, (0.0, 0.0, 0.0)), 3, error=ModelError)
+        size = math.hypot(x, y, z)
+        if size > LARGEST_OFFSET:
+            message = (
+                f"{what} is {size:g} m long, at most {LARGEST_OFFSET:g} m: "
+                f"{meant(size, 'm', LENGTHS, 0.01, 3.0)}"
+            )
+            raise ModelError(message)
+        found.append((float(x), float(y), float(z)))
+    return found[0], found[1]
+
+
+def member_ends(nodes: Nodes, member: Member) -> tuple[FloatArray, FloatArray]:
+    """Return the ends of a member (3,) [m]: its nodes and its offsets from them."""
+    first, second = (
+        np.add(nodes[node].position, offset)
+        for node, offset in zip((member.i, member.j), member.offsets, strict=True)
+    )
+    return first, second
+
+
+def member_span(nodes: Nodes, member: Member, a: float, b: float | None) -> tuple[float, float]:
+    """Return a part of a member from `a` to `b` [m], None its end, or raise if it is not on it."""
+    first, second = member_ends(nodes, member)
+    length = float(np.linalg.norm(second - first))
+    owner = f'a load on member "{member.name}"'
+    start = require_finite(f"a [m] of {owner}", a, error=ModelError)
+    end = length if b is None else require_finite(f"b [m] of {owner}", b, error=ModelError)
+    slack = 1e-9 * length
+    if not -slack <= start < end <= length + slack:
+        message = (
+            f"{owner} from a = {start:g} m to b = {end:g} m must begin before it ends, on the "
+            f"member, which is {length:g} m long between its ends: give distances from its end i"
+        )
+        raise ModelError(message)
+    return max(start, 0.0), min(end, length)
 
 
 def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphragm]) -> None:

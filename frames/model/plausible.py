@@ -26,6 +26,9 @@ that it stands for a stiffness."""
 LIGHTEST = 20.0
 """Density of the lightest material of members [kg/m3]; 0 leaves their mass out."""
 
+LIGHTEST_FLOOR = 30.0
+"""Load of a floor panel, below which it may be in kN/m2 [N/m2]."""
+
 USUAL_GRAVITY = (8.5, 11.5)
 """Acceleration of gravity on the ground [m/s2]."""
 
@@ -76,7 +79,10 @@ def doubts(frame: FrameContents) -> tuple[str, ...]:
     tuple of str
         Each names the value, what is usual, and the unit to suspect.
     """
-    return (*_of_gravity(frame), *_of_members(frame), *_of_sections(frame))
+    return (
+        *_of_gravity(frame), *_of_members(frame), *_of_sections(frame), *_of_floors(frame),
+        *_of_mass_source(frame),
+    )  # fmt: skip
 
 
 def _of_gravity(frame: FrameContents) -> list[str]:
@@ -127,3 +133,25 @@ def _of_sections(frame: FrameContents) -> list[str]:
             hint = meant(density, "kg/m3", DENSITIES, 100.0, 2e4)
             found.append(f"a section's density = {density:g} kg/m3 is lighter than cork: {hint}")
     return found
+
+
+def _of_floors(frame: FrameContents) -> list[str]:
+    light = [load for load in frame.floor_loads.values() if 0.0 < load.q < LIGHTEST_FLOOR]
+    if not light:
+        return []
+    load = light[0]
+    return [
+        f'floor load "{load.name}" has {load.q:g} N/m2, less than snow or sheeting: '
+        f"{meant(load.q, 'N/m2', (('kN/m2', 1e3),), 300.0, 5e4)}"
+    ]
+
+
+def _of_mass_source(frame: FrameContents) -> list[str]:
+    cases = frame.load_cases
+    empty = [name for name, share in frame.mass_source.items() if share and name not in cases]
+    if not empty:
+        return []
+    return [
+        f'set_mass_source takes mass from load case "{empty[0]}", of which there is no load: '
+        f"there are {', '.join(cases) or 'no load cases'}"
+    ]

@@ -81,3 +81,46 @@ def circle_constants(
     share = 6.0 * (1.0 + nu) * (1.0 + m) ** 2
     share /= (7.0 + 6.0 * nu) * (1.0 + m) ** 2 + (20.0 + 12.0 * nu) * m
     return area, inertia, share * area
+
+
+def i_shape_constants(
+    depth: float, flange_width: float, flange_thickness: float, web_thickness: float
+) -> dict[str, float]:
+    """Return the constants of a doubly symmetric I shape without fillets, web along local z.
+
+    Parameters
+    ----------
+    depth, flange_width, flange_thickness, web_thickness : float
+        Outer dimensions [m].
+
+    Returns
+    -------
+    dict of str to float
+        area [m2], inertia_y, inertia_z, torsion_constant [m4], shear_area_y, shear_area_z [m2] as
+        `Section` names them.
+
+    Raises
+    ------
+    ModelError
+        If a dimension is not positive, or flanges or web do not fit.
+    """
+    d, b, tf, tw = dimensions(
+        "Section.i_shape", depth=depth, flange_width=flange_width,
+        flange_thickness=flange_thickness, web_thickness=web_thickness,
+    )  # fmt: skip
+    if 2.0 * tf >= d or tw > b:
+        message = (
+            f"Section.i_shape: flange_thickness = {tf:g} m must be less than half the depth, "
+            f"{d / 2.0:g} m, and web_thickness = {tw:g} m not more than flange_width = "
+            f"{b:g} m: check the order (depth, flange_width, flange_thickness, web_thickness)"
+        )
+        raise ModelError(message)
+    web = d - 2.0 * tf
+    return {
+        "area": 2.0 * b * tf + web * tw,
+        "inertia_y": (b * d**3 - (b - tw) * web**3) / 12.0,
+        "inertia_z": (2.0 * tf * b**3 + web * tw**3) / 12.0,
+        "torsion_constant": (2.0 * b * tf**3 + (d - tf) * tw**3) / 3.0,
+        "shear_area_y": 5.0 / 6.0 * 2.0 * b * tf,
+        "shear_area_z": (d - tf) * tw,
+    }

@@ -51,6 +51,7 @@ def member_lines(table: MemberTable, coordinates: FloatArray, u: FloatArray) -> 
         [(1.0 - t) * local[:, 0, None] + t * local[:, 6, None], bent(1, 5, 1.0), bent(2, 4, -1.0)],
         axis=-1,
     )
-    start, end = (coordinates[table.nodes[:, k], None] for k in range(2))
+    ends = coordinates[table.nodes] + table.offsets
+    start, end = (ends[:, k, None] for k in range(2))
     straight = start + t[..., None] * (end - start)
     return np.asarray(straight + np.einsum("msl,mlg->msg", moved, axes))

@@ -231,6 +231,17 @@ def _scale(system: System, u: FloatArray, factor: float | None) -> float:
 def _draw(
     panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
 ) -> list[Any]:
+    # The model whole: the panel's own frame would cut what the view takes beyond it.
+    drawn = _parts(panel, model, system, u, plain=plain)
+    for artist in drawn:
+        artist.set_clip_on(False)
+        artist.set_in_layout(False)
+    return drawn
+
+
+def _parts(
+    panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
+) -> list[Any]:
     # The parts of the model at displacements that are already enlarged; returns what was drawn.
     place = system.coordinates + u[:, :3]
     index = {name: k for k, name in enumerate(system.node_names)}
@@ -238,6 +249,16 @@ def _draw(
     colour = AT_REST if plain else MEMBERS
     bars = Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2)
     drawn = [panel.add_collection3d(bars)]
+    zones = [
+        (place[node], lines[k, (0, -1)[end]])
+        for k, nodes in enumerate(system.members.nodes)
+        for end, node in enumerate(nodes)
+        if system.members.offsets[k, end].any()
+    ]
+    if zones:
+        width = 1.5 if plain else 3.5
+        stiff = Line3DCollection(zones, colors=colour, linewidths=width, capstyle="butt")
+        drawn.append(panel.add_collection3d(stiff))
     for spring in model.springs.values():
         ends = place[[index[spring.i], index[spring.j]]]
         drawn += panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
@@ -295,6 +316,9 @@ def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
     if any(any(member.releases) for member in model.members.values()):
         ring = Line2D([], [], color=MEMBERS, marker="o", fillstyle="none", label="hinges", **plain)
         handles.append(ring)
+    if any(member.has_offsets for member in model.members.values()):
+        stiff = Line2D([], [], color=MEMBERS, linewidth=3.5, label="rigid end zones")
+        handles.append(stiff)
     handles += [
         Line2D([], [], color=BEARINGS, marker="o", label="bearings", **plain),
         Line2D([], [], color=SUPPORTS, marker="^", label="supports", **plain),

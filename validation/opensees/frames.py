@@ -12,11 +12,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from frames.assembly.assemble import assemble
 from frames.model.axes import default_up
 from frames.model.parts import DOFS
+from frames.model.placing import member_ends
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads
 from validation.opensees.nonlinear import add_links, add_twins
 from validation.opensees.runs import Track, respond
@@ -179,10 +178,15 @@ def _member(
     if any(member.releases):
         msg = f'member "{member.name}" has releases, which are not carried over to OpenSees here'
         raise ValueError(msg)
-    start, end = (np.array([frame.nodes[name].position]) for name in (member.i, member.j))
+    start, end = (ends[None, :] for ends in member_ends(frame.nodes, member))
     up = default_up(start, end)[0].tolist() if member.up is None else member.up
-    ops.geomTransf(transformation, tag, *up)
+    first, second = member.offsets
+    zones = ("-jntOffset", *first, *second) if member.has_offsets else ()
+    ops.geomTransf(transformation, tag, *up, *zones)
     s = member.section
+    if zones and not (math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z)):
+        msg = f'member "{member.name}": ElasticTimoshenkoBeam takes no notice of offsets'
+        raise ValueError(msg)
     if math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z):
         ops.element(
             "elasticBeamColumn", tag, *ends, s.area, s.elastic_modulus, s.shear_modulus,

@@ -52,13 +52,10 @@ def material(ops: Any, tag: int, law: Law) -> None:
         if math.isinf(law.stiffness):
             ops.uniaxialMaterial("Viscous", tag, law.coefficient, law.exponent)
         else:
-            ops.uniaxialMaterial(
-                "ViscousDamper", tag, law.stiffness, law.coefficient, law.exponent
-            )
+            ops.uniaxialMaterial("ViscousDamper", tag, law.stiffness, law.coefficient, law.exponent)
     elif isinstance(law, Stop):
         _stop(ops, tag, law)
     else:
-        assert isinstance(law, HertzStop)
         _hertz(ops, tag, law)
 
 
@@ -86,8 +83,14 @@ def _stop(ops: Any, tag: int, law: Stop) -> None:
 
 
 def _hertz(ops: Any, tag: int, law: HertzStop) -> None:
-    ops.uniaxialMaterial("Hertzdamp", tag, law.stiffness, 0.75 * (1.0 - law.restitution**2), -law.gap,
-        law.exponent,)
+    ops.uniaxialMaterial(
+        "Hertzdamp",
+        tag,
+        law.stiffness,
+        0.75 * (1.0 - law.restitution**2),
+        -law.gap,
+        law.exponent,
+    )
 
 
 def add_links(ops: Any, frame: Frame, nodes: dict[str, int]) -> dict[str, int]:

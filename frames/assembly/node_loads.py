@@ -1,0 +1,93 @@
+"""What acts at the nodes of a frame: its masses, what they weigh, and its permanent loads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.model.applied import load_masses
+from frames.model.axes import to_global
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames._types import FloatArray
+    from frames.assembly.system import MemberTable
+    from frames.model.applied import AppliedLoads
+    from frames.model.contents import FrameContents
+
+
+def lumped_masses(
+    frame: FrameContents, index: Mapping[str, int], members: MemberTable, applied: AppliedLoads
+) -> tuple[FloatArray, FloatArray]:
+    """Return the masses at the nodes: lumped ones, those of members, and those that loads make.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    index : mapping of str to int
+        Place of each node.
+    members : MemberTable
+        Its members.
+    applied : AppliedLoads
+        Its loads along members.
+
+    Returns
+    -------
+    mass : ndarray, (n_nodes, 6)
+        All of it [kg, kg m2].
+    weighing : ndarray, (n_nodes, 6)
+        What of it weighs; the rest is in the loads already.
+    """
+    mass = np.zeros((len(index), 6))
+    for name, values in frame.masses.items():
+        mass[index[name]] += values
+    half = 0.5 * members.arrays.density * members.arrays.area * members.arrays.length
+    for end in (0, 1):
+        np.add.at(mass[:, :3], members.nodes[:, end], half[:, None])
+    weighing = mass.copy()
+    for name, values in frame.weightless_masses.items():
+        weighing[index[name]] -= values
+    for name, made in load_masses(frame, applied).items():
+        mass[index[name], :3] += made
+    return mass, weighing
+
+
+def permanent_loads(
+    frame: FrameContents,
+    index: Mapping[str, int],
+    members: MemberTable,
+    weighing: FloatArray,
+    applied: AppliedLoads,
+) -> FloatArray:
+    """Return weights and permanent loads at the nodes, superelements left out.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    index : mapping of str to int
+        Place of each node.
+    members : MemberTable
+        Its members, with the fixed-end forces of their loads.
+    weighing : ndarray, (n_nodes, 6)
+        Masses that weigh.
+    applied : AppliedLoads
+        Loads on end zones of members.
+
+    Returns
+    -------
+    ndarray, (6 n_nodes,)
+        Forces and moments [N, N m].
+    """
+    load = np.zeros((len(index), 6))
+    load[:, 2] -= frame.weight_factor * frame.gravity * weighing[:, 2]
+    for name, values in frame.loads.items():
+        load[index[name]] += values
+    for name, values, _ in applied.nodes:
+        load[index[name]] += values
+    flat = load.ravel()
+    np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
+    return flat
