@@ -1,0 +1,153 @@
+"""Where a run writes its steps: room for all of them, or a buffer that is emptied as it fills."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.recording import require_known
+from frames.analysis.reduction import Reduction
+from frames.analysis.size import bytes_of_step, require_memory, require_room
+from frames.kernel_data import output_arrays
+from frames.kernels.integration import record
+from frames.results.kept import EVERY_STEP
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames.analysis.recording import Recording
+    from frames.analysis.static import GravityState
+    from frames.kernel_data import Ground
+    from frames.model.contents import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+
+BUFFER = 24e6
+"""Memory of the steps between two emptyings, their Dataset included [bytes]."""
+
+LEAST_ROWS = 64
+"""Steps that the buffer holds at least."""
+
+_OVERLAP = 2  # steps that stay for what is formed over neighbours
+
+
+class Recorder:
+    """What a run records into, and the result made of it.
+
+    Parameters
+    ----------
+    model : Frame
+        The model.
+    motion : GroundMotion
+        The motion as it was given.
+    state : GravityState
+        The state from which the run starts, and the run.
+    ground : Ground
+        The motion as the loop integrates it.
+    steps : int
+        Base steps of the run.
+    recording : Recording
+        What to keep.
+
+    Raises
+    ------
+    ValueError
+        If the recording names what there is not, or would not fit into memory.
+    """
+
+    def __init__(
+        self,
+        model: FrameContents,
+        motion: GroundMotion,
+        state: GravityState,
+        ground: Ground,
+        steps: int,
+        recording: Recording,
+    ) -> None:
+        self._model, self._motion, self._state, self._ground = model, motion, state, ground
+        self._recording, self._steps = recording, steps
+        self._is_whole = recording.is_everything
+        rows = steps + 1
+        if self._is_whole:
+            require_memory(state, rows)
+        else:
+            rows = min(rows, max(LEAST_ROWS, int(BUFFER / bytes_of_step(state))))
+        self.out, self._states, self._bodies = output_arrays(state.model, state.contacts, rows)
+        self._rows = rows
+        self._reduction = Reduction(recording)
+        self.first = 0
+        """Base step in the first row of `out`."""
+        self.seconds = 0.0
+        """Time taken by emptying [s]."""
+
+    @property
+    def last(self) -> int:
+        """The last base step for which `out` has a row, or that of the run."""
+        return min(self._steps, self.first + self._rows - 1)
+
+    def begin(self) -> None:
+        """Record the state at rest, and refuse what cannot be recorded."""
+        record(self._state.run, self._state.contacts, self.out, 0)
+        if not self._is_whole:
+            start = self._dataset(1)
+            require_known(self._recording, start)
+            reduction = Reduction(self._recording)
+            reduction.take(start, 0, final=True)
+            row = reduction.recorded(reduction.judgeable())
+            count = self._steps // self._recording.every + 1 if self._recording.every else 2
+            require_room(_bytes_over_time(row), count, BUFFER)
+
+    def empty(self, done: int) -> None:
+        """Take up what the buffer holds, once it is full.
+
+        Parameters
+        ----------
+        done : int
+            Base steps done.
+        """
+        if self._is_whole or done < self.last or done == self._steps:
+            return
+        began = perf_counter()
+        rows = done - self.first + 1
+        self._reduction.take(self._dataset(rows), self.first, final=False)
+        for array in self.out:
+            array[:_OVERLAP] = array[rows - _OVERLAP : rows]
+        self.first = done + 1 - _OVERLAP  # last: an interruption before leaves all to be taken up
+        self.seconds += perf_counter() - began
+
+    def data(self, done: int) -> xr.Dataset:
+        """Return the result of `done` base steps, or what the audit reads of it.
+
+        Parameters
+        ----------
+        done : int
+            Base steps done.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the attributes `recording` and `features_left_out` alone.
+        """
+        data = self._dataset(done - self.first + 1)
+        if not self._is_whole:
+            self._reduction.take(data, self.first, final=True)
+            data = self._reduction.judgeable()
+        return data.assign_attrs(recording=EVERY_STEP if self._is_whole else str(self._recording))
+
+    def recorded(self, judged: xr.Dataset) -> xr.Dataset:
+        """Return the result, once: `data` with what the run records and the attributes given."""
+        return judged if self._is_whole else self._reduction.recorded(judged)
+
+    def _dataset(self, count: int) -> xr.Dataset:
+        peak = peak_velocity(self._motion, float(self.out.time[count - 1]))
+        data = build_dataset(
+            self._model, self._state, self._ground, peak, self.out, self._states, self._bodies, count
+        )
+        left_out = self._state.system.features.left_out
+        return data.assign_attrs(features_left_out=", ".join(left_out) or "none")
+
+
+def _bytes_over_time(data: xr.Dataset) -> float:
+    # Memory of one recorded step.
+    histories = [data[name].nbytes for name in data.variables if "time" in data[name].dims]
+    return float(sum(histories)) / data.sizes["time"]
