@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.recording import require_known
 from frames.analysis.reduction import Reduction
-from frames.analysis.size import bytes_of_step, require_memory, require_room
+from frames.analysis.size import bytes_of_step, memory, require_memory, require_room
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.results.kept import EVERY_STEP
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
-BUFFER = 24e6
+BUFFER = 64e6
 """Memory of the steps between two emptyings, their Dataset included [bytes]."""
 
 LEAST_ROWS = 64
@@ -88,14 +88,18 @@ class Recorder:
     def begin(self) -> None:
         """Record the state at rest, and refuse what cannot be recorded."""
         record(self._state.run, self._state.contacts, self.out, 0)
-        if not self._is_whole:
-            start = self._dataset(1)
-            require_known(self._recording, start)
-            reduction = Reduction(self._recording)
-            reduction.take(start, 0, final=True)
-            row = reduction.recorded(reduction.judgeable())
-            count = self._steps // self._recording.every + 1 if self._recording.every else 2
-            require_room(_bytes_over_time(row), count, BUFFER)
+        recording = self._recording
+        if self._is_whole:
+            return
+        count = self._steps // recording.every + 1 if recording.every else 2
+        if not recording.names and BUFFER + count * bytes_of_step(self._state) < memory():
+            return
+        start = self._dataset(1)
+        require_known(recording, start)
+        reduction = Reduction(recording)
+        reduction.take(start, 0, final=True)
+        row = reduction.recorded(reduction.judgeable())
+        require_room(_bytes_over_time(row), count, BUFFER)
 
     def empty(self, done: int) -> None:
         """Take up what the buffer holds, once it is full.
@@ -141,7 +145,14 @@ class Recorder:
     def _dataset(self, count: int) -> xr.Dataset:
         peak = peak_velocity(self._motion, float(self.out.time[count - 1]))
         data = build_dataset(
-            self._model, self._state, self._ground, peak, self.out, self._states, self._bodies, count
+            self._model,
+            self._state,
+            self._ground,
+            peak,
+            self.out,
+            self._states,
+            self._bodies,
+            count,
         )
         left_out = self._state.system.features.left_out
         return data.assign_attrs(features_left_out=", ".join(left_out) or "none")

@@ -1,4 +1,4 @@
-"""What a time history records: all steps or some, all variables or some, or only what it reached."""
+"""What a time history records: steps, variables, bearings, nodes, or only what it reached."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Recording:
 
     Whatever is left out, the run keeps what it reached at all of its base steps (`peaks`, the
     audit, the ledger of energy read that), and takes no more memory than what is recorded and a
-    buffer of some 30 MB.
+    buffer of 64 MB.
 
     Parameters
     ----------
@@ -102,6 +102,11 @@ class Recording:
     def is_everything(self) -> bool:
         """Whether nothing is left out, and nothing kept besides."""
         return self == type(self)()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names given: of channels, bearings, nodes and levels."""
+        return tuple(name for kind in _NAMES for name in getattr(self, kind) or ())
 
     def __str__(self) -> str:
         """Return what is recorded, in words."""
@@ -203,7 +208,7 @@ def require_known(recording: Recording, data: xr.Dataset) -> None:
 def whole_steps(name: str, value: object) -> int:
     """Return `value` as a whole number of at least 1, or raise."""
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not number and not hasattr(value, "__index__") or isinstance(value, bool):
+    if (not number and not hasattr(value, "__index__")) or isinstance(value, bool):
         msg = f"{name} = {value!r} must be a whole number of at least 1: count base steps"
         raise TypeError(msg)
     if not value >= 1 or value % 1:  # type: ignore[operator]

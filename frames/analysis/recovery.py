@@ -24,7 +24,7 @@ from frames.assembly.assemble import (
 from frames.model.axes import matrix_to_global, to_global
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
-from frames.results.kept import require_recorded, require_steps
+from frames.results.kept import noted, require_recorded, require_steps
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -242,7 +242,7 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
             "time": found.data["time"], "member": list(chosen), "end": ["i", "j"],
             "component": list(COMPONENTS),
         },
-        attrs={"units": "N, N m", "long_name": "end forces in local axes"},
+        attrs={"units": "N, N m", "long_name": "end forces in local axes"} | noted(found.data),
         name="member_forces",
     )  # fmt: skip
 
@@ -267,7 +267,8 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
             "support": [system.node_names[node] for node in nodes],
             "dof": list(DOFS),
         },
-        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"},
+        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"}
+        | noted(found.data),
         name="support_reactions",
     )
 
@@ -299,7 +300,8 @@ def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray
             "storey": [level.name for level in levels],
             "component": ["Vx", "Vy", "Fz", "Mx", "My", "Mz"],
         },
-        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
+        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"}
+        | noted(found.data),
         name="storey_forces",
     )
 

@@ -90,7 +90,7 @@ class Reduction:
         begin = max(state.taken - 1, 0) - first
         reached, totals = _measured(piece, begin, count if final else count - 1, state)
         new = {name: values[fresh] for name, values in columns.items()}
-        met = rims_met(piece).any(axis=1)[fresh]
+        met = np.asarray(rims_met(piece).max(axis=1) > 0.0)[fresh]
         kept, held, contact = self._chosen(_Held(new, step, met), final=final)
         parts, last_kept = state.parts, state.last_kept
         if len(kept.step):
@@ -166,14 +166,16 @@ class Reduction:
 
     def _channels(self, piece: xr.Dataset) -> list[str]:
         # Names of the variables recorded, in the order of the Dataset.
-        histories = [str(name) for name in piece.data_vars if "time" in piece[name].dims]
+        histories = [str(name) for name in piece.data_vars if "time" in piece.variables[name].dims]
         chosen = self._recording.channels
         return histories if chosen is None else [name for name in histories if name in chosen]
 
     def _columns(self, piece: xr.Dataset) -> Columns:
         # The recorded variables of the chosen bearings and nodes, time first.
-        part = self._selected(piece[self._channels(piece)], statics=piece)
-        return {str(name): part[name].to_numpy() for name in ("time", *part.data_vars)}
+        names, part = self._channels(piece), piece
+        if self._recording.bearings or self._recording.nodes or self._recording.levels:
+            part = self._selected(piece[names], statics=piece)
+        return {name: part.variables[name].to_numpy() for name in ("time", *names)}
 
     def _selected(self, data: xr.Dataset, statics: xr.Dataset | None = None) -> xr.Dataset:
         # The bearings and nodes that the recording names; `statics` has the levels of the nodes.
@@ -221,7 +223,9 @@ class Reduction:
         held = state.held
         if held is not None and len(held.step):
             columns = {k: np.concatenate([held.columns[k], v]) for k, v in new.columns.items()}
-            step, met = (np.concatenate([getattr(held, k), getattr(new, k)]) for k in ("step", "met"))
+            step, met = (
+                np.concatenate([getattr(held, k), getattr(new, k)]) for k in ("step", "met")
+            )
             new = _Held(columns, step, met)
         time = new.columns["time"]
         contacts = np.concatenate([[state.last_contact], time[new.met]])
@@ -295,7 +299,7 @@ def _later(old: Extreme, new: Extreme) -> Extreme:
 
 
 def _regular(step: IntArray, every: int | None) -> BoolArray:
-    return step == 0 if every is None else step % every == 0
+    return np.asarray(step == 0 if every is None else step % every == 0)
 
 
 def _part(held: _Held, chosen: BoolArray) -> _Held:

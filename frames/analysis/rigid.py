@@ -117,15 +117,13 @@ def rigid_time_history(
     largest = min(interval / record_every, motion.dt)
     setup = rigid_setup(length_scale, largest, tolerance=chosen, explicit=explicit)
     run.clock["step"] = min(FIRST_STEP, interval)
+    if is_thinned:
+        recorded.bodies["turn"][0] = (1.0, 0.0, 0.0, 0.0)  # at rest, until the run writes it
+        require_known(recording, _dataset(model, motion, state, given, recorded, 1))
     status, seconds = _march(run, given, setup, progress)
     clock, counts = run.clock[0], run.counts[0]
     count = int(counts["outputs"])
-    recorded = RigidOutput(*(part[:count] for part in recorded))  # an interrupted run is shorter
-    out = _output(state, given.times[:count], recorded)
-    peak = peak_velocity(motion, float(out.time[-1]))
-    states, bodies = recorded.states[:, None], recorded.bodies[:, None]
-    ground = Ground(given.motion, given.motion_dt)
-    data = build_dataset(model, state, ground, peak, out, states, bodies, count)
+    data = _dataset(model, motion, state, given, recorded, count)
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -150,9 +148,25 @@ def rigid_time_history(
     if status is RunStatus.OK:
         status, detail = judged(data)
     if is_thinned:
-        require_known(recording, data)
         data = reduced(data.assign_attrs(recording=str(recording)), recording)
     return data, Outcome(status, float(clock["time"]), where, detail)
+
+
+def _dataset(
+    model: FrameContents,
+    motion: GroundMotion,
+    state: GravityState,
+    given: RigidInput,
+    recorded: RigidOutput,
+    count: int,
+) -> xr.Dataset:
+    # The first `count` outputs; an interrupted run is shorter.
+    recorded = RigidOutput(*(part[:count] for part in recorded))
+    out = _output(state, given.times[:count], recorded)
+    peak = peak_velocity(motion, float(out.time[-1]))
+    states, bodies = recorded.states[:, None], recorded.bodies[:, None]
+    ground = Ground(given.motion, given.motion_dt)
+    return build_dataset(model, state, ground, peak, out, states, bodies, count)
 
 
 def _march(

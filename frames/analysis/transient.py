@@ -15,10 +15,10 @@ from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.equilibrium import force_tolerance
 from frames.analysis.outcome import Outcome, culprit, ended, judged
 from frames.analysis.plausible import check_analysis
-from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
-from frames.analysis.scene import exact_features, plane_coupling
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import recording_of
+from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
+from frames.analysis.scene import exact_features, plane_coupling
 from frames.analysis.size import number_of_steps
 from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Setup

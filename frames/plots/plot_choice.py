@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
 from frames.results.auditing import doubts_of
+from frames.results.kept import require_steps
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -78,6 +79,7 @@ def in_window(
             "time histories; draw the variables of a cyclic test over one another"
         )
         raise ValueError(msg)
+    require_steps(data, f"figures of {name}")
     for side, value in (("start", start), ("end", end)):
         if value is not None and not math.isfinite(value):
             msg = f"{side} = {value}: give a time [s], or leave it out"
@@ -165,6 +167,7 @@ def choose_bearing(
     first = next(iter(systems.values()))
     need(first, ("bearing",), "figures of bearings need a Dataset of an isolated frame")
     if bearing is None:
+        need(first, ("interface_slip_size",), "name a bearing, or record it")
         slips = float(first["interface_slip_size"].max()) > 0.0
         usual = "interface_slip_size" if slips else "bearing_displacement"
         bearing = worst_bearing(first, variable or usual)

@@ -21,7 +21,7 @@ _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
 
 
 EXTREMES = ("largest", "time_of_largest", "smallest", "time_of_smallest")
-"""Variables of an envelope; a recording names them with the variable behind, as in `largest_slip`."""
+"""Variables of an envelope; a recording adds the name of what they are of: `largest_energy`."""
 
 
 def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> xr.Dataset:
@@ -30,9 +30,9 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
     Parameters
     ----------
     values : xarray.DataArray or xarray.Dataset
-        With the dimension `time`, such as `member_forces` gives; of the steps that it holds. Or the
-        Dataset of a time history, and the name of a variable besides: of all steps of the run, where
-        the recording kept extremes (`Recording`).
+        With the dimension `time`, such as `member_forces` gives: of the steps that it holds. Or
+        the Dataset of a time history, with the name of a variable: of all steps of the run where
+        the recording kept extremes (`Recording`), else of those that it holds.
     variable : str, optional
         Name of the variable of a Dataset.
 
@@ -45,7 +45,7 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
     Raises
     ------
     ValueError
-        If the values have no dimension `time`, were not recorded, or only at the first and last step.
+        If the values have no dimension `time`, were not recorded, or only at both ends of the run.
     TypeError
         If a variable is named without a Dataset, or the other way round.
     """

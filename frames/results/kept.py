@@ -41,6 +41,12 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
     return data[REACHED + name].to_numpy(), data[f"{REACHED}{name}_at"].to_numpy()
 
 
+def noted(data: xr.Dataset) -> dict[str, str]:
+    """Return the attribute that tells what a history lacks; nothing where it holds every step."""
+    recording = str(data.attrs.get("recording", EVERY_STEP))
+    return {} if recording == EVERY_STEP else {"recording": recording}
+
+
 def require_recorded(data: xr.Dataset, what: str, *names: str) -> None:
     """Raise a ValueError unless a result has the variables that `what` is made from."""
     missing = [name for name in names if name not in data.variables]
@@ -79,7 +85,7 @@ def require_whole_levels(data: xr.Dataset, what: str) -> None:
     if lacking.any():
         k = int(np.argmax(lacking))
         msg = (
-            f'{what}: data holds {there[k]} of the {int(data["nodes_of_level"][k])} nodes of level '
+            f"{what}: data holds {there[k]} of the {int(data['nodes_of_level'][k])} nodes of level "
             f'"{data["level"].to_numpy()[k]}": record all nodes, or all levels'
         )
         raise ValueError(msg)

@@ -8,13 +8,14 @@ import numpy as np
 import xarray as xr
 
 from frames.kernel_data import ENERGY_TERMS
+from frames.motion.spectra import response_spectrum
 from frames.results.kept import (
     largest_kept,
+    noted,
     require_recorded,
     require_steps,
     require_whole_levels,
 )
-from frames.motion.spectra import response_spectrum
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -79,7 +80,7 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
         drift,
         dims=("time", "storey", "axis"),
         coords={"time": data["time"], "storey": names, "axis": ["x", "y"]},
-        attrs={"units": "1", "long_name": "storey drift ratio"},
+        attrs={"units": "1", "long_name": "storey drift ratio"} | noted(data),
     )
 
 
@@ -89,7 +90,7 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
         _level_means(data, "node_acceleration", ["ux", "uy", "uz"]),
         dims=("time", "level", "axis"),
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
-        attrs={"units": "m/s2", "long_name": "total acceleration of the level"},
+        attrs={"units": "m/s2", "long_name": "total acceleration of the level"} | noted(data),
     )
 
 
@@ -127,7 +128,7 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
             "time": data["time"], "line": data["node"].to_numpy()[upper],
             "storey": ("line", data["level"].to_numpy()[storey]), "axis": ["x", "y"],
         },
-        attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"},
+        attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"} | noted(data),
     )  # fmt: skip
 
 
@@ -234,7 +235,7 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         np.where(lifted, gap, 0.0),
         dims=("time", "bearing"),
         coords={"time": data["time"], "bearing": data["bearing"]},
-        attrs={"units": "m", "long_name": "gap of the axial contact"},
+        attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),
     )
 
 
@@ -250,7 +251,7 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
         msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
         raise ValueError(msg)
     turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
-    total = np.zeros((*data["axial_force"].shape, 2))
+    total = np.zeros((*data.variables["axial_force"].shape, 2))
     for end, name in enumerate(("bottom", "top")):
         place = data["bearing_node"].isel(end=end).to_numpy()
         lever = data["lever"].sel(surface=name).to_numpy()

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames._types import FloatArray
+    from frames._types import BoolArray, FloatArray
 
 PRESSED = 0.05
 """Axial force over the static one below which the audit leaves eccentricities to uplift."""
@@ -92,7 +92,7 @@ def left(data: xr.Dataset, name: str) -> FloatArray:
     """Return a quantity of `LEFT` at the last step of the run."""
     if f"{REACHED}{name}_left" in data.variables:
         return data[f"{REACHED}{name}_left"].to_numpy()
-    return QUANTITIES[name].of(data)[-1]
+    return np.asarray(QUANTITIES[name].of(data)[-1])
 
 
 def computed_until(data: xr.Dataset) -> float:
@@ -133,7 +133,7 @@ def vertical_force(data: xr.Dataset) -> FloatArray:
     ndarray, (n_steps, n_bearings)
         Axial forces [N].
     """
-    axial: FloatArray = data["axial_force"].to_numpy()
+    axial: FloatArray = data.variables["axial_force"].to_numpy()
     if "vertical_coupling" not in left_out(data):
         return axial
     spring = -data["bearing_force"].sel(axis="z").to_numpy()
@@ -145,7 +145,9 @@ def vertical_force(data: xr.Dataset) -> FloatArray:
     length = data["length"].to_numpy()
     depth = np.sqrt(np.maximum(length**2 - (u**2).sum(axis=-1), 0.01 * length**2))
     rising = np.gradient((u * v).sum(axis=-1) / depth, time, axis=0)
-    return np.asarray(spring + data["static_axial_force"].to_numpy() / STANDARD_GRAVITY * rising)
+    return np.asarray(
+        spring + data.variables["static_axial_force"].to_numpy() / STANDARD_GRAVITY * rising
+    )
 
 
 def left_out(data: xr.Dataset) -> tuple[str, ...]:
@@ -162,7 +164,12 @@ def rims_met(data: xr.Dataset) -> FloatArray:
 
 def _of(data: xr.Dataset, name: str, *last: str) -> FloatArray:
     # The history of a variable of bearings (time, bearing, ...).
-    return np.asarray(data[name].transpose("time", "bearing", *last).to_numpy())
+    return _values(data, name, "time", "bearing", *last)
+
+
+def _values(data: xr.Dataset, name: str, *dims: str) -> FloatArray:
+    # A variable in an order of its dimensions, without the coordinates that would cost time.
+    return np.asarray(data.variables[name].transpose(*dims).to_numpy())
 
 
 def _sliding(data: xr.Dataset) -> FloatArray:
@@ -171,18 +178,19 @@ def _sliding(data: xr.Dataset) -> FloatArray:
 
 def _interface_share(data: xr.Dataset) -> FloatArray:
     normal = np.maximum(
-        _of(data, "axial_force"), 1e-3 * data["static_axial_force"].to_numpy()
+        _of(data, "axial_force"), 1e-3 * data.variables["static_axial_force"].to_numpy()
     )
-    return _of(data, "interface_force") / (data["interface_friction"].to_numpy() * normal)
+    holds = data.variables["interface_friction"].to_numpy() * normal
+    return np.asarray(_of(data, "interface_force") / holds)
 
 
 def _vertical_ratio(data: xr.Dataset) -> FloatArray:
-    return vertical_force(data) / data["static_axial_force"].to_numpy()
+    return np.asarray(vertical_force(data) / data.variables["static_axial_force"].to_numpy())
 
 
 def _eccentricity(data: xr.Dataset) -> FloatArray:
-    pressed = _of(data, "axial_force") > PRESSED * data["static_axial_force"].to_numpy()
-    shares = _of(data, "interface_eccentricity") / data["slider_radius"].to_numpy()
+    pressed = _of(data, "axial_force") > PRESSED * data.variables["static_axial_force"].to_numpy()
+    shares = _of(data, "interface_eccentricity") / data.variables["slider_radius"].to_numpy()
     return np.where(pressed, shares, 0.0)
 
 
@@ -191,26 +199,27 @@ def _floor(data: xr.Dataset) -> FloatArray:
 
 
 def _node_acceleration(data: xr.Dataset) -> FloatArray:
-    return data["node_acceleration"].transpose("time", "node", "dof").to_numpy()
+    return _values(data, "node_acceleration", "time", "node", "dof")
 
 
 def _term(data: xr.Dataset, term: str) -> FloatArray:
-    return np.abs(data["energy"].sel(term=term).to_numpy())
+    return np.asarray(np.abs(data["energy"].sel(term=term).to_numpy()))
 
 
 def _gap(data: xr.Dataset) -> FloatArray:
     energy = data["energy"]
     gap = energy.sel(term="input") - energy.sel(term=list(ABSORBED)).sum("term")
-    return np.abs(gap.to_numpy())
+    return np.asarray(np.abs(gap.to_numpy()))
 
 
 def _tilt(data: xr.Dataset) -> FloatArray:
     turn = data["body_rotation"].transpose("time", "bearing", "body", "axis")
     turns = turn.sel(body=["bottom_slider", "top_slider"]).to_numpy()
-    return np.hypot(turns[..., 0], turns[..., 1]).max(axis=-1)  # NaN without contact points
+    tilts = np.hypot(turns[..., 0], turns[..., 1])  # NaN without contact points
+    return np.asarray(tilts.max(axis=-1))
 
 
-def _flag(mask: FloatArray) -> FloatArray:
+def _flag(mask: BoolArray) -> FloatArray:
     return np.asarray(mask, dtype=np.float64)
 
 
@@ -270,7 +279,7 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "base_shear": Quantity(
         (), "N", "base shear in plan",
-        lambda d: in_plan(d["base_shear"].transpose("time", "axis").to_numpy()),
+        lambda d: in_plan(_values(d, "base_shear", "time", "axis")),
     ),
     "floor_plan": Quantity(
         ("level",), "m/s2", "floor acceleration in plan, mean of the level",
@@ -288,9 +297,11 @@ QUANTITIES: dict[str, Quantity] = {
         ("node",), "m/s2", "acceleration of a node, vertical",
         lambda d: np.abs(_node_acceleration(d)[..., 2]),
     ),
-    "drift": Quantity(("storey",), "1", "storey drift", lambda d: in_plan(storey_drift(d))),
+    "drift": Quantity(
+        ("storey",), "1", "storey drift", lambda d: in_plan(storey_drift(d).to_numpy())
+    ),
     "line_drift": Quantity(
-        ("line",), "1", "drift of a line of nodes", lambda d: in_plan(drift_by_line(d))
+        ("line",), "1", "drift of a line of nodes", lambda d: in_plan(drift_by_line(d).to_numpy())
     ),
     "energy_input": Quantity(
         (), "J", "work of the ground motion, absolute", lambda d: _term(d, "input")
@@ -324,13 +335,13 @@ def _slid(data: xr.Dataset, first: int, last: int) -> tuple[FloatArray, FloatArr
 
 def _work(data: xr.Dataset, first: int, last: int) -> FloatArray:
     speed, load = _slid(data, first, last)
-    return np.asarray((load * data["friction_max"].to_numpy() * speed).sum())
+    return np.asarray((load * data.variables["friction_max"].to_numpy() * speed).sum())
 
 
 def _work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
     speed, load = _slid(data, first, last)
-    drop = data["friction_drop"].to_numpy()
-    lower = drop * np.exp(-data["friction_rate"].to_numpy() * speed)
+    drop = data.variables["friction_drop"].to_numpy()
+    lower = drop * np.exp(-data.variables["friction_rate"].to_numpy() * speed)
     return np.asarray((load * lower * speed).sum())
 
 
@@ -342,7 +353,7 @@ def _uplifts(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 def _time_lifted(data: xr.Dataset, first: int, last: int) -> FloatArray:
     first = max(first, 1)
-    steps = np.diff(data["time"].to_numpy())[first - 1 : last - 1]
+    steps = np.diff(data.variables["time"].to_numpy())[first - 1 : last - 1]
     lifted = _of(data, "axial_force")[first:last] <= 0.0
     return np.asarray((steps[:, None] * lifted).sum(axis=0))
 
