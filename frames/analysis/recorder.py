@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 BUFFER = 64e6
 """Memory of the steps between two emptyings, their Dataset included [bytes]."""
 
-LEAST_ROWS = 64
+LEAST_ROWS = 16
 """Steps that the buffer holds at least."""
 
 _OVERLAP = 2  # steps that stay for what is formed over neighbours
@@ -80,11 +80,6 @@ class Recorder:
         self.seconds = 0.0
         """Time taken by emptying [s]."""
 
-    @property
-    def last(self) -> int:
-        """The last base step for which `out` has a row, or that of the run."""
-        return min(self._steps, self.first + self._rows - 1)
-
     def begin(self) -> None:
         """Record the state at rest, and refuse what cannot be recorded."""
         record(self._state.run, self._state.contacts, self.out, 0)
@@ -101,16 +96,22 @@ class Recorder:
         row = reduction.recorded(reduction.judgeable())
         require_room(_bytes_over_time(row), count, BUFFER)
 
-    def empty(self, done: int) -> None:
-        """Take up what the buffer holds, once it is full.
+    def room(self, done: int) -> int:
+        """Return the last base step that there is room for; a full buffer is emptied first.
 
         Parameters
         ----------
         done : int
             Base steps done.
+
+        Returns
+        -------
+        int
+            A base step after `done`.
         """
-        if self._is_whole or done < self.last or done == self._steps:
-            return
+        last = self.first + self._rows - 1
+        if done < last:
+            return last
         began = perf_counter()
         rows = done - self.first + 1
         self._reduction.take(self._dataset(rows), self.first, final=False)
@@ -118,6 +119,7 @@ class Recorder:
             array[:_OVERLAP] = array[rows - _OVERLAP : rows]
         self.first = done + 1 - _OVERLAP  # last: an interruption before leaves all to be taken up
         self.seconds += perf_counter() - began
+        return self.first + self._rows - 1
 
     def data(self, done: int) -> xr.Dataset:
         """Return the result of `done` base steps, or what the audit reads of it.
@@ -145,15 +147,9 @@ class Recorder:
     def _dataset(self, count: int) -> xr.Dataset:
         peak = peak_velocity(self._motion, float(self.out.time[count - 1]))
         data = build_dataset(
-            self._model,
-            self._state,
-            self._ground,
-            peak,
-            self.out,
-            self._states,
-            self._bodies,
+            self._model, self._state, self._ground, peak, self.out, self._states, self._bodies,
             count,
-        )
+        )  # fmt: skip
         left_out = self._state.system.features.left_out
         return data.assign_attrs(features_left_out=", ".join(left_out) or "none")
 

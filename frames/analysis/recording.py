@@ -26,7 +26,7 @@ class Recording:
 
     Whatever is left out, the run keeps what it reached at all of its base steps (`peaks`, the
     audit, the ledger of energy read that), and takes no more memory than what is recorded and a
-    buffer of 64 MB.
+    buffer of some 64 MB.
 
     Parameters
     ----------

@@ -62,11 +62,6 @@ class Reduction:
         self._recording = recording
         self._state = _State(0, (), None, -np.inf, -1, {}, {}, {}, None)
 
-    @property
-    def taken(self) -> int:
-        """Number of base steps taken up, the first one (at rest) included."""
-        return self._state.taken
-
     def take(self, piece: xr.Dataset, first: int, *, final: bool) -> None:
         """Take up the steps of a piece that are new.
 

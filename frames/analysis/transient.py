@@ -360,10 +360,12 @@ def _march(
 
     def go(last: int, trials: int) -> int:
         here = settings._replace(first=recorder.first)
-        stop = min(last, recorder.last)
-        code = advance(model, run, contacts, here, ground, out, stop, trials)
-        recorder.empty(int(run.clock["done"][0]))
-        return code
+        return advance(model, run, contacts, here, ground, out, last, trials)
 
-    status = in_pieces(go, lambda: int(run.clock["done"][0]), options.steps, options.progress)
+    def done() -> int:
+        return int(run.clock["done"][0])
+
+    status = in_pieces(
+        go, done, options.steps, options.progress, room=lambda: recorder.room(done())
+    )
     return status, perf_counter() - began - recorder.seconds
