@@ -11,7 +11,6 @@ from frames.analysis.reduction import Reduction
 from frames.analysis.size import bytes_of_step, memory, require_memory, require_room
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
-from frames.results.kept import EVERY_STEP
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -132,13 +131,13 @@ class Recorder:
         Returns
         -------
         xarray.Dataset
-            With the attributes `recording` and `features_left_out` alone.
+            With the attribute `features_left_out` alone.
         """
         data = self._dataset(done - self.first + 1)
-        if not self._is_whole:
-            self._reduction.take(data, self.first, final=True)
-            data = self._reduction.judgeable()
-        return data.assign_attrs(recording=EVERY_STEP if self._is_whole else str(self._recording))
+        if self._is_whole:
+            return data
+        self._reduction.take(data, self.first, final=True)
+        return self._reduction.judgeable()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""

@@ -232,12 +232,13 @@ def _run(
     status, detail = ended(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
     data = recorder.data(int(clock["done"]))
-    data.attrs |= {
+    data.attrs = {
         "title": f"time history of {model.name}",
         "motion": motion.name,
         "level": level if isinstance(level, str) else str(dict(level)),
         "features_left_out": ", ".join(features.left_out) or "none",
         "plane_coupling": coupling,
+        "recording": str(options.recording),
         "method": options.method,
         "integrator": options.integrator,
         "spectral_radius": options.spectral_radius,

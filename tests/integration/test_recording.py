@@ -40,6 +40,7 @@ from frames import (
     uplift_gap,
 )
 from frames.analysis import recorder
+from frames.analysis.reduction import Reduction, reduced
 from frames.plots import bearing_plan, bearing_sections, hysteresis, model_view, orbits
 from lir_element import (
     AnalysisError,
@@ -141,12 +142,17 @@ def steps_of(data: xr.Dataset, recording: Recording) -> np.ndarray:
     return wanted | ((since >= -before - 1e-9) & (since <= after + 1e-9)).any(axis=1)
 
 
-@pytest.mark.parametrize("kind", RECORDINGS)
-@pytest.mark.parametrize("scene", SCENES)
+PAIRS = [
+    (scene, kind)
+    for scene in SCENES
+    for kind in RECORDINGS
+    if (scene, kind) != ("rigid", "every")  # takes its steps further apart: tests of the level
+]
+
+
+@pytest.mark.parametrize(("scene", "kind"), PAIRS)
 def test_the_same_numbers_as_in_the_whole_record(scene, kind, whole, small_buffer):
     recording, full = RECORDINGS[kind], whole(scene)
-    if scene == "rigid" and kind == "every":
-        pytest.skip("takes its steps further apart: tests of the level")
     data = analyse(scene, recording=recording)
     wanted = steps_of(full, recording)
     assert 2 <= wanted.sum() < len(wanted)
@@ -178,6 +184,25 @@ def test_the_scenes_are_what_they_are_for(whole):
     assert "vertical coupling left out" in whole("left out").attrs["audit"]
     assert "body_rotation" in whole("contact")
     assert "run 2" in whole("auto").attrs["auto_runs"]
+
+
+@pytest.mark.parametrize("kind", RECORDINGS)
+@pytest.mark.parametrize(
+    "cuts",
+    [[(0, 300), (298, 800)], [(0, 300), (120, 500), (120, 800)], [(0, 300), (0, 800), (0, 800)]],
+    ids=["overlap of two", "interrupted while emptied", "nothing new at the end"],
+)
+def test_pieces_may_overlap(cuts, kind, whole):
+    full, reduction = whole("impacts"), Reduction(RECORDINGS[kind])
+    for k, (first, end) in enumerate(cuts, start=1):
+        piece = full.isel(time=slice(first, end))
+        reduction.take(piece, first, final=k == len(cuts))
+    data = reduction.recorded(reduction.judgeable().assign_attrs(full.attrs))
+    at_once = reduced(full, RECORDINGS[kind])
+    assert data.sizes == at_once.sizes
+    for name in data.variables:
+        if data[name].dtype.kind == "f":
+            assert_allclose(data[name], at_once[name], rtol=1e-12, err_msg=str(name))
 
 
 @pytest.mark.parametrize("scene", ["impacts", "contact", "failure"])
