@@ -31,6 +31,8 @@ from frames import (
     time_history,
     uplift_gap,
 )
+from frames.results.kept import REACHED
+from frames.results.reached import LEFT, QUANTITIES, TOTALS
 from frames.results.summary import table_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, RunStatus, cyclic_test
 from lir_element.layout import STATE_FIELDS
@@ -59,6 +61,7 @@ ATTRIBUTES = {
     "[-]",
     "audit": 'lines of the audit; "!" begins those that ask to be looked at',
     "auto_runs": 'a line for each run of `level="auto"`; only of those',
+    "recording": 'what is recorded, in words; "every step" where it is everything',
     "method": "method of the analysis",
     "integrator": "time integration",
     "spectral_radius": "of the generalised-alpha method at infinite frequency [-]",
@@ -215,6 +218,8 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
         [code("energy_error(data)"), "-", "1",
          "largest gap of the energy ledger over the largest input"],
         [code("envelope(values)"), "without time", "-", "extremes of a history, and their times"],
+        [code("envelope(data, variable)"), "without time", "-",
+         "the same of a variable, over all steps where the recording kept extremes"],
         [code("force_tables(model, data)"), "tables", "N, N m",
          "envelopes of member forces, storey forces and reactions; `write_tables` writes them"],
         [code("peaks(data)"), "table", "-", "what was reached, when and where"],
@@ -222,6 +227,30 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
     ]  # fmt: skip
     head = ("function of `frames`", "dimensions", "unit", "meaning")
     return ["### Read off a time history", "", *table(head, rows)]
+
+
+def reached() -> list[str]:
+    """Return the table of what a recording keeps of all steps."""
+    rows = []
+    for name, (dims, unit, meaning, _) in QUANTITIES.items():
+        text = meaning if meaning.startswith("1:") else f"largest {meaning}"
+        rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, text])
+    for name in LEFT:
+        dims, unit, meaning, _ = QUANTITIES[name]
+        rows.append([code(f"{REACHED}{name}_left"), ", ".join(dims), unit, f"{meaning}, left"])
+    for name, (dims, unit, meaning, _) in TOTALS.items():
+        rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, meaning])
+    rows += [[code(f"{REACHED}until"), "-", "s", "time of the last base step"],
+             [code(f"{REACHED}line_storey"), "line", "-", "storey of a line of nodes"]]  # fmt: skip
+    head = ("variable", "dimensions", "unit", "meaning")
+    return [
+        "### Kept of all base steps by a recording that leaves something out",
+        "",
+        "Those that are the largest of something have their times beside them, as "
+        f"`{REACHED}slip_at` [s].",
+        "",
+        *table(head, rows),
+    ]
 
 
 def attributes(*datasets: xr.Dataset) -> list[str]:
@@ -265,7 +294,8 @@ def generated() -> str:
     model, history, rig, failed = runs()
     parts = (
         ["## Datasets"], variables(history, rig), coordinates(history), energies(history),
-        derived(model, history), attributes(history, rig, failed), statuses(), responses(),
+        derived(model, history), reached(), attributes(history, rig, failed), statuses(),
+        responses(),
     )  # fmt: skip
     return "\n\n".join("\n".join(part) for part in parts)
 

@@ -8,6 +8,7 @@ from frames._errors import MotionWarning as MotionWarning
 from frames.analysis.model_check import ModelCheck as ModelCheck
 from frames.analysis.modes import Modes as Modes
 from frames.analysis.modes import modes as modes
+from frames.analysis.recording import Recording as Recording
 from frames.analysis.recovery import force_tables as force_tables
 from frames.analysis.recovery import member_forces as member_forces
 from frames.analysis.recovery import storey_forces as storey_forces
@@ -71,6 +72,7 @@ __all__ = [
     "Pinching",
     "PlasticHinge",
     "RayleighDamping",
+    "Recording",
     "Section",
     "Stop",
     "Tie",

@@ -170,7 +170,7 @@ class Setup(NamedTuple):
     error_time: float  # s, time over which an error in velocity counts
     error_vertical: float  # share of the vertical error that counts while a bearing is pressed
     error_open: float  # the same while it is lifted off, or lands
-    every: int  # base steps between two records
+    first: int  # base step that the first row of the output holds
 
 
 def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> Model:

@@ -74,6 +74,11 @@ class Parts(NamedTuple):
     work: Array  # (4,) of yielding, of dampers, of stops; all work on the linear structure [J]
 
 
+def part_sizes(parts: Parts | None) -> tuple[int, int, int]:
+    """Return the numbers of deformations and of parts, and of what is kept of a part."""
+    return (0, 0, 0) if parts is None else (len(parts.d), len(parts.kind), STATE_SIZE)
+
+
 def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Parts:
     """Return the parts at rest; `rows` (m, n_free) are their deformations."""
     m, n = int(found.first[-1]), len(found.kind)

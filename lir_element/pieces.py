@@ -27,6 +27,7 @@ def in_pieces(
     done: Callable[[], int],
     total: int,
     progress: Callable[[float], None] | None = None,
+    room: Callable[[], int] | None = None,
 ) -> RunStatus:
     """Take a compiled loop to its end in pieces of about `PIECE` seconds.
 
@@ -41,6 +42,9 @@ def in_pieces(
         Units of the whole run.
     progress : callable, optional
         Called with the share done some fifty times.
+    room : callable, optional
+        Called before each piece: makes room for what the loop writes, and returns the last unit
+        that has some.
 
     Returns
     -------
@@ -52,14 +56,15 @@ def in_pieces(
     try:
         while done() < total:
             last = min(total, (done() // stride + 1) * stride)
+            until = last if room is None else min(last, room())
             began = perf_counter()
-            code = advance(last, work)
+            code = advance(until, work)
             if code != int(RunStatus.OK):
                 return RunStatus(code)
-            if done() < last:  # the work was spent
+            if done() < until:  # the work was spent
                 share = PIECE / max(perf_counter() - began, 1e-6)
                 work = max(1, int(work * min(max(share, 0.1), 8.0)))
-            elif progress is not None:
+            elif progress is not None and until == last:
                 progress(done() / total)
     except KeyboardInterrupt:
         return RunStatus.INTERRUPTED

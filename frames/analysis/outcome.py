@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.results.measures import ABSORBED
+from frames.results.reached import largest
 from lir_element.element import about_to_snap, limit_detail
 from lir_element.errors import RunStatus
 
@@ -54,12 +54,12 @@ def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
         OK, or INACCURATE with what is wrong. OK with a sentence where numerical damping, which was
         asked for, took out more than an accurate run leaves over.
     """
-    energy = data["energy"]
-    given = energy.sel(term="input")
-    gap = float(np.abs(given - energy.sel(term=list(ABSORBED)).sum("term")).max())
-    numerical = float(np.abs(energy.sel(term="numerical")).max())
+    gap, numerical, given = (
+        float(largest(data, name).values)
+        for name in ("energy_gap", "energy_numerical", "energy_input")
+    )
     least = LEAST_INPUT * float(data["weight"]) * float(data["length"].min())
-    scale = max(float(np.abs(given).max()), abs(least))
+    scale = max(given, abs(least))
     gap, numerical = gap / scale, numerical / scale
     data.attrs |= {"energy_error": gap, "numerical_share": numerical}
     doubt = _tumbled(data)
@@ -88,10 +88,9 @@ def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
 
 def _tumbled(data: xr.Dataset) -> str:
     """Return what is doubtful of a run in which a slider tumbled, or an empty string."""
-    if "body_rotation" not in data:
+    if "body_rotation" not in data and "reached_tilt" not in data:
         return ""
-    turn = data["body_rotation"].sel(body=["bottom_slider", "top_slider"]).to_numpy()
-    tilt = np.hypot(turn[..., 0], turn[..., 1]).max(axis=(0, 2))  # NaN without contact points
+    tilt = largest(data, "tilt").values  # NaN without contact points
     sine = (data["rim_displacement"] / data["radius"]).to_numpy().max(axis=1)
     lying = np.arcsin(np.minimum(sine, 1.0))
     beyond = np.nan_to_num(tilt - lying, nan=-np.inf)

@@ -28,6 +28,7 @@ from frames.assembly.end_zones import at_ends
 from frames.model.axes import matrix_to_global, to_global, to_local
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
+from frames.results.kept import noted, require_recorded, require_steps
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -166,13 +167,16 @@ def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFra
     dict of str to pandas.DataFrame
         "members" (member, end, component), "storeys" (storey, component) and "supports"
         (support, dof), as far as the model has them: `largest`, `smallest` [N, N m], and the time
-        of each [s]. `write_tables` writes them.
+        of each [s], over the steps that were recorded. `write_tables` writes them.
 
     Raises
     ------
     ModelError
         If the model is not the one that was analysed.
+    ValueError
+        If the recording has the first and the last step only.
     """
+    require_steps(data, "force_tables")
     found = _structure(model, data)
     names = found.system.members.names
     parts = {
@@ -193,7 +197,16 @@ def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFra
 def require_own(model: FrameContents, system: System, data: xr.Dataset) -> None:
     """Raise a ModelError unless a result was computed with a model, assembled as `system`."""
     if "node_displacement" not in data:
-        msg = "data has no node_displacement: give the Dataset of a time_history of this model"
+        msg = (
+            "data has no node_displacement: give the Dataset of a time_history of this model that "
+            "recorded it"
+        )
+        raise ModelError(msg)
+    if "nodes_of_level" in data:
+        msg = (
+            f"data holds {data.sizes['node']} of {len(system.node_names)} nodes: forces in the "
+            "structure need all of them recorded"
+        )
         raise ModelError(msg)
     if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
         msg = (
@@ -216,6 +229,9 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
 
 def _with_points(data: xr.Dataset) -> list[str]:
     # Bearings at the level 'contact'; the others have no bodies.
+    at = str(data.attrs.get("level", ""))
+    if "contact" in at or "rigid_body" in at:
+        require_recorded(data, "forces in the structure", "body_position")
     if "body_position" not in data:
         return []
     bodies = data["body_position"].isel(time=0).transpose("bearing", ...).to_numpy()
@@ -237,7 +253,7 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
             "time": found.data["time"], "member": list(chosen), "end": ["i", "j"],
             "component": list(COMPONENTS),
         },
-        attrs={"units": "N, N m", "long_name": "end forces in local axes"},
+        attrs={"units": "N, N m", "long_name": "end forces in local axes"} | noted(found.data),
         name="member_forces",
     )  # fmt: skip
 
@@ -274,7 +290,8 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
             "support": [system.node_names[node] for node in nodes],
             "dof": list(DOFS),
         },
-        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"},
+        attrs={"units": "N, N m", "long_name": "forces of the supports on the structure"}
+        | noted(found.data),
         name="support_reactions",
     )
 
@@ -307,7 +324,8 @@ def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray
             "storey": [level.name for level in levels],
             "component": ["Vx", "Vy", "Fz", "Mx", "My", "Mz"],
         },
-        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"},
+        attrs={"units": "N, N m", "long_name": "forces that storeys pass on downwards"}
+        | noted(found.data),
         name="storey_forces",
     )
 
@@ -328,6 +346,13 @@ def _crossing(
 def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
     # Forces of the nodes on the chosen ends (n_bearings, 2) of bearings, (time, 6 n_nodes).
     system, data = found.system, found.data
+    require_recorded(data, "forces of bearings", "bearing_force", "bearing_moment")
+    if data.sizes["bearing"] != len(system.bearings):
+        msg = (
+            f"data holds {data.sizes['bearing']} of {len(system.bearings)} bearings: forces of "
+            "storeys and supports need all of them recorded"
+        )
+        raise ModelError(msg)
     force = data["bearing_force"].transpose("time", "bearing", "axis").to_numpy()
     moment = data["bearing_moment"].transpose("time", "bearing", "end", "axis").to_numpy()
     total = np.zeros((len(force), 6 * len(system.node_names)))

@@ -10,6 +10,8 @@ import numpy as np
 from frames._errors import ModelError
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.outcome import Outcome, judged
+from frames.analysis.recording import Recording, require_known
+from frames.analysis.reduction import reduced
 from frames.analysis.size import number_of_steps, require_memory
 from frames.analysis.static import gravity
 from frames.assembly.basis import bearing_rows
@@ -60,7 +62,7 @@ def rigid_time_history(
     *,
     integrator: str | None,
     tolerance: float | None,
-    record_every: int,
+    recording: Recording,
     progress: Callable[[float], None] | None,
 ) -> tuple[xr.Dataset, Outcome]:
     """Analyse one bearing with a mass on it as rigid bodies in contact.
@@ -80,8 +82,10 @@ def rigid_time_history(
         None: Bossak's method with control of the error.
     tolerance : float or None
         Error of a step over the effective radius [-]; None: 1e-8.
-    record_every, progress
-        As for `time_history`; in the explicit mode outputs are those of the motion's step.
+    recording, progress
+        As for `time_history`; in the explicit mode outputs are those of the motion's step. A
+        recording of every n-th step alone takes outputs n steps apart; any other holds all of them
+        while the run goes on.
 
     Returns
     -------
@@ -99,6 +103,8 @@ def rigid_time_history(
         msg = f'integrator = {integrator!r}: level="rigid_body" has None (implicit) or "explicit"'
         raise ValueError(msg)
     own_step = min(motion.dt, LARGEST_STEP)
+    is_thinned = recording.every is None or recording != Recording(every=recording.every)
+    record_every = 1 if is_thinned or recording.every is None else recording.every
     interval = record_every * (own_step if dt is None or integrator == "explicit" else dt)
     steps = number_of_steps(length, None if integrator == "explicit" else dt, interval)
     state = gravity(model, level="contact")
@@ -111,15 +117,13 @@ def rigid_time_history(
     largest = min(interval / record_every, motion.dt)
     setup = rigid_setup(length_scale, largest, tolerance=chosen, explicit=explicit)
     run.clock["step"] = min(FIRST_STEP, interval)
+    if is_thinned:
+        recorded.bodies["turn"][0] = (1.0, 0.0, 0.0, 0.0)  # at rest, until the run writes it
+        require_known(recording, _dataset(model, motion, state, given, recorded, 1))
     status, seconds = _march(run, given, setup, progress)
     clock, counts = run.clock[0], run.counts[0]
     count = int(counts["outputs"])
-    recorded = RigidOutput(*(part[:count] for part in recorded))  # an interrupted run is shorter
-    out = _output(state, given.times[:count], recorded)
-    peak = peak_velocity(motion, float(out.time[-1]))
-    states, bodies = recorded.states[:, None], recorded.bodies[:, None]
-    ground = Ground(given.motion, given.motion_dt)
-    data = build_dataset(model, state, ground, peak, out, states, bodies, count)
+    data = _dataset(model, motion, state, given, recorded, count)
     data.attrs |= {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -136,13 +140,33 @@ def rigid_time_history(
         "seconds_loop": seconds,
         "features_left_out": "none",
         "plane_coupling": 0.0,
+        "recording": str(Recording(every=record_every)),
     }
     data.attrs["audit"] = audit_report(data)
     where = f'bearing "{state.system.bearings[0][0]}"'
     detail = limit_detail(run.props, run.states[2:], 0)
     if status is RunStatus.OK:
         status, detail = judged(data)
+    if is_thinned:
+        data = reduced(data.assign_attrs(recording=str(recording)), recording)
     return data, Outcome(status, float(clock["time"]), where, detail)
+
+
+def _dataset(
+    model: FrameContents,
+    motion: GroundMotion,
+    state: GravityState,
+    given: RigidInput,
+    recorded: RigidOutput,
+    count: int,
+) -> xr.Dataset:
+    # The first `count` outputs; an interrupted run is shorter.
+    recorded = RigidOutput(*(part[:count] for part in recorded))
+    out = _output(state, given.times[:count], recorded)
+    peak = peak_velocity(motion, float(out.time[-1]))
+    states, bodies = recorded.states[:, None], recorded.bodies[:, None]
+    ground = Ground(given.motion, given.motion_dt)
+    return build_dataset(model, state, ground, peak, out, states, bodies, count)
 
 
 def _march(

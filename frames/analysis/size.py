@@ -6,6 +6,7 @@ import math
 import os
 from typing import TYPE_CHECKING
 
+from frames.parts_data import part_sizes
 from lir_element.door import require_positive
 from lir_element.layout import BODIES, STATE
 from lir_element.units import TIMES, meant
@@ -69,8 +70,18 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
     return max(1, math.ceil(duration / step - 1e-9))
 
 
+def bytes_of_step(state: GravityState) -> float:
+    """Return the memory of a step: of the states recorded, and of the Dataset made of them."""
+    with_points = 0 if state.contacts is None else len(state.contacts.sliders)
+    row = len(state.model.props) * STATE.itemsize + with_points * BODIES.itemsize
+    row += 8 * (3 * len(state.run.b) + 2 * len(state.run.e) + 24 * len(state.system.node_names))
+    deformations, parts, words = part_sizes(state.parts)
+    row += 8 * (4 * deformations + parts * words)
+    return COPIES * row
+
+
 def require_memory(state: GravityState, records: int) -> None:
-    """Refuse to record more than the machine's memory holds.
+    """Refuse to record all variables of more steps than the machine's memory holds.
 
     Parameters
     ----------
@@ -84,15 +95,32 @@ def require_memory(state: GravityState, records: int) -> None:
     ValueError
         If the results would not fit.
     """
-    with_points = 0 if state.contacts is None else len(state.contacts.sliders)
-    row = len(state.model.props) * STATE.itemsize + with_points * BODIES.itemsize
-    row += 8 * (3 * len(state.run.b) + 2 * len(state.run.e) + 24 * len(state.system.node_names))
-    needed, there = COPIES * row * records, memory()
+    require_room(bytes_of_step(state), records)
+
+
+def require_room(step: float, records: int, besides: float = 0.0) -> None:
+    """Refuse to record more than the machine's memory holds.
+
+    Parameters
+    ----------
+    step : float
+        Memory of a recorded step [bytes].
+    records : int
+        Steps to be recorded; what lies around impacts comes besides.
+    besides : float
+        Memory of what does not grow with the steps [bytes].
+
+    Raises
+    ------
+    ValueError
+        If the results would not fit.
+    """
+    needed, there = step * records + besides, memory()
     if needed > there:
         msg = (
             f"{records} recorded steps take about {1e-9 * needed:.3g} GB, the machine has "
-            f"{1e-9 * there:.3g} GB: use record_every = {math.ceil(2.0 * needed / there)} or more, "
-            "or a shorter run"
+            f"{1e-9 * there:.3g} GB: use record_every = {math.ceil(2.0 * needed / there)} or more "
+            "(times the present one), fewer channels or none (frames.Recording), or a shorter run"
         )
         raise ValueError(msg)
 

@@ -12,15 +12,16 @@ from scipy import linalg
 
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
-from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.equilibrium import force_tolerance
 from frames.analysis.outcome import Outcome, culprit, ended, judged
 from frames.analysis.plausible import check_analysis
+from frames.analysis.recorder import Recorder
+from frames.analysis.recording import recording_of
 from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
-from frames.analysis.size import number_of_steps, require_memory
+from frames.analysis.size import number_of_steps
 from frames.analysis.static import gravity
-from frames.kernel_data import Ground, Setup, output_arrays
+from frames.kernel_data import Ground, Setup
 from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
 from frames.results.auditing import audit_report, doubts_of
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames.analysis.recording import Recording
     from frames.analysis.static import GravityState
-    from frames.kernel_data import Output
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
@@ -65,6 +66,7 @@ def time_history(
     spectral_radius: float = 0.8,
     tolerance: float | None = None,
     record_every: int = 1,
+    recording: Recording | None = None,
     on_failure: Literal["warn", "raise"] = "warn",
     features: Features | None = None,
     progress: Callable[[float], None] | None = None,
@@ -102,7 +104,12 @@ def time_history(
         default, 3e-5 where a bearing is at the level "contact". At the level "rigid_body" over the
         effective radius: 1e-8.
     record_every : int
-        Record every so many steps.
+        Record every so many base steps: ``Recording(every=record_every)``.
+    recording : Recording, optional
+        What is recorded: steps, variables, bearings, nodes, windows around impacts, extremes;
+        everything if None. Not together with `record_every`. The audit, `peaks` and the ledger of
+        energy see all base steps, whatever is recorded. At the level "rigid_body" memory is taken
+        for all of them while it runs, and with `every` alone only the recorded ones are seen.
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
@@ -134,7 +141,8 @@ def time_history(
         KeyboardInterrupt before the first step.
     """
     check_analysis(model, motion)
-    _check_options(level, method, integrator, record_every, on_failure, features)
+    _check_options(level, method, integrator, on_failure, features)
+    wanted = recording_of(recording, record_every)
     if tolerance is not None:
         require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
     require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
@@ -144,7 +152,7 @@ def time_history(
     if level == "rigid_body":
         data, outcome = rigid_time_history(
             model, motion, length, dt, integrator=integrator, tolerance=tolerance,
-            record_every=int(record_every), progress=progress,
+            recording=wanted, progress=progress,
         )  # fmt: skip
         return _told(report(data, *outcome, on_failure=on_failure))
     options = Options(
@@ -155,16 +163,19 @@ def time_history(
         method=method,
         integrator=integrator or "newmark",
         spectral_radius=float(spectral_radius),
-        record_every=int(record_every),
+        recording=wanted,
         progress=progress,
     )
     outcomes: list[Outcome] = []
+    recorders: list[Recorder] = []
 
     def analyse(kept: Features, at: str | Mapping[str, str]) -> xr.Dataset:
-        data, outcome = _run(model, motion, kept, at, options)
+        recorders.clear()  # of an earlier run: its memory
+        data, outcome, recorder = _run(model, motion, kept, at, options)
         outcomes.append(outcome)
+        recorders.append(recorder)
         if outcome[0] is RunStatus.INTERRUPTED:  # no further run of level="auto"
-            report(data, *outcome, on_failure=on_failure)
+            report(recorder.recorded(data), *outcome, on_failure=on_failure)
         return data
 
     if level == "auto":
@@ -172,6 +183,7 @@ def time_history(
         mark_other_end(data, [(outcome[0], outcome[1]) for outcome in outcomes])
     else:
         data = analyse(Features.all() if features is None else features, level)
+    data = recorders[-1].recorded(data)
     return _told(report(data, *outcomes[-1], on_failure=on_failure))
 
 
@@ -194,7 +206,7 @@ class Options(NamedTuple):
     method: str
     integrator: str
     spectral_radius: float
-    record_every: int
+    recording: Recording
     progress: Callable[[float], None] | None
 
 
@@ -204,33 +216,29 @@ def _run(
     features: Features,
     level: str | Mapping[str, str],
     options: Options,
-) -> tuple[xr.Dataset, Outcome]:
-    # One run and its audit.
+) -> tuple[xr.Dataset, Outcome, Recorder]:
+    # One run and its audit; what is recorded joins it in the end.
     coupling = 0.0
     if not features.second_direction:
         coupling = plane_coupling(model)
     state = gravity(model, features, level)
     settings = _settings(state, options)
     tolerance = settings.error_tolerance
-    count = options.steps // options.record_every + 1
-    require_memory(state, count)
-    sizes = (0, 0, 0) if state.parts is None else (len(state.parts.d), *state.parts.old.shape)
-    out, states, bodies = output_arrays(state.model, state.contacts, count, sizes)
     shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
     ground = Ground(*seen_by_steps(shaking, settings.dt))
+    recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
     _start(state, ground)
-    code, seconds = _march(state, settings, ground, out, options)
+    code, seconds = _march(state, settings, ground, recorder, options)
     status, detail = ended(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
-    count = int(clock["done"]) // options.record_every + 1
-    peak = peak_velocity(motion, float(out.time[count - 1]))
-    data = build_dataset(model, state, ground, peak, out, states, bodies, count)
-    data.attrs |= {
+    data = recorder.data(int(clock["done"]))
+    data.attrs = {
         "title": f"time history of {model.name}",
         "motion": motion.name,
         "level": level if isinstance(level, str) else str(dict(level)),
         "features_left_out": ", ".join(features.left_out) or "none",
         "plane_coupling": coupling,
+        "recording": str(options.recording),
         "method": options.method,
         "integrator": options.integrator,
         "spectral_radius": options.spectral_radius,
@@ -249,14 +257,13 @@ def _run(
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = judged(data)
-    return data, Outcome(status, float(clock["time"]), where, detail)
+    return data, Outcome(status, float(clock["time"]), where, detail), recorder
 
 
 def _check_options(
     level: object,
     method: str,
     integrator: str | None,
-    record_every: int,
     on_failure: str,
     features: object,
 ) -> None:
@@ -270,9 +277,6 @@ def _check_options(
         require_choice(name, value, allowed)
     if integrator == "explicit" and level != "rigid_body":
         msg = f'integrator = "explicit" belongs to level="rigid_body", not to {level!r}'
-        raise ValueError(msg)
-    if not record_every >= 1 or record_every % 1:
-        msg = f"record_every = {record_every!r} must be a whole number of at least 1"
         raise ValueError(msg)
     require_on_failure(on_failure)
     if features is not None and not isinstance(features, Features):
@@ -323,7 +327,7 @@ def _settings(state: GravityState, options: Options) -> Setup:
         error_time=float(math.sqrt(length / state.system.gravity)),
         error_vertical=float(_ERROR_VERTICAL),
         error_open=float(_ERROR_OPEN),
-        every=int(options.record_every),
+        first=0,
     )
 
 
@@ -346,17 +350,24 @@ def _start(state: GravityState, ground: Ground) -> None:
 
 
 def _march(
-    state: GravityState, settings: Setup, ground: Ground, out: Output, options: Options
+    state: GravityState, settings: Setup, ground: Ground, recorder: Recorder, options: Options
 ) -> tuple[RunStatus, float]:
     # Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; returns its seconds too.
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
+    out = recorder.out
     ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)
     ready(record, run, contacts, parts, out, 0)
+    recorder.begin()
     began = perf_counter()
 
     def go(last: int, trials: int) -> int:
-        return advance(model, run, contacts, parts, settings, ground, out, last, trials)
+        here = settings._replace(first=recorder.first)
+        return advance(model, run, contacts, parts, here, ground, out, last, trials)
 
-    record(run, contacts, parts, out, 0)
-    status = in_pieces(go, lambda: int(run.clock["done"][0]), options.steps, options.progress)
-    return status, perf_counter() - began
+    def done() -> int:
+        return int(run.clock["done"][0])
+
+    status = in_pieces(
+        go, done, options.steps, options.progress, room=lambda: recorder.room(done())
+    )
+    return status, perf_counter() - began - recorder.seconds

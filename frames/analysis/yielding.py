@@ -9,6 +9,7 @@ import numpy as np
 from frames.kernels.hinges import N_PLASTIC, place
 from frames.kernels.yielding import WORK_DONE
 from frames.model.laws import PlasticHinge
+from frames.results.kept import require_recorded
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -125,6 +126,9 @@ def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
     found = system.parts
     beyond = np.zeros((data.sizes["time"], int(found.first[-1])))
     n = len(found.links)
+    needed = ["link_deformation", "link_force"] if n else []
+    needed += ["hinge_rotation"] if found.hinged else []
+    require_recorded(data, "forces of a structure that yields", *needed)
     if n:
         d = data["link_deformation"].transpose("time", "link").to_numpy()
         force = data["link_force"].transpose("time", "link").to_numpy()

@@ -301,8 +301,8 @@ def advance(
 ) -> int:  # fmt: skip
     """Go on until `last` base steps are done, or `trials` state determinations are spent.
 
-    Records each ``settings.every``-th base step. Returns a status code; ``run.clock`` and
-    ``run.counts`` tell where it stands, and the next call goes on from there.
+    Records each base step, `settings.first` in the first row. Returns a status code; ``run.clock``
+    and ``run.counts`` tell where it stands, and the next call goes on from there.
     """
     clock, counts = run.clock[0], run.counts[0]
     most = counts.trials + trials
@@ -314,6 +314,5 @@ def advance(
             clock.done += 1
             clock.ticks = 0
             clock.time = settings.dt * clock.done
-            if clock.done % settings.every == 0:
-                record(run, contacts, parts, out, clock.done // settings.every)
+            record(run, contacts, parts, out, clock.done - settings.first)
     return _OK

@@ -147,6 +147,8 @@ def bearing_sections(
     plates and the height of the rims are for the picture: the model does not depend on them.
     """
     data = pick.in_window(data, start, end)
+    drawn = ("bearing_displacement", "slider_displacement", "rim_force", "interface_slip_size")
+    pick.need(data, drawn, "record them, to draw sections")
     if isinstance(bearing, str):
         if name is not None and name != bearing:
             msg = f"two names are given, {bearing!r} and {name!r}: give one, or a device and a name"

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
 from frames.results.auditing import doubts_of
+from frames.results.kept import largest_kept, require_steps
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -78,6 +79,7 @@ def in_window(
             "time histories; draw the variables of a cyclic test over one another"
         )
         raise ValueError(msg)
+    require_steps(data, f"figures of {name}")
     for side, value in (("start", start), ("end", end)):
         if value is not None and not math.isfinite(value):
             msg = f"{side} = {value}: give a time [s], or leave it out"
@@ -165,13 +167,21 @@ def choose_bearing(
     first = next(iter(systems.values()))
     need(first, ("bearing",), "figures of bearings need a Dataset of an isolated frame")
     if bearing is None:
-        slips = float(first["interface_slip_size"].max()) > 0.0
+        kept = largest_kept(first, "slip")
+        if kept is None:
+            need(first, ("interface_slip_size",), "name a bearing, or record it")
+        slip = first["interface_slip_size"].to_numpy() if kept is None else kept[0]
+        slips = float(slip.max()) > 0.0
         usual = "interface_slip_size" if slips else "bearing_displacement"
         bearing = worst_bearing(first, variable or usual)
     for name, data in systems.items():
         where = "" if len(systems) == 1 else f" in {name!r}"
         choose(bearing, [str(known) for known in data["bearing"].to_numpy()], "bearing", where)
     return bearing
+
+
+_KEPT = {"interface_slip_size": "slip", "bearing_displacement": "displacement"}
+"""Variables of which a recording keeps what was reached, and under which name."""
 
 
 def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> str:
@@ -194,6 +204,9 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     ValueError
         If there is no such variable.
     """
+    kept = largest_kept(data, _KEPT.get(variable, ""))
+    if kept is not None:  # of all steps, whatever was recorded
+        return str(data["bearing"].to_numpy()[int(np.argmax(kept[0]))])
     known = [str(name) for name in data.data_vars if "bearing" in data[name].dims]
     values = data[choose(variable, known, "variable of bearings")].transpose("bearing", ...)
     if variable == "bearing_displacement":

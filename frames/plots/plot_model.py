@@ -15,6 +15,7 @@ from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import member_lines
+from frames.results.kept import require_recorded, require_steps
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -207,6 +208,8 @@ def _at(data: xr.Dataset, time: float | None) -> tuple[FloatArray, float]:
     # Displacements (n_nodes, 6) at an instant, and the instant that was recorded.
     times = data["time"].to_numpy()
     if time is None:
+        require_steps(data, "model_view without a time")
+        require_recorded(data, "model_view without a time", "bearing_displacement")
         u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1)
         step = int(u.max(axis=1).argmax())
     elif not times[0] <= time <= times[-1]:

@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.results.measures import lateral_capacity
+from frames.results.reached import largest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,13 +43,15 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     ValueError
         If the Dataset does not tell the places of nodes.
     """
-    pick.need(data, ("node_position", "bearing_displacement"), "draw a result of time_history")
+    pick.need(data, ("node_position", "bearing_node"), "draw a result of time_history")
     lower = data["bearing_node"].sel(end="i").to_numpy()
+    if (lower < 0).any():
+        msg = "nodes under bearings were not recorded: record those of all bearings to draw a plan"
+        raise ValueError(msg)
     places = data["node_position"].to_numpy()[lower, :2]
-    u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1).max(axis=0)
-    share = u / lateral_capacity(data)
-    slip = 1e3 * data["interface_slip_size"].max("time").to_numpy()
-    least = 1e-3 * data["axial_force"].min("time").to_numpy()
+    share = largest(data, "displacement").values / lateral_capacity(data)
+    slip = 1e3 * largest(data, "slip").values
+    least = -1e-3 * largest(data, "axial_tension").values
     figure = ps.new_figure(5.2)
     panel = ps.grid_of(figure, 1, 1)[0][0]
     colours = ScalarMappable(Normalize(0.0, max(1.0, float(share.max()))), "YlOrRd")

@@ -11,16 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.results.measures import centre_shift
+from frames.results.reached import FULL_SLIP, Extreme, largest, left_out, total
 from lir_element.device.features import Features
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import xarray as xr
-
-    from frames._types import FloatArray
 
 NEAR = 0.95
 """Share of a limit at which it counts as reached in a run that left out something else as well."""
@@ -32,9 +29,6 @@ SMALL = {
     "vertical_coupling": 0.05,  # of the static axial force
 }
 """What must not be exceeded by an effect that is left out."""
-
-PRESSED = 0.05
-"""Axial force over the static one below which the audit leaves eccentricities to uplift."""
 
 KERN = 0.25
 """Eccentricity over slider radius up to which a circular contact is closed all over."""
@@ -106,7 +100,9 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
 
     Notes
     -----
-    With ``record_every`` above 1 peaks between the records are not seen.
+    A recording that leaves steps or variables out (`Recording`) keeps what was reached at all
+    steps, so that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the
+    recorded steps are seen.
     """
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
@@ -182,111 +178,62 @@ def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     return tuple(f for f in findings if f.mattered and f.feature in _ASKING)
 
 
-def left_out(data: xr.Dataset) -> tuple[str, ...]:
-    """Return the names of the features that a run left out."""
-    text = str(data.attrs["features_left_out"])
-    return () if text == "none" else tuple(text.split(", "))
-
-
-def vertical_force(data: xr.Dataset) -> FloatArray:
-    """Return the axial force of the bearings (time, bearing), compression positive [N].
-
-    Where vertical coupling is left out: that of the vertical springs, and what lifting the static
-    load along the pendulum's path would have added, ``W / g`` times the acceleration of
-    ``L - sqrt(L^2 - U^2)``.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    ndarray, (n_steps, n_bearings)
-        Axial forces [N].
-    """
-    axial: FloatArray = data["axial_force"].to_numpy()
-    if "vertical_coupling" not in left_out(data):
-        return axial
-    spring = -data["bearing_force"].sel(axis="z").to_numpy()
-    time = data["time"].to_numpy()
-    if len(time) < 2:
-        return np.asarray(spring)
-    u = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
-    v = data["bearing_velocity"].sel(axis=["x", "y"]).to_numpy()
-    length = data["length"].to_numpy()
-    depth = np.sqrt(np.maximum(length**2 - (u**2).sum(axis=-1), 0.01 * length**2))
-    rising = np.gradient((u * v).sum(axis=-1) / depth, time, axis=0)
-    return np.asarray(spring + data["static_axial_force"].to_numpy() / STANDARD_GRAVITY * rising)
-
-
 def _rims(data: xr.Dataset, out: bool) -> Finding:
     limit = data["rim_displacement"].to_numpy()
-    slid = data["slider_displacement"].sel(axis=["x", "y"]).to_numpy()
-    share = float((np.linalg.norm(slid, axis=-1) / limit).max())
-    met = (data["rim_force"] > 0.0).any("surface").to_numpy()
+    share = float((largest(data, "sliding").values / limit).max())
+    met = largest(data, "rims_met")
     mattered = share >= (_reached(data, "rims") if out else 1.0)
     if np.isinf(limit).all():
         return _finding("rims", out, False, 0.0, "the bearings have none")
-    if out or not met.any():
+    if out or not met.values.any():
         text = f"reached {_share(share)} of capacity"
         return _finding("rims", out, out and mattered, share, text)
-    return _finding("rims", out, True, share, f"met by {_by_whom(data, met)}")
+    return _finding("rims", out, True, share, f"met by {_by_whom(met)}")
 
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:
-    friction = data["interface_friction"].to_numpy()
-    if np.isinf(friction).all():
+    if np.isinf(data["interface_friction"].to_numpy()).all():
         return _finding("interface", out, False, 0.0, "the sliders are in one piece")
-    normal = np.maximum(
-        data["axial_force"].to_numpy(), 1e-3 * data["static_axial_force"].to_numpy()
-    )
-    shares = data["interface_force"].to_numpy() / (friction * normal)
-    share = float(shares.max())
-    if out or share < 1.0 - 1e-9:
+    share = float(largest(data, "interface_share").values.max())
+    if out or share < FULL_SLIP:
         mattered = out and share >= _reached(data, "interface")
         text = f"carried {_share(share)} of what its friction holds"
         return _finding("interface", out, mattered, share, text)
-    size = float(data["interface_slip_size"].max())
-    who = _by_whom(data, shares >= 1.0 - 1e-9)
+    size = float(largest(data, "slip").values.max())
+    who = _by_whom(largest(data, "slipped"))
     return _finding("interface", out, True, share, f"slipped up to {1e3 * size:.3g} mm, {who}")
 
 
 def _uplift(data: xr.Dataset, out: bool) -> Finding:
-    ratio = vertical_force(data) / data["static_axial_force"].to_numpy()
-    least = float(ratio.min())
+    least = 0.0 - float(largest(data, "vertical_tension").values.max())
     if out or least > 0.0:
         return _finding("uplift", out, least <= 0.0, least, f"smallest N {least:.2f} W")
-    return _finding("uplift", out, True, least, f"lifted off: {_by_whom(data, ratio <= 0.0)}")
+    who = _by_whom(largest(data, "lifted"))
+    return _finding("uplift", out, True, least, f"lifted off: {who}")
 
 
 def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
-    shift = float(np.max(np.linalg.norm(centre_shift(data), axis=-1)))
-    moves = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
-    largest = float(np.linalg.norm(moves, axis=-1).max())
-    share = shift / largest if largest > 0.0 else 0.0
+    shift = float(largest(data, "centre_shift").values.max())
+    moved = float(largest(data, "displacement").values.max())
+    share = shift / moved if moved > 0.0 else 0.0
     text = f"tilt moves the spheres' centres by up to {1e3 * shift:.2g} mm, {_share(share, 1)} of "
     text += "the largest displacement"
     return _finding("plate_rotation", out, share > SMALL["plate_rotation"], share, text)
 
 
 def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
-    drop, top = data["friction_drop"].to_numpy(), data["friction_max"].to_numpy()
-    if not drop.any():
+    if not data["friction_drop"].to_numpy().any():
         text = "no friction depends on speed"
         return _finding("velocity_dependence", out, False, 0.0, text)
-    speed = data["sliding_speed"].to_numpy()
-    lower = drop * np.exp(-data["friction_rate"].to_numpy() * speed)
-    load = np.maximum(data["axial_force"].to_numpy(), 0.0)[..., None]
-    work = float((load * top * speed).sum())
-    share = float((load * lower * speed).sum()) / work if work > 0.0 else 0.0
+    work = float(total(data, "sliding_work"))
+    share = float(total(data, "sliding_work_lower")) / work if work > 0.0 else 0.0
     text = f"over the paths slid, friction is {_share(share, 1)} below that at high speed"
     return _finding("velocity_dependence", out, share > SMALL["velocity_dependence"], share, text)
 
 
 def _second_direction(data: xr.Dataset, out: bool) -> Finding:
     if not out:
-        moves = np.abs(data["bearing_displacement"].to_numpy()).max(axis=(0, 1))
+        moves = largest(data, "displacement_along").values
         x, y = float(moves[0]), float(moves[1])
         share = _ratio(y, x)
         text = f"displacement along y reached {1e3 * y:.3g} mm, along x {1e3 * x:.3g} mm"
@@ -301,25 +248,23 @@ def _second_direction(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
-    ratio = vertical_force(data) / data["static_axial_force"].to_numpy()
-    share = float(np.abs(ratio - 1.0).max())
+    share = float(largest(data, "vertical_change").values.max())
     text = f"axial forces differ from those at rest by up to {_share(share)}"
     return _finding("vertical_coupling", out, share > SMALL["vertical_coupling"], share, text)
 
 
 def _full_contact(data: xr.Dataset) -> Finding:
-    pressed = data["axial_force"] > PRESSED * data["static_axial_force"]
-    shares = (data["interface_eccentricity"] / data["slider_radius"]).where(pressed, 0.0)
-    share = float(shares.max())
+    share = float(largest(data, "eccentricity").values.max())
     if share <= KERN:
         verdict = "full contact holds"
     elif share <= EDGE:
         verdict = "partial contact, no tipping"
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
-    met = bool((data["rim_force"] > 0.0).any())
+    met = bool(largest(data, "rims_met").values.any())
     text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
-    spin = float(np.abs(data["slider_spin"].to_numpy()).max()) if "slider_spin" in data else 0.0
+    has_spin = "slider_spin" in data or "reached_spin" in data
+    spin = float(largest(data, "spin").values.max()) if has_spin else 0.0
     if spin > SPUN:
         text += f"; the sliders spun by {spin:.2g} rad"
     asked = share > (CONTACT if met else EDGE) or spin > SPUN
@@ -339,23 +284,23 @@ def _slip_stability(data: xr.Dataset) -> Finding:
     # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
     friction = data["interface_friction"]
     held = data["length"] * friction - (data["friction_max"] * data["radius"]).sum("surface")
-    largest = data["interface_slip_size"].max("time").to_numpy()
-    shares = largest / np.maximum(held.to_numpy(), 1e-12)
-    overlaps = largest / data["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+    slip = largest(data, "slip").values
+    shares = slip / np.maximum(held.to_numpy(), 1e-12)
+    overlaps = slip / data["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
     worst, last = int(np.argmax(shares)), int(np.argmax(overlaps))
     share = float(shares[worst])
     names, parts = data["bearing"].to_numpy(), []
     if share > HOLDS:
         limit = 1e3 * max(float(held[worst]), 0.0)
         parts.append(
-            f"{names[worst]} slipped {1e3 * largest[worst]:.3g} mm, without rims the interface "
+            f"{names[worst]} slipped {1e3 * slip[worst]:.3g} mm, without rims the interface "
             f"holds {limit:.3g} mm: where the motion turns again in that direction, the sliders "
             "slip on; raise mu_h"
         )
     if overlaps[last] > OVERLAPS:
         limit = 1e3 * float(data["slip_capacity"][last])
         parts.append(
-            f"{names[last]} slipped {1e3 * largest[last]:.4g} mm of the {limit:.4g} mm at which "
+            f"{names[last]} slipped {1e3 * slip[last]:.4g} mm of the {limit:.4g} mm at which "
             "the sliders' overlap ends: a few per cent decide whether it fails; raise mu_h or "
             "the capacity"
         )
@@ -377,10 +322,11 @@ def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) 
     )
 
 
-def _by_whom(data: xr.Dataset, when: FloatArray) -> str:
-    # "3 of 9 bearings, first at 4.17 s", from a mask (time, bearing).
-    first = float(data["time"].to_numpy()[int(np.argmax(when.any(axis=1)))])
-    return f"{int(when.any(axis=0).sum())} of {when.shape[1]} bearings, first at {first:.2f} s"
+def _by_whom(happened: Extreme) -> str:
+    # "3 of 9 bearings, first at 4.17 s", from a quantity (bearing,) that is 1 once it happens.
+    those = happened.values > 0.0
+    first = float(happened.at[those].min())
+    return f"{int(those.sum())} of {len(those)} bearings, first at {first:.2f} s"
 
 
 def _reached(data: xr.Dataset, own: str) -> float:

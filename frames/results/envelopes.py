@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from frames.results.kept import require_between_ends, require_recorded
 from frames.results.storage import write_whole
 
 if TYPE_CHECKING:
@@ -19,13 +20,21 @@ if TYPE_CHECKING:
 _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
 
 
-def envelope(values: xr.DataArray) -> xr.Dataset:
+EXTREMES = ("largest", "time_of_largest", "smallest", "time_of_smallest")
+"""Variables of an envelope; a recording adds the name of what they are of: `largest_energy`."""
+
+
+def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> xr.Dataset:
     """Return the extremes of a history and when they are reached.
 
     Parameters
     ----------
-    values : xarray.DataArray
-        With the dimension `time`, such as `member_forces` gives.
+    values : xarray.DataArray or xarray.Dataset
+        With the dimension `time`, such as `member_forces` gives: of the steps that it holds. Or
+        the Dataset of a time history, with the name of a variable: of all steps of the run where
+        the recording kept extremes (`Recording`), else of those that it holds.
+    variable : str, optional
+        Name of the variable of a Dataset.
 
     Returns
     -------
@@ -36,8 +45,16 @@ def envelope(values: xr.DataArray) -> xr.Dataset:
     Raises
     ------
     ValueError
-        If the values have no dimension `time`.
+        If the values have no dimension `time`, were not recorded, or only at both ends of the run.
+    TypeError
+        If a variable is named without a Dataset, or the other way round.
     """
+    if isinstance(values, xr.Dataset):
+        return _envelope_of(values, variable)
+    if variable is not None:
+        msg = f"variable = {variable!r} belongs to a Dataset: give the Dataset, or leave it out"
+        raise TypeError(msg)
+    require_between_ends(str(values.attrs.get("recording", "")), "envelope")
     if "time" not in values.dims:
         msg = f"values have the dimensions {values.dims}: an envelope needs 'time'"
         raise ValueError(msg)
@@ -54,6 +71,20 @@ def envelope(values: xr.DataArray) -> xr.Dataset:
         found[f"time_of_{name}"] = xr.Variable(dims, when, {"units": "s"})
     kept = {name: history[name] for name in history.coords if "time" not in history[name].dims}
     return xr.Dataset(found, kept)
+
+
+def _envelope_of(data: xr.Dataset, variable: str | None) -> xr.Dataset:
+    # From the extremes that a recording kept, or from the history.
+    if variable is None:
+        msg = "envelope of a Dataset needs the name of a variable: envelope(data, 'axial_force')"
+        raise TypeError(msg)
+    if f"{EXTREMES[0]}_{variable}" not in data.variables:
+        require_recorded(data, "envelope", variable)
+        return envelope(data[variable])
+    kept = data[[f"{name}_{variable}" for name in EXTREMES]]
+    found = kept.rename({f"{name}_{variable}": name for name in EXTREMES})
+    found.attrs = {}
+    return found
 
 
 def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:

@@ -9,11 +9,18 @@ import xarray as xr
 
 from frames.kernel_data import ENERGY_TERMS
 from frames.motion.spectra import response_spectrum
+from frames.results.kept import (
+    largest_kept,
+    noted,
+    require_recorded,
+    require_steps,
+    require_whole_levels,
+)
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from frames._types import FloatArray
+    from frames._types import FloatArray, IntArray
 
 _SAME_PLACE = 1e-3  # m, in plan, of nodes that stand over one another
 
@@ -35,10 +42,15 @@ def energy_error(data: xr.Dataset) -> float:
         Largest gap ``|input - (sum of all other terms)|`` over the largest input [-]; in joule
         where there was no input.
     """
+    kept = [largest_kept(data, name) for name in ("energy_gap", "energy_input")]
+    if kept[0] is not None and kept[1] is not None:
+        gap, scale = float(kept[0][0]), float(kept[1][0])
+        return gap / scale if scale > 0.0 else gap
+    require_recorded(data, "energy_error", "energy")
     energy = data["energy"]
-    gap = np.abs(energy.sel(term="input") - energy.sel(term=list(ABSORBED)).sum("term"))
+    gaps = np.abs(energy.sel(term="input") - energy.sel(term=list(ABSORBED)).sum("term"))
     scale = float(np.abs(energy.sel(term="input")).max())
-    return float(gap.max()) / scale if scale > 0.0 else float(gap.max())
+    return float(gaps.max()) / scale if scale > 0.0 else float(gaps.max())
 
 
 def storey_drift(data: xr.Dataset) -> xr.DataArray:
@@ -58,7 +70,7 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     Raises
     ------
     ValueError
-        If the model has fewer than two levels.
+        If the model has fewer than two levels, or the nodes were not recorded.
     """
     heights = _level_heights(data)
     means = _level_means(data, "node_displacement", ["ux", "uy"])
@@ -68,7 +80,7 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
         drift,
         dims=("time", "storey", "axis"),
         coords={"time": data["time"], "storey": names, "axis": ["x", "y"]},
-        attrs={"units": "1", "long_name": "storey drift ratio"},
+        attrs={"units": "1", "long_name": "storey drift ratio"} | noted(data),
     )
 
 
@@ -78,7 +90,7 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
         _level_means(data, "node_acceleration", ["ux", "uy", "uz"]),
         dims=("time", "level", "axis"),
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
-        attrs={"units": "m/s2", "long_name": "total acceleration of the level"},
+        attrs={"units": "m/s2", "long_name": "total acceleration of the level"} | noted(data),
     )
 
 
@@ -102,17 +114,10 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     ValueError
         If the model has fewer than two levels.
     """
+    require_recorded(data, "drift_by_line", "node_displacement")
+    require_whole_levels(data, "drift_by_line")
     heights = _level_heights(data)
-    level = data["level_node"].to_numpy()
-    place = data["node_position"].transpose("node", "axis").to_numpy()[:, :2]
-    pairs = []
-    for k in range(1, len(heights)):
-        low, high = np.flatnonzero(level == k - 1), np.flatnonzero(level == k)
-        apart = np.linalg.norm(place[high][:, None] - place[low][None], axis=-1)
-        nearest = apart.argmin(axis=1)
-        over = apart[np.arange(len(high)), nearest] < _SAME_PLACE
-        pairs += [(low[n], up, k) for up, n, fits in zip(high, nearest, over, strict=True) if fits]
-    lower, upper, storey = np.array(pairs, dtype=np.int64).reshape(-1, 3).T
+    lower, upper, storey = lines_of(data)
     moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
     rise = heights[storey] - heights[storey - 1]
     drift = (moves[:, upper] - moves[:, lower]) / rise[None, :, None]
@@ -123,8 +128,23 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
             "time": data["time"], "line": data["node"].to_numpy()[upper],
             "storey": ("line", data["level"].to_numpy()[storey]), "axis": ["x", "y"],
         },
-        attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"},
+        attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"} | noted(data),
     )  # fmt: skip
+
+
+def lines_of(data: xr.Dataset) -> tuple[IntArray, IntArray, IntArray]:
+    """Return the lines of nodes over one another: lower node, upper node, its level, each (m,)."""
+    level = data["level_node"].to_numpy()
+    place = data["node_position"].transpose("node", "axis").to_numpy()[:, :2]
+    pairs = []
+    for k in range(1, data.sizes["level"]):
+        low, high = np.flatnonzero(level == k - 1), np.flatnonzero(level == k)
+        apart = np.linalg.norm(place[high][:, None] - place[low][None], axis=-1)
+        nearest = apart.argmin(axis=1)
+        over = apart[np.arange(len(high)), nearest] < _SAME_PLACE
+        pairs += [(low[n], up, k) for up, n, fits in zip(high, nearest, over, strict=True) if fits]
+    lower, upper, storey = np.array(pairs, dtype=np.int64).reshape(-1, 3).T
+    return lower, upper, storey
 
 
 def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.05) -> xr.DataArray:
@@ -149,8 +169,9 @@ def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.
     MotionError
         If a period or the damping is out of its bounds.
     ValueError
-        If the records are not equally spaced in time.
+        If the records are not equally spaced in time, or are the first and the last step only.
     """
+    require_steps(data, "floor_spectrum")
     return spectra_of(floor_acceleration(data), periods, damping)
 
 
@@ -193,7 +214,16 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         The gap (time, bearing) [m], 0 where a contact is closed: from the place of the upper
         sphere's centre over the lower one, which is ``c = L n + s`` where the contact just closes
         (docs/theory.md, section 1); tilts of the plates shift it.
+
+    Raises
+    ------
+    ValueError
+        If what it is made from was not recorded.
     """
+    require_recorded(
+        data, "uplift_gap", "bearing_displacement", "node_displacement", "interface_slip_size",
+        "axial_force",
+    )  # fmt: skip
     length = data["length"].to_numpy()
     moves = data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
     across = moves[..., :2] + centre_shift(data)
@@ -205,7 +235,7 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         np.where(lifted, gap, 0.0),
         dims=("time", "bearing"),
         coords={"time": data["time"], "bearing": data["bearing"]},
-        attrs={"units": "m", "long_name": "gap of the axial contact"},
+        attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),
     )
 
 
@@ -217,8 +247,11 @@ def lateral_capacity(data: xr.Dataset) -> FloatArray:
 
 def centre_shift(data: xr.Dataset) -> FloatArray:
     """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
+    if (data["bearing_node"] < 0).any():
+        msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
+        raise ValueError(msg)
     turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
-    total = np.zeros((*data["axial_force"].shape, 2))
+    total = np.zeros((*data.variables["axial_force"].shape, 2))
     for end, name in enumerate(("bottom", "top")):
         place = data["bearing_node"].isel(end=end).to_numpy()
         lever = data["lever"].sel(surface=name).to_numpy()
@@ -229,6 +262,8 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
 
 def _level_means(data: xr.Dataset, name: str, dofs: list[str]) -> FloatArray:
     # Means over the nodes of each level, (time, level, dof).
+    require_recorded(data, "means over levels", name)
+    require_whole_levels(data, "means over levels")
     place, values = data["level_node"].to_numpy(), data[name].sel(dof=dofs).to_numpy()
     return np.stack(
         [values[:, place == k].mean(axis=1) for k in range(data.sizes["level"])], axis=1

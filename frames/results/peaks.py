@@ -9,21 +9,20 @@ import numpy as np
 import pandas as pd
 
 from frames.results.auditing import doubts_of
-from frames.results.measures import (
-    drift_by_line,
-    energy_error,
-    floor_acceleration,
-    lateral_capacity,
-    storey_drift,
-    uplift_gap,
+from frames.results.measures import energy_error, lateral_capacity
+from frames.results.reached import (
+    Extreme,
+    computed_until,
+    largest,
+    left,
+    storeys_of_lines,
+    total,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     import xarray as xr
-
-    from frames._types import FloatArray
 
 
 class Peak(NamedTuple):
@@ -42,7 +41,9 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     Parameters
     ----------
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded.
+        Of `time_history`, also one that was saved and loaded, and whatever its recording: one that
+        leaves out steps or variables has kept what was reached at all of them. Where it chose
+        bearings or nodes, the peaks are theirs.
 
     Returns
     -------
@@ -85,98 +86,88 @@ def _status(data: xr.Dataset) -> str:
     return f"{data.attrs['status']}{at}"
 
 
-def _peak(quantity: str, unit: str, values: FloatArray, time: FloatArray, names: Any = ()) -> Peak:
-    # The largest of values (time, name), or (time,).
-    at = np.unravel_index(int(np.argmax(values)), values.shape)
-    if not abs(values[at]) > 0.0:
-        return Peak(quantity, float(values[at]), unit)  # never, nowhere
-    where = str(names[int(at[1])]) if len(at) > 1 else ""
-    return Peak(quantity, float(values[at]), unit, float(time[int(at[0])]), where)
+def _peak(quantity: str, unit: str, found: Extreme, names: Any = ()) -> Peak:
+    # The largest of values (name,), or (); the first in time of those that are as large.
+    value = float(found.values.max())
+    if not abs(value) > 0.0:
+        return Peak(quantity, value, unit)  # never, nowhere
+    if found.values.ndim == 0:
+        return Peak(quantity, value, unit, float(found.at))
+    at = np.where(found.values == value, found.at, math.inf)
+    k = int(np.argmin(at))
+    return Peak(quantity, value, unit, float(at[k]), str(names[k]))
 
 
 def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
-    time, names = data["time"].to_numpy(), data["bearing"].to_numpy()
+    names, end = data["bearing"].to_numpy(), computed_until(data)
     ended = 1.0 if "failed_at" not in data.attrs else math.nan
-
-    def of(name: str) -> FloatArray:
-        return np.asarray(data[name].transpose("time", "bearing", ...).to_numpy())
-
-    u = _plan(of("bearing_displacement"))
-    capacity = lateral_capacity(data)
-    slip, overlap = of("interface_slip_size"), data["slip_capacity"].to_numpy()
-    axial = of("axial_force")
-    yield _peak("bearing displacement", "m", u, time, names)
-    yield _peak("bearing displacement over capacity", "1", u / capacity, time, names)
-    yield Peak("bearing displacement left", ended * float(u[-1].max()), "m", float(time[-1]))
-    yield _peak("interface slip", "m", slip, time, names)
-    yield _peak("interface slip over overlap", "1", slip / overlap, time, names)
-    yield Peak("interface slip left", ended * float(slip[-1].max()), "m", float(time[-1]))
-    yield _peak("rim force", "N", of("rim_force").max(axis=-1), time, names)
-    yield _peak("bearing force in plan", "N", _plan(of("bearing_force")), time, names)
-    yield _peak("axial force", "N", axial, time, names)
-    least = _peak("least axial force", "N", -axial, time, names)
+    u, slip = largest(data, "displacement"), largest(data, "slip")
+    over = Extreme(u.values / lateral_capacity(data), u.at)
+    overlap = Extreme(slip.values / data["slip_capacity"].to_numpy(), slip.at)
+    left_over = {name: ended * float(left(data, name).max()) for name in ("displacement", "slip")}
+    yield _peak("bearing displacement", "m", u, names)
+    yield _peak("bearing displacement over capacity", "1", over, names)
+    yield Peak("bearing displacement left", left_over["displacement"], "m", end)
+    yield _peak("interface slip", "m", slip, names)
+    yield _peak("interface slip over overlap", "1", overlap, names)
+    yield Peak("interface slip left", left_over["slip"], "m", end)
+    yield _peak("rim force", "N", largest(data, "rim_force"), names)
+    yield _peak("bearing force in plan", "N", largest(data, "force"), names)
+    yield _peak("axial force", "N", largest(data, "axial_force"), names)
+    least = _peak("least axial force", "N", largest(data, "axial_tension"), names)
     yield least._replace(value=0.0 - least.value)
 
 
 def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:
-    time, names = data["time"].to_numpy(), data["bearing"].to_numpy()
-    lifted = data["axial_force"].transpose("time", "bearing").to_numpy() <= 0.0
-    begins = lifted[1:] & ~lifted[:-1]
-    yield Peak("uplifts, all bearings", float(begins.sum() + lifted[0].sum()), "1")
-    lasts = (np.diff(time)[:, None] * lifted[1:]).sum(axis=0)
+    names = data["bearing"].to_numpy()
+    yield Peak("uplifts, all bearings", float(total(data, "uplifts")), "1")
+    lasts = total(data, "time_lifted")
     worst = int(np.argmax(lasts))
     where = str(names[worst]) if lasts[worst] > 0.0 else ""
     yield Peak("time lifted", float(lasts[worst]), "s", where=where)
-    yield _peak("gap of uplift", "m", uplift_gap(data).to_numpy(), time, names)
+    yield _peak("gap of uplift", "m", largest(data, "gap"), names)
 
 
 def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
-    time = data["time"].to_numpy()
-    shear = _plan(data["base_shear"].transpose("time", "axis").to_numpy())
-    yield _peak("base shear", "N", shear, time)
-    yield _peak("base shear over weight", "1", shear / float(data["weight"]), time)
+    shear = largest(data, "base_shear")
+    yield _peak("base shear", "N", shear)
+    over = Extreme(shear.values / float(data["weight"]), shear.at)
+    yield _peak("base shear over weight", "1", over)
     if data.sizes["level"] > 0:
-        floors = floor_acceleration(data).transpose("time", "level", "axis")
-        levels = floors["level"].to_numpy()
-        yield _peak("floor acceleration in plan, mean", "m/s2", _plan(floors), time, levels)
-        yield _peak(
-            "floor acceleration, vertical, mean", "m/s2", np.abs(floors.to_numpy()[..., 2]), time,
-            levels,
-        )  # fmt: skip
+        levels = data["level"].to_numpy()
+        plan, vertical = (largest(data, f"floor_{way}") for way in ("plan", "vertical"))
+        yield _peak("floor acceleration in plan, mean", "m/s2", plan, levels)
+        yield _peak("floor acceleration, vertical, mean", "m/s2", vertical, levels)
         on = data["level_node"].to_numpy() >= 0
         nodes = data["node"].to_numpy()[on]
-        moves = data["node_acceleration"].transpose("time", "node", "dof").to_numpy()[:, on]
-        yield _peak("acceleration in plan, worst node", "m/s2", _plan(moves), time, nodes)
-        vertical = np.abs(moves[..., 2])
-        yield _peak("acceleration, vertical, worst node", "m/s2", vertical, time, nodes)
+        for text, name in ((" in plan", "node_plan"), (", vertical", "node_vertical")):
+            if not on.any():  # none of them was recorded
+                continue
+            each = largest(data, name)
+            those = Extreme(each.values[on], each.at[on])
+            yield _peak(f"acceleration{text}, worst node", "m/s2", those, nodes)
     if data.sizes["level"] > 1:
         yield from _of_drifts(data)
 
 
 def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
-    time = data["time"].to_numpy()
-    mean = storey_drift(data)
-    sizes = _plan(mean)
-    yield _peak("storey drift, mean", "1", sizes, time, mean["storey"].to_numpy())
-    lines = drift_by_line(data)
-    if lines.sizes["line"] == 0:
+    storeys = [str(name) for name in data["level"].to_numpy()[1:]]
+    mean = largest(data, "drift")
+    yield _peak("storey drift, mean", "1", mean, storeys)
+    names, storey_of = storeys_of_lines(data)
+    if not names:
         return
-    each = _plan(lines)
-    yield _peak("storey drift, worst line", "1", each, time, lines["line"].to_numpy())
-    own = {str(name): k for k, name in enumerate(mean["storey"].to_numpy())}
-    of = np.array([own[str(name)] for name in lines["storey"].to_numpy()])
-    ratios = each.max(axis=0) / np.maximum(sizes.max(axis=0)[of], 1e-12)
+    each = largest(data, "line_drift")
+    yield _peak("storey drift, worst line", "1", each, names)
+    own = {name: k for k, name in enumerate(storeys)}
+    of = np.array([own[name] for name in storey_of])
+    ratios = each.values / np.maximum(mean.values[of], 1e-12)
     worst = int(np.argmax(ratios))
-    where = str(lines["line"].to_numpy()[worst])
+    where = names[worst]
     yield Peak("torsion: worst line over mean drift", float(ratios[worst]), "1", where=where)
 
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:
     yield Peak("energy ledger: error over input", energy_error(data), "1")
-    yield Peak("duration computed", float(data["time"][-1]), "s")
+    yield Peak("duration computed", computed_until(data), "s")
     yield Peak("seconds of the time loop", float(data.attrs["seconds_loop"]), "s")
-
-
-def _plan(values: FloatArray | xr.DataArray) -> FloatArray:
-    # Size of the horizontal part, the last dimension beginning with x and y.
-    return np.asarray(np.linalg.norm(np.asarray(values)[..., :2], axis=-1))

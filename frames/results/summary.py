@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.results.auditing import doubts_of
+from frames.results.kept import require_steps
 from frames.results.measures import energy_error, floor_acceleration, storey_drift
 from frames.results.storage import save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY
@@ -51,6 +52,7 @@ ROWS = (
 
 def summary_of(data: xr.Dataset) -> dict[str, float]:
     """Return the numbers of the summary by SI name (`ROWS`), from one result."""
+    require_steps(data, "the summary")
     u = np.linalg.norm(data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
     shear = np.linalg.norm(data["base_shear"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
     floors = np.linalg.norm(floor_acceleration(data).sel(axis=["x", "y"]).to_numpy(), axis=-1)

@@ -87,3 +87,27 @@ def test_every_total(total: int) -> None:
     in_pieces(loop.advance, lambda: loop.done, total, shares.append)
     assert loop.done == total
     assert shares[-1] == 1.0
+
+
+def test_no_piece_goes_beyond_its_room() -> None:
+    """Room for seven units at a time; larger pieces are not asked for where they end early."""
+    loop, seen, first = Loop(), [], [0]
+
+    def room() -> int:
+        if loop.done == first[0] + 7:
+            first[0] = loop.done
+            sleep(0.001)  # not counted as the loop's
+        return first[0] + 7
+
+    def advance(last: int, work: int) -> int:
+        assert last <= first[0] + 7
+        return loop.advance(last, work)
+
+    def done() -> int:
+        return loop.done
+
+    assert in_pieces(advance, done, 1000, seen.append, room=room) is RunStatus.OK
+    assert loop.done == 1000
+    assert first[0] == 994
+    assert max(loop.calls) <= 8 * 50  # the first pieces alone spend their work
+    assert seen == [k / 50 for k in range(1, 51)]
