@@ -198,8 +198,7 @@ def _law(law: Law) -> tuple[int, FloatArray]:
     elif isinstance(law, Stop):
         kind, values = kinds.STOP, (law.gap, law.stiffness, law.damping, law.soft)
     else:
-        damping = 0.75 * (1.0 - law.restitution**2)
-        kind, values = kinds.HERTZ, (law.gap, law.stiffness, law.exponent, damping)
+        kind, values = kinds.HERTZ, (law.gap, law.stiffness, law.exponent, law.damping)
     return kind, _padded(values)
 
 

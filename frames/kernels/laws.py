@@ -19,6 +19,7 @@ BILINEAR, BOUC_WEN, TIE, VISCOUS, MAXWELL, STOP, HERTZ, HINGES = range(8)
 _FINEST = (
     0.1  # of the yield deformation: substep of the Bouc-Wen law (4th order: 1e-5 of its force)
 )
+_PINCHED = 0.3  # of the spread of pinching: substep there
 _SDIRK = 1.0 - math.sqrt(0.5)  # Alexander (1977): two stages, second order, L-stable
 _MOST = 60  # iterations of a scalar solution
 
@@ -64,7 +65,11 @@ def bouc_wen(par: Floats, old: Floats, new: Floats, d_old: float, d: float) -> t
     z, energy = old[0], old[1]
     way = (d - d_old) / scale
     sense = math.copysign(1.0, way) if way != 0.0 else math.copysign(1.0, -z)
-    pieces = int(min(math.ceil(abs(way) / min(_FINEST, 0.5 / par[2])), 1e5))
+    finest = min(_FINEST, 0.5 / par[2])
+    if par[7] > 0.0:
+        depth = par[7] * (1.0 - math.exp(-par[8] * energy))
+        finest = min(finest, _PINCHED * (par[10] + par[11] * energy) * (par[12] + depth))
+    pieces = int(min(math.ceil(abs(way) / finest), 1e5))
     for _ in range(pieces):
         h = way / pieces
         k_1 = bouc_wen_rate(par, z, energy, sense)
@@ -195,7 +200,7 @@ def stop(par: Floats, d: float, v: float, rate: float) -> tuple[float, float]:
 def hertz(
     par: Floats, old: Floats, new: Floats, d: float, v_old: float, v: float, rate: float
 ) -> tuple[float, float]:
-    """Hertz' contact with damping; par: gap, k, n, 3/4 (1 - e^2); state: speed of approach."""
+    """Hertz' contact with damping; par: gap, k, n, damping; state: speed of approach."""
     x = d - par[0]
     new[0] = old[0]
     if x <= 0.0:

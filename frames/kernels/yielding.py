@@ -27,6 +27,7 @@ WORK_DONE = 8
 
 _MOST = 40  # iterations over the loose parts
 _HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
+_CLOSER = 1e-3  # of the tolerance of the whole: what parts may lack
 _TRIES = 12  # of a step of Newton's method
 _LESS = 0.7  # of the error before: then a step does
 _FLAT = 0.2  # of the slope of the potential at the start of a step: then it does, too
@@ -178,7 +179,7 @@ def begin_parts(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
     parts.scheme[1] = 1.0 - settings.gamma / settings.beta
     parts.scheme[2] = run.clock[0].dt * (1.0 - 0.5 * settings.gamma / settings.beta)
     parts.scheme[3] = c_k
-    parts.scheme[4] = settings.force_tolerance
+    parts.scheme[4] = _CLOSER * settings.force_tolerance
     set_mode_flexibility(model, parts, c_m, c_c, c_k)
     for i in range(parts.d.shape[0]):
         total = parts.d_old[i]
@@ -385,6 +386,8 @@ def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
                     loosen(parts, k)
                     more = True
         if not more:
+            for n in range(parts.number[0]):  # what the frame gives: so no errors add up
+                parts.d[parts.active[n]] += parts.vector[1, n]
             return True
     return False
 

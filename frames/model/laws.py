@@ -11,6 +11,8 @@ import math
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from scipy.optimize import brentq
+
 from frames._errors import ModelError
 from lir_element.door import require_between, require_non_negative, require_positive, require_type
 
@@ -255,7 +257,7 @@ class Stop:
         Parameters
         ----------
         restitution : float
-            Speed after over speed before the impact [-], in (0, 1].
+            Speed after over speed before the impact [-], in [0.15, 1].
         stiffness : float
             Of the stop [N/m].
         mass : float
@@ -264,24 +266,32 @@ class Stop:
         Returns
         -------
         float
-            c [N s/m], ``2 xi (k m)^(1/2)`` with ``xi = -ln e / (pi^2 + ln^2 e)^(1/2)``
-            (Anagnostopoulos 1988): for one that may pull at the end of the contact. A stop does
-            not, and gives back up to some per cent more.
+            c = 2 xi (k m)^(1/2) [N s/m] of a stop that does not pull, with
+            ``e = exp(-xi / w (pi - atan2(2 xi w, 1 - 2 xi^2)))``, ``w = (1 - xi^2)^(1/2)``
+            (Schwager and Poeschel 2007, eq. 12).
         """
         what = "Stop.damping_for: restitution"
-        e = require_between(what, restitution, 1e-3, 1.0, "-", error=ModelError)
+        e = require_between(what, restitution, 0.15, 1.0, "-", error=ModelError)
         k = require_positive("Stop.damping_for: stiffness [N/m]", stiffness, error=ModelError)
         m = require_positive("Stop.damping_for: mass [kg]", mass, error=ModelError)
-        ratio = -math.log(e) / math.hypot(math.pi, math.log(e))
-        return 2.0 * ratio * math.sqrt(k * m)
+
+        def left(ratio: float) -> float:
+            w = math.sqrt(1.0 - ratio * ratio)
+            turn = math.pi - math.atan2(2.0 * ratio * w, 1.0 - 2.0 * ratio * ratio)
+            return math.exp(-ratio / w * turn) - e
+
+        ratio = brentq(left, 0.0, 1.0 - 1e-9, xtol=1e-12) if e < 1.0 else 0.0
+        return 2.0 * float(ratio) * math.sqrt(k * m)
 
 
 @dataclass(frozen=True, kw_only=True)
 class HertzStop:
     """A wall behind a gap with Hertz' contact and damping: pounding of bodies.
 
-    ``f = k x^n (1 + 3/4 (1 - e^2) v / v_0)`` for a penetration x > 0, v_0 the speed of approach.
-    Source: Muthukumar and DesRoches (2006), eq. 9; Lankarani and Nikravesh (1990).
+    ``f = k x^n (1 + a v / v_0)`` for a penetration x > 0, v_0 the speed of approach (Hunt and
+    Crossley 1975). The damping a follows from the restitution by ``a (1 + e) = ln((1 + a) /
+    (1 - a e))``, which is exact for any n (Gonthier et al. 2004, eq. 13); near e = 1 it is the 3/4
+    (1 - e^2) of Muthukumar and DesRoches (2006).
 
     Attributes
     ----------
@@ -290,7 +300,7 @@ class HertzStop:
     stiffness : float
         k [N/m^exponent].
     restitution : float
-        e, speed after over speed before the impact [-], in [0.3, 1].
+        e, speed after over speed before the impact [-], in [0.05, 1].
     exponent : float
         n [-], in [1, 3]; 1.5 of two spheres.
     """
@@ -304,8 +314,20 @@ class HertzStop:
         """Check the numbers."""
         require_non_negative("HertzStop: gap [m]", self.gap, error=ModelError)
         _positive(self, "stiffness", "N/m^exponent")
-        _share(self, "restitution", 1.0, 0.3)
+        _share(self, "restitution", 1.0, 0.05)
         _share(self, "exponent", 3.0, 1.0)
+
+    @property
+    def damping(self) -> float:
+        """Damping a of the force at the speed of approach over the elastic one [-]."""
+        e = self.restitution
+
+        def open_loop(a: float) -> float:
+            return a * (1.0 + e) - math.log1p(a) + math.log1p(-a * e)
+
+        if e > 1.0 - 1e-6:
+            return 0.0
+        return float(brentq(open_loop, 1e-3 * (1.0 - e), (1.0 - 1e-12) / e, xtol=1e-14))
 
 
 @dataclass(frozen=True, kw_only=True)
