@@ -18,7 +18,9 @@ import numpy as np
 
 from frames import (
     AuditWarning,
+    Bilinear,
     GroundMotion,
+    PlasticHinge,
     demo,
     drift_by_line,
     floor_acceleration,
@@ -95,6 +97,9 @@ TERMS = {
     "rims": "work done on the rims: strain and damping",
     "contact": "work done on the axial contacts: strain and damping",
     "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",
+    "yielding": "taken up by yielding of the structure, what hardening stores included",
+    "dampers": "dissipated by the dampers of the structure",
+    "stops": "work done on walls and ties: strain, damping, yielding",
     "numerical": "left over: Newton's tolerance, and what the integrator itself takes out",
 }
 
@@ -111,7 +116,9 @@ def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
     )
     wave = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motion = GroundMotion(x=2.0 * wave, y=wave, z=0.5 * wave, dt=0.01, name="sine")
-    model = moment_frame((1, 1), 1, bearing=bearing)
+    model = moment_frame((1, 1), 1, bearing=bearing, hinges={"column": PlasticHinge(moment_y=1e6)})
+    brace = Bilinear(stiffness=1e7, yield_force=1e5)
+    model.add_link("brace", "base-0-0", "floor-1-1-0", brace)
     history = time_history(model, motion, level="auto")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
@@ -180,9 +187,12 @@ def coordinates(history: xr.Dataset) -> list[str]:
         "dof": "displacements and rotations of a node",
         "term": "terms of the energy (below)",
         "level": "names of the levels, from below",
+        "link": "names of the nonlinear links; only of models that have some",
+        "hinge": 'plastic hinges, "member:end"; only of models that have some',
+        "hinge_force_component": "forces on a hinge, local axes of its member",
     }
     described(history.coords, texts, "coordinates")
-    fixed = ("axis", "surface", "end", "dof")
+    fixed = ("axis", "surface", "end", "dof", "hinge_force_component")
     rows = [
         [code(name), text + ("" if name not in fixed else ": " + _values(history, name))]
         for name, text in texts.items()

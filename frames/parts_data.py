@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.kernel_data import MOST_HALVINGS
+from frames.parts_layout import STATE_SIZE, WIDEST
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -16,12 +17,6 @@ if TYPE_CHECKING:
     from frames.assembly.nonlinear import NonlinearParts
 
     Array = npt.NDArray[Any]
-
-WIDEST = 5
-"""Most deformations of one part."""
-
-STATE_SIZE = 10
-"""Numbers of state of a part, at most."""
 
 _POOL = 256 * 2**20  # bytes of flexibilities kept between steps, at most
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.kernels.hinges import HINGE, STRIDE, is_inside, set_stress, surface
-from frames.kernels.laws import BOUC_WEN
+from frames.kernels.hinges import is_inside, set_stress, surface
 from frames.model.laws import Bilinear, BoucWen
-from frames.parts_data import STATE_SIZE, parts_arrays
+from frames.parts_data import parts_arrays
+from frames.parts_layout import BOUC_WEN, HINGE, STATE_SIZE, STRIDE
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.kernels.hinges import N_PLASTIC, place
-from frames.kernels.yielding import WORK_DONE
+from frames.kernels.hinges import place
 from frames.model.laws import PlasticHinge
+from frames.parts_layout import N_PLASTIC, WORK_DONE
 from frames.results.kept import require_recorded
 from lir_element.results.dataset import labelled
 

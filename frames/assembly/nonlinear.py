@@ -11,8 +11,6 @@ from scipy import sparse
 
 from frames.assembly.end_zones import at_ends
 from frames.assembly.members import local_geometric_stiffness, local_stiffness
-from frames.kernels import laws as kinds
-from frames.kernels.hinges import HINGE, STRIDE
 from frames.model.laws import (
     Bilinear,
     BoucWen,
@@ -23,6 +21,20 @@ from frames.model.laws import (
     ViscousDamper,
     elastic_stiffness,
 )
+from frames.parts_layout import (
+    BILINEAR,
+    BOUC_WEN,
+    CONSTANTS,
+    HERTZ,
+    HINGE,
+    HINGED,
+    HINGES,
+    MAXWELL,
+    STOP,
+    STRIDE,
+    TIE,
+    VISCOUS,
+)
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
@@ -30,14 +42,8 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
     from frames.model.parts import Link
 
-CONSTANTS = 50
-"""Constants of a part, at most: those of two hinges."""
-
 BASIC = np.array([6, 5, 11, 4, 10])
 """Places among a member's 12 local displacements of its five deformations, the rest being held."""
-
-HINGED = -1.0
-"""Marks a deformation of a hinged member among the elastic stiffnesses of parts."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -156,7 +162,7 @@ def nonlinear_parts(
     for name in hinged:
         place = members.names.index(name)
         length = float(members.arrays.length[place])
-        kind.append(kinds.HINGES)
+        kind.append(HINGES)
         par.append(_hinges(stiffness[place], fixed_end[place], frame.hinges[name]))
         elastic.extend([HINGED] * 5)
         scale.extend([1.0, *[1.0 / length] * 4])
@@ -178,9 +184,9 @@ def _law(law: Law) -> tuple[int, FloatArray]:
     # Its number and constants, in the order frames/kernels/laws.py reads them.
     values: tuple[float, ...]
     if isinstance(law, Bilinear):
-        kind, values = kinds.BILINEAR, (law.stiffness, law.yield_force, _modulus(law))
+        kind, values = BILINEAR, (law.stiffness, law.yield_force, _modulus(law))
     elif isinstance(law, BoucWen):
-        kind = kinds.BOUC_WEN
+        kind = BOUC_WEN
         values = (
             law.stiffness, law.hardening, law.exponent, law.shape, law.strength_loss,
             law.stiffness_loss, law.yield_deformation,
@@ -191,14 +197,14 @@ def _law(law: Law) -> tuple[int, FloatArray]:
                 pinch.slip, pinch.rate, pinch.place, pinch.width, pinch.spreading, pinch.severity,
             )  # fmt: skip
     elif isinstance(law, Tie):
-        kind, values = kinds.TIE, (law.stiffness, law.yield_force, _modulus(law), law.slack)
+        kind, values = TIE, (law.stiffness, law.yield_force, _modulus(law), law.slack)
     elif isinstance(law, ViscousDamper):
-        kind = kinds.VISCOUS if law.stiffness == math.inf else kinds.MAXWELL
+        kind = VISCOUS if law.stiffness == math.inf else MAXWELL
         values = (law.coefficient, law.exponent, law.linear_below, law.stiffness)
     elif isinstance(law, Stop):
-        kind, values = kinds.STOP, (law.gap, law.stiffness, law.damping, law.soft)
+        kind, values = STOP, (law.gap, law.stiffness, law.damping, law.soft)
     else:
-        kind, values = kinds.HERTZ, (law.gap, law.stiffness, law.exponent, law.damping)
+        kind, values = HERTZ, (law.gap, law.stiffness, law.exponent, law.damping)
     return kind, _padded(values)
 
 

@@ -11,18 +11,12 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
+from frames.parts_layout import HINGE, N_PLASTIC, STRIDE
 from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
-N_PLASTIC = 6
-"""Plastic elongation, rotation about y and z of hinge i, then of hinge j: first in the state."""
-
-HINGE = 30
-"""Where the constants of hinge i begin in `par`; those of hinge j follow after `STRIDE`."""
-
-STRIDE = 10
 _CORNER = 0.02  # rounds the surface where no moment, and where no axial force is left
 _TOLERANCE = 1e-11  # of the surface
 _MOST = 40

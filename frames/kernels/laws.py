@@ -11,11 +11,11 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
+from frames.parts_layout import BILINEAR, BOUC_WEN, MAXWELL, STOP, TIE, VISCOUS
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
-BILINEAR, BOUC_WEN, TIE, VISCOUS, MAXWELL, STOP, HERTZ, HINGES = range(8)
 _FINEST = (
     0.1  # of the yield deformation: substep of the Bouc-Wen law (4th order: 1e-5 of its force)
 )

@@ -13,17 +13,25 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
 from frames.kernels.effective import effective
-from frames.kernels.hinges import N_PLASTIC, hinged_member, set_forces
-from frames.kernels.laws import BOUC_WEN, HERTZ, HINGES, MAXWELL, STOP, VISCOUS, uniaxial
+from frames.kernels.hinges import hinged_member, set_forces
+from frames.kernels.laws import uniaxial
+from frames.parts_layout import (
+    BOUC_WEN,
+    HERTZ,
+    HINGES,
+    MAXWELL,
+    N_PLASTIC,
+    STOP,
+    VISCOUS,
+    WIDEST,
+    WORK_DONE,
+)
 from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run, Setup
     from frames.parts_data import Parts
     from lir_element.layout import Floats, Words
-
-WORK_DONE = 8
-"""Where the state of a part has the work it has done; of hinge j it is the next one."""
 
 _MOST = 40  # iterations over the loose parts
 _HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
@@ -45,7 +53,7 @@ def part_trial(
     """
     at = first[k]
     if kind[k] == HINGES:
-        end = at + 5
+        end = at + WIDEST
         yields = hinged_member(
             par[k], old[k], new[k], d[at:end], g[at:end], slope[at:end], small
         )  # fmt: skip
@@ -272,7 +280,7 @@ def set_part_matrix(model: Model, run: Run, parts: Parts) -> None:
 @inlined
 def part_width(parts: Parts, i: int) -> int:
     """Return how many deformations the part has whose first one is `i`."""
-    return 5 if i + 1 < parts.d.shape[0] and parts.elastic[i] < 0.0 else 1
+    return WIDEST if parts.elastic[i] < 0.0 else 1
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""Structures that yield, are damped and run into walls: against other routes through the program."""
+"""Structures that yield, are damped and hit walls: against other routes through the program."""
 
 from __future__ import annotations
 
@@ -50,15 +50,17 @@ def bearing(friction=0.05, capacity=0.2):
 def waves(size=2.2, axes="xy"):
     t = np.arange(0.0, 6.0, 0.01)
     shape = np.exp(-(((t - 2.2) / 1.5) ** 2))
-    parts = {"x": np.sin(math.pi * t), "y": 0.7 * np.sin(1.6 * math.pi * t), "z": 0.1 * np.sin(20 * t)}
+    parts = {
+        "x": np.sin(math.pi * t),
+        "y": 0.7 * np.sin(1.6 * math.pi * t),
+        "z": 0.1 * np.sin(20 * t),
+    }
     return GroundMotion(dt=0.01, **{axis: size * parts[axis] * shape for axis in axes})
 
 
 def stick(law=None, storeys=3, **options):
     options = {"damping": ModalDamping(0.02)} | options
-    return shear_building(
-        bearing(), MASS, STIFFNESS, storeys=storeys, storey_law=law, **options
-    )
+    return shear_building(bearing(), MASS, STIFFNESS, storeys=storeys, storey_law=law, **options)
 
 
 def yielding(stiffness):
@@ -151,7 +153,9 @@ def test_storeys_are_in_equilibrium(stack, hinged):
 
 
 def test_a_floor_that_is_not_damped_is_moved_by_its_storey():
-    frame = moment_frame((1, 1), 2, bearing=bearing(0.1), hinges=STEEL, damping=None, floor_load=3e3)
+    frame = moment_frame(
+        (1, 1), 2, bearing=bearing(0.1), hinges=STEEL, damping=None, floor_load=3e3
+    )
     data = time_history(frame, waves(), dt=DT)
     top = [name for name in frame.nodes if name.startswith("floor-2")]
     mass = assemble(frame).node_mass[[list(frame.nodes).index(name) for name in top], 0]
@@ -216,14 +220,14 @@ def test_a_linear_damper_is_a_damping_matrix():
     )
     one, two = (time_history(frame, waves(), dt=DT) for frame in (linked, given))
     scale = float(np.abs(two["node_displacement"]).max())
-    assert_allclose(
-        one["node_displacement"], two["node_displacement"], rtol=0.0, atol=1e-5 * scale
-    )
+    assert_allclose(one["node_displacement"], two["node_displacement"], rtol=0.0, atol=1e-5 * scale)
     dampers = one["energy"].isel(time=-1)
     assert_allclose(
         dampers.sel(term="dampers"), two["energy"].isel(time=-1).sel(term="damping"), rtol=1e-4
     )
-    assert float(np.abs(one["base_shear"] - two["base_shear"]).max()) > 0.0  # ours counts the damper
+    assert (
+        float(np.abs(one["base_shear"] - two["base_shear"]).max()) > 0.0
+    )  # ours counts the damper
 
 
 @pytest.mark.parametrize(
@@ -251,7 +255,9 @@ def test_the_ledger_closes_with_every_law(law):
 def test_finer_steps_find_the_same(integrator):
     found = []
     for dt in (0.01, 0.0025, 0.000625):
-        data = time_history(stick(yielding), waves(), dt=dt, integrator=integrator, spectral_radius=0.9)
+        data = time_history(
+            stick(yielding), waves(), dt=dt, integrator=integrator, spectral_radius=0.9
+        )
         worst = np.abs(data["link_deformation"]).max("time")
         found.append((worst / data["link_yield_deformation"]).to_numpy())
     first, second = (np.abs(one / found[2] - 1.0).max() for one in found[:2])
@@ -363,10 +369,22 @@ def _braced(law, direction="axial"):
     [
         (lambda f: f.add_link("a", "base", "none", yielding(1e6)), ModelError, 'no node "none"'),
         (lambda f: f.add_link("a", "base", "floor-1", 3.0), TypeError, "law of link"),
-        (lambda f: f.add_link("a", "base", "floor-1", yielding(1e6), "up"), ModelError, "direction"),
-        (lambda f: f.add_link("a", "base", "floor-1", yielding(1e6), (0, 0, 0)), ModelError, "no length"),
+        (
+            lambda f: f.add_link("a", "base", "floor-1", yielding(1e6), "up"),
+            ModelError,
+            "direction",
+        ),
+        (
+            lambda f: f.add_link("a", "base", "floor-1", yielding(1e6), (0, 0, 0)),
+            ModelError,
+            "no length",
+        ),
         (lambda f: f.add_moat("m", ["base"], yielding(1e6)), TypeError, "law of moat"),
-        (lambda f: f.add_moat("m", ["base"], {"z+": Stop(gap=0.1, stiffness=1.0)}), ValueError, "side of moat"),
+        (
+            lambda f: f.add_moat("m", ["base"], {"z+": Stop(gap=0.1, stiffness=1.0)}),
+            ValueError,
+            "side of moat",
+        ),
         (lambda f: f.add_hinges("none", STEEL["beam"]), ModelError, 'no member "none"'),
     ],
 )

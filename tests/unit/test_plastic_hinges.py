@@ -12,9 +12,9 @@ from scipy.optimize import minimize
 from frames import ModelError, PlasticHinge
 from frames.assembly.members import local_stiffness, member_arrays
 from frames.assembly.nonlinear import BASIC, _hinges
-from frames.kernels.hinges import HINGE, STRIDE, hinged_member, place, surface
+from frames.kernels.hinges import hinged_member, place, surface
 from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
-from frames.parts_data import STATE_SIZE
+from frames.parts_layout import HINGE, STATE_SIZE, STRIDE
 
 LENGTH = 3.5
 YIELD = 3.45e8  # Pa
@@ -90,7 +90,9 @@ def test_the_step_is_the_closest_point_of_the_elastic_trial(seed):
     s, _, new, _ = trial(par, old, d)
     flex = np.linalg.inv(k)
     hard = np.array([par[HINGE + STRIDE * h + 5 + i] for h in (0, 1) for i in range(3)])
-    to_six = np.array([[float(place(h, i) == c) for c in range(5)] for h in (0, 1) for i in range(3)])
+    to_six = np.array(
+        [[float(place(h, i) == c) for c in range(5)] for h in (0, 1) for i in range(3)]
+    )
     scale = np.array([1e7, 1e6, 1e6, 1e6, 1e6, *[1e7, 1e6, 1e6] * 2])
 
     def energy(x):  # complementary: member forces and back stresses

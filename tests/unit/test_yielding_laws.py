@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.integrate import solve_ivp
 from frames import Bilinear, BoucWen, HertzStop, ModelError, Pinching, Stop, Tie, ViscousDamper
 from frames.assembly.nonlinear import _law
 from frames.kernels.laws import uniaxial
-from frames.parts_data import STATE_SIZE
+from frames.parts_layout import STATE_SIZE
 
 LAWS = {
     "bilinear": Bilinear(stiffness=2e6, yield_force=1e4, hardening=0.05),
@@ -117,7 +118,7 @@ def test_bouc_wen_solves_its_equation(name):
         return [sense * slope, sense * z]
 
     y, found = np.zeros(2), [0.0]
-    for before, after in zip(steps, steps[1:], strict=False):
+    for before, after in itertools.pairwise(steps):
         way = (after - before) / u_y
         if way:
             done = solve_ivp(
@@ -143,7 +144,10 @@ def test_degradation_takes_strength_and_stiffness_off():
     half = len(steady) // 2
     assert np.abs(weak[half:]).max() < 0.95 * np.abs(steady[half:]).max()
     law, d = LAWS["degrading"], cycles()
-    forces = [np.abs(weak[part] - 0.02 * 2e6 * d[part]).max() for part in (slice(0, half), slice(half, None))]
+    forces = [
+        np.abs(weak[part] - 0.02 * 2e6 * d[part]).max()
+        for part in (slice(0, half), slice(half, None))
+    ]
     assert forces[1] < 0.98 * law.yield_force
 
 
