@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from frames._types import SparseMatrix
     from frames.assembly.basis import Basis
-    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.nonlinear_parts import NonlinearParts
 
     Array = npt.NDArray[Any]
 

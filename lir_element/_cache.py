@@ -24,8 +24,8 @@ from numba.core.caching import NullCache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py", "parts_layout.py",
-            "bundles/*.py", "opensees/block/*.py")  # fmt: skip
+COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
+            "parts_layout.py", "bundles/*.py", "opensees/block/*.py")  # fmt: skip
 """Patterns of the sources, in a package, that kernels consist of or import."""
 
 VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)

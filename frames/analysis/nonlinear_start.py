@@ -15,7 +15,7 @@ from frames.parts_layout import BOUC_WEN, HINGE, STATE_SIZE, STRIDE
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.basis import Basis
-    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.nonlinear_parts import NonlinearParts
     from frames.assembly.system import System
     from frames.parts_data import Parts
 

@@ -25,6 +25,7 @@ from frames.assembly.assemble import (
     scatter,
 )
 from frames.assembly.end_zones import at_ends
+from frames.assembly.nonlinear import with_axial_forces
 from frames.model.axes import matrix_to_global, to_global, to_local
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
@@ -222,7 +223,7 @@ def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
     require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
     axial = member_axial_forces(system, first_displacement(system, _with_points(data)))
-    system = replace(system, parts=system.parts.loaded(system.members, axial))
+    system = replace(system, parts=with_axial_forces(system.parts, system.members, axial))
     beyond = forces_beyond(system, data)
     return _Structure(system, axial, data, u.reshape(len(u), -1), beyond)
 

@@ -22,6 +22,7 @@ from frames.assembly.assemble import (
     node_geometric_stiffness,
 )
 from frames.assembly.basis import Basis, build_basis
+from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import plausible
 from lir_element.door import require_choice, require_type
@@ -165,7 +166,7 @@ def gravity(
     linear = first_displacement(system, points)
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
-    system = replace(system, parts=system.parts.loaded(system.members, member_forces))
+    system = replace(system, parts=with_axial_forces(system.parts, system.members, member_forces))
     basis = build_basis(system, geometric, frame.damping)
     found = find_equilibrium(system, basis, linear, levels, None)
     compiling = found.compiling

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.nonlinear_parts import NonlinearParts
     from frames.assembly.system import System
     from frames.kernel_data import Output
     from frames.model.contents import FrameContents

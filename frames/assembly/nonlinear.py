@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from scipy import sparse
 
 from frames.assembly.end_zones import at_ends
 from frames.assembly.members import local_geometric_stiffness, local_stiffness
+from frames.assembly.nonlinear_parts import NonlinearParts
 from frames.model.laws import (
     Bilinear,
     BoucWen,
@@ -37,93 +38,13 @@ from frames.parts_layout import (
 )
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, IntArray, SparseMatrix
+    from frames._types import FloatArray
     from frames.assembly.system import MemberTable
     from frames.model.contents import FrameContents
     from frames.model.parts import Link
 
 BASIC = np.array([6, 5, 11, 4, 10])
 """Places among a member's 12 local displacements of its five deformations, the rest being held."""
-
-
-@dataclass(frozen=True, repr=False)
-class NonlinearParts:
-    """Links and hinged members of a frame; `n` parts with `m` deformations.
-
-    Attributes
-    ----------
-    links : tuple of Link
-        The links, first among the parts.
-    hinged : tuple of str
-        Members with hinges, after them.
-    kind : ndarray, (n,)
-        Law by number (frames/kernels/laws.py).
-    first : ndarray, (n + 1,)
-        First deformation of each part.
-    par : ndarray, (n, 50)
-        Constants of the laws.
-    elastic : ndarray, (m,)
-        Stiffness in the linear structure [N/m, N m/rad]; 0 of what is put in under permanent loads,
-        -1 of hinged members, whose stiffness is the member's.
-    scale : ndarray, (m,)
-        Factor that makes a force of a moment: 1 / length of the member [1, 1/m].
-    node_rows : csr_array, (m, 6 n_nodes)
-        Deformations from the nodes' displacements.
-    """
-
-    links: tuple[Link, ...]
-    hinged: tuple[str, ...]
-    kind: IntArray
-    first: IntArray
-    par: FloatArray
-    elastic: FloatArray
-    scale: FloatArray
-    node_rows: SparseMatrix
-
-    def loaded(self, members: MemberTable, axial_forces: FloatArray) -> NonlinearParts:
-        """Return the parts with the geometric stiffness of the hinged members.
-
-        A hinge turns the member's end against its node, so that the geometric stiffness acts on
-        what is left: a member that turns in hinges at both ends stays straight.
-
-        Parameters
-        ----------
-        members : MemberTable
-            The members.
-        axial_forces : ndarray, (n_members,)
-            Axial forces, tension positive [N].
-
-        Returns
-        -------
-        NonlinearParts
-            The same parts.
-        """
-        if not self.hinged:
-            return self
-        own = local_geometric_stiffness(members.arrays, axial_forces)
-        whole = local_stiffness(members.arrays) + own
-        rows, par = self.node_rows.tolil(copy=True), self.par.copy()
-        for k, name in enumerate(self.hinged, start=len(self.links)):
-            place = members.names.index(name)
-            basic = whole[place][np.ix_(BASIC, BASIC)]
-            par[k, :25] = basic.ravel()
-            to_five = np.linalg.solve(basic, whole[place][BASIC])
-            rows[self.first[k] : self.first[k + 1], members.dofs[place]] = _globally(
-                to_five, members, place
-            )
-        return replace(self, par=par, node_rows=sparse.csr_array(rows))
-
-    def own_stiffness(self) -> FloatArray:
-        """Return the elastic stiffness of each deformation by itself, (m,) [N/m, N m/rad]."""
-        found = self.elastic.clip(0.0)
-        for k in range(len(self.links), len(self.kind)):
-            found[self.first[k] : self.first[k + 1]] = self.par[k, :25:6]
-        return found
-
-    def stiffness(self) -> SparseMatrix:
-        """Return the elastic stiffness of the links over all nodal displacements."""
-        values = sparse.diags_array(self.elastic.clip(0.0))
-        return sparse.csr_array(self.node_rows.T @ values @ self.node_rows)
 
 
 def nonlinear_parts(
@@ -178,6 +99,43 @@ def nonlinear_parts(
         scale=np.array(scale, dtype=np.float64),
         node_rows=sparse.csr_array(np.concatenate(rows) if rows else np.zeros((0, 6 * len(index)))),
     )
+
+
+def with_axial_forces(
+    parts: NonlinearParts, members: MemberTable, axial_forces: FloatArray
+) -> NonlinearParts:
+    """Return the parts with the geometric stiffness of the hinged members.
+
+    A hinge turns the member's end against its node, so that the geometric stiffness acts on what
+    is left: a member that turns in hinges at both ends stays straight.
+
+    Parameters
+    ----------
+    parts : NonlinearParts
+        The parts.
+    members : MemberTable
+        The members.
+    axial_forces : ndarray, (n_members,)
+        Axial forces, tension positive [N].
+
+    Returns
+    -------
+    NonlinearParts
+        The same parts.
+    """
+    if not parts.hinged:
+        return parts
+    own = local_geometric_stiffness(members.arrays, axial_forces)
+    whole = local_stiffness(members.arrays) + own
+    rows, par = parts.node_rows.tolil(copy=True), parts.par.copy()
+    for k, name in enumerate(parts.hinged, start=len(parts.links)):
+        place = members.names.index(name)
+        basic = whole[place][np.ix_(BASIC, BASIC)]
+        par[k, :25] = basic.ravel()
+        to_five = np.linalg.solve(basic, whole[place][BASIC])
+        five = slice(parts.first[k], parts.first[k + 1])
+        rows[five, members.dofs[place]] = _globally(to_five, members, place)
+    return replace(parts, par=par, node_rows=sparse.csr_array(rows))
 
 
 def _law(law: Law) -> tuple[int, FloatArray]:

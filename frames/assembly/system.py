@@ -13,7 +13,7 @@ from frames.assembly.members import MemberArrays, local_geometric_stiffness
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.assembly.nonlinear import NonlinearParts
+    from frames.assembly.nonlinear_parts import NonlinearParts
     from lir_element import Features, LIRBearing
 
 
