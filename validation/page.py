@@ -30,6 +30,7 @@ CLAIMS = (
     "opensees_element",
     "opensees_macro_model",
     "opensees_superstructure",
+    "opensees_yielding",
 )
 """The modules of the claims, in the order of the index."""
 
@@ -238,8 +239,10 @@ def index(folder: Path = FOLDER) -> str:
         "both programs (`python -m validation.measurements.opensees_public_models`), "
         "[slip.md](slip.md), the slip of the interface where rims are met "
         "(`python -m validation.measurements.slip`), "
-        "and [random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
-        "(`python -m validation.random_scenes`).",
+        "[random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
+        "(`python -m validation.random_scenes`), "
+        "and [yielding.md](yielding.md), random buildings that yield, each at two steps "
+        "(`python -m validation.measurements.yielding`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "

@@ -17,6 +17,7 @@ from validation.claims import (
     double_pendulum,
     newhall,
     opensees_superstructure,
+    opensees_yielding,
     shake_table,
     static_test,
 )
@@ -48,6 +49,15 @@ def test_opensees_superstructure():
     page = opensees_superstructure.page(None)
     assert_all_hold(page.checks)
     plt.close(page.figures["histories"])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
+def test_opensees_yielding():
+    page = opensees_yielding.page(None)
+    assert_all_hold(page.checks)
+    for drawn in page.figures.values():
+        plt.close(drawn)
 
 
 def test_shake_table():

@@ -62,12 +62,16 @@ def random_yielding(seed: int, number: int) -> tuple[Frame, GroundMotion, dict[s
 
 
 def _bearing(rng: np.random.Generator, load: float) -> LIRBearing:
-    radius = math.sqrt(load / PRESSURE / math.pi) * rng.uniform(0.8, 1.3)
+    # The plates' edges rise by about edge^2 / radius together: less than the slider's height.
+    slider = math.sqrt(load / PRESSURE / math.pi) * rng.uniform(0.8, 1.3)
+    radius, height = rng.uniform(0.8, 2.5), rng.uniform(0.8, 1.2) * slider
+    capacity = rng.uniform(0.1, 0.3)
+    edge = slider + capacity
     return LIRBearing(
-        radius=rng.uniform(0.8, 2.5),
-        slider_height=rng.uniform(0.8, 1.2) * radius,
-        slider_radius=radius,
-        capacity=rng.uniform(0.1, 0.3),
+        radius=max(radius, 1.2 * edge * edge / height),
+        slider_height=height,
+        slider_radius=slider,
+        capacity=capacity,
         friction=CoulombFriction(rng.uniform(0.03, 0.09)),
         interface_friction=rng.uniform(0.15, 0.25),
     )

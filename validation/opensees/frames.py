@@ -12,12 +12,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
 from frames.assembly.assemble import assemble
 from frames.model.axes import default_up
 from frames.model.parts import DOFS
 from frames.model.placing import member_ends
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads
-from validation.opensees.nonlinear import add_links, add_twins
+from validation.opensees.nonlinear import add_links, hinged_member
 from validation.opensees.runs import Track, respond
 
 if TYPE_CHECKING:
@@ -142,11 +144,8 @@ def build(
         if diaphragms is None or diaphragm.name in diaphragms:
             ops.rigidDiaphragm(3, *(nodes[name] for name in diaphragm.nodes))
     members = {name: k for k, name in enumerate(frame.members, start=1)}
-    hinged = list(frame.hinges)
     for name, member in frame.members.items():
         ends = nodes[member.i], nodes[member.j]
-        if name in hinged:
-            ends = add_twins(ops, frame, member, hinged.index(name), nodes)
         _member(ops, frame, members[name], member, ends, transformation)
     links = add_links(ops, frame, nodes)
     count = len(members)
@@ -187,7 +186,14 @@ def _member(
     if zones and not (math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z)):
         msg = f'member "{member.name}": ElasticTimoshenkoBeam takes no notice of offsets'
         raise ValueError(msg)
-    if math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z):
+    stiff = math.isinf(s.shear_area_y) and math.isinf(s.shear_area_z)
+    if member.name in frame.hinges:
+        if not stiff or zones:
+            msg = f'member "{member.name}": no hinges with shear deformation or offsets here'
+            raise ValueError(msg)
+        length = float(np.linalg.norm(end - start))
+        hinged_member(ops, tag, member, ends, length, frame.hinges[member.name])
+    elif stiff:
         ops.element(
             "elasticBeamColumn", tag, *ends, s.area, s.elastic_modulus, s.shear_modulus,
             s.torsion_constant, s.inertia_y, s.inertia_z, tag,

@@ -1,17 +1,18 @@
 """Links and plastic hinges of a `frames.Frame` by OpenSees' own materials and elements.
 
-Hinges are elements of zero length between a node and a twin of it at the member's end: a section of
-the kind Bidirectional where both moments yield, a Steel01 spring where one does, all else stiff.
+A member with hinges is a forceBeamColumn with the integration ConcentratedPlasticity: the hinges
+are sections at its ends, rigid until they yield as they are here. A section is Bidirectional where
+both moments yield, of Steel01 where one does, of four fibres where the axial force takes part.
 """
 
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.model.axes import default_up, local_axes
 from frames.model.laws import (
     Bilinear,
     BoucWen,
@@ -25,15 +26,16 @@ from frames.model.laws import (
 
 if TYPE_CHECKING:
     from frames import Frame
-    from frames._types import FloatArray
     from frames.model.parts import Link, Member
 
-STIFF = 100
-"""Stiffness of a hinge before it yields over that of its member [-]: above 100 OpenSees finds no
-equilibrium where hinges begin to yield."""
-
 FIRST = 500_000
-"""First tag of nodes, materials, sections and elements made here."""
+"""First tag of materials, sections and elements made here."""
+
+SECTIONS = 30
+"""Tags that a member with hinges takes."""
+
+ITERATIONS, BALANCE = 100, 1e-14
+"""Of a hinged member within itself, and the energy left open there [J]."""
 
 
 def material(ops: Any, tag: int, law: Law) -> None:
@@ -118,59 +120,124 @@ def add_link(ops: Any, tag: int, link: Link, nodes: dict[str, int]) -> None:
     )  # fmt: skip
 
 
-def add_twins(
-    ops: Any, frame: Frame, member: Member, number: int, nodes: dict[str, int]
-) -> tuple[int, int]:
-    """Put hinges at the ends of a member, the `number`-th with hinges; return its end nodes."""
-    start, end = (np.array([frame.nodes[name].position]) for name in (member.i, member.j))
-    up = default_up(start, end) if member.up is None else np.array([member.up])
-    axes, length = local_axes(start, end, up)
-    ends = [nodes[member.i], nodes[member.j]]
-    for side, hinge in enumerate(frame.hinges[member.name]):
-        if hinge is not None:
-            tag = hinge_tag(number, side)
-            ops.node(tag, *(start, end)[side][0].tolist())
-            _hinge(ops, tag, (ends[side], tag), member, hinge, float(length[0]), axes[0])
-            ends[side] = tag
-    return ends[0], ends[1]
-
-
-def hinge_tag(number: int, side: int) -> int:
-    """Return the tag of the hinge at a side (0, 1) of the `number`-th member with hinges."""
-    return FIRST + 100_000 + 2 * number + side
-
-
-def _hinge(
-    ops: Any, tag: int, pair: tuple[int, int], member: Member, hinge: PlasticHinge, length: float,
-    axes: FloatArray,
+def hinged_member(
+    ops: Any, tag: int, member: Member, ends: tuple[int, int], length: float,
+    hinges: tuple[PlasticHinge | None, PlasticHinge | None],
 ) -> None:  # fmt: skip
-    # One hinge between two nodes, stiff but for the moments that yield; its turn against the first
-    # node works like the rotation of the end against the node. Materials from 10 * tag on.
-    if math.isfinite(hinge.axial):
-        msg = f'member "{member.name}": no hinge with axial force is made of OpenSees elements here'
-        raise ValueError(msg)
+    """Add a member with plastic hinges at its ends; its transformation has the same tag.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSees.
+    tag : int
+        Tag of the element.
+    member : Member
+        The member.
+    ends : tuple of two ints
+        Tags of its nodes.
+    length : float
+        Its length [m].
+    hinges : tuple
+        At either end a PlasticHinge or None.
+    """
     s = member.section
-    bend = [6.0 * s.elastic_modulus * i / length for i in (s.inertia_y, s.inertia_z)]
-    turn = STIFF * max(*bend, s.shear_modulus * s.torsion_constant / length)
+    first = FIRST + SECTIONS * tag
+    elastic = first + SECTIONS - 1
+    ops.section(
+        "Elastic", elastic, s.elastic_modulus, s.area, s.inertia_z, s.inertia_y, s.shear_modulus,
+        s.torsion_constant,
+    )  # fmt: skip
+    sections = [
+        elastic if hinge is None else _hinge(ops, first + 10 * side, member, hinge, length)
+        for side, hinge in enumerate(hinges)
+    ]
+    ops.beamIntegration("ConcentratedPlasticity", tag, *sections, elastic)
+    ops.element("forceBeamColumn", tag, *ends, tag, tag, "-iter", ITERATIONS, BALANCE)
+
+
+def _hinge(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: float) -> int:
+    # The section that stands for a hinge, over a length of 1 m: its elastic part is the member's
+    # own, so that its plastic curvature is the hinge's rotation. Returns its tag.
+    if math.isfinite(hinge.axial):
+        return sandwich(ops, first, member, hinge, length)
+    s = member.section
     ratio = hinge.hardening / (1.0 - hinge.hardening)
-    first = 10 * tag
-    for k in range(6):
-        value = STIFF * s.elastic_modulus * s.area / length if k < 3 else turn
-        ops.uniaxialMaterial("Elastic", first + k, value)
-    orient = ("-orient", *axes[0].tolist(), *axes[1].tolist())
+    bend = [s.elastic_modulus * i for i in (s.inertia_y, s.inertia_z)]
     moments = (hinge.moment_y, hinge.moment_z)
-    if all(math.isfinite(moment) for moment in moments):
-        ops.section("Bidirectional", tag, turn, moments[0], 0.0, ratio * bend[0], "Mz", "My")
+    ops.uniaxialMaterial("Elastic", first, s.elastic_modulus * s.area)
+    ops.uniaxialMaterial("Elastic", first + 1, s.shear_modulus * s.torsion_constant)
+    both = all(math.isfinite(moment) for moment in moments)
+    if both:
+        if moments[0] != moments[1] or not math.isclose(*bend):
+            msg = f'member "{member.name}": Bidirectional is a section with equal axes'
+            raise ValueError(msg)
         ops.section(
-            "Aggregator", first, first, "P", first + 1, "Vy", first + 2, "Vz", first + 3, "T",
-            "-section", tag,
+            "Bidirectional", first, bend[0], moments[0], 0.0, 6.0 * ratio * bend[0] / length, "Mz",
+            "My",
         )  # fmt: skip
-        ops.element("zeroLengthSection", tag, *pair, first, *orient)
-        return
-    mats = [first + k for k in range(4)]
-    for k, moment in enumerate(moments):
+        ops.section("Aggregator", first + 1, first, "P", first + 1, "T", "-section", first)
+        return first + 1
+    for k, (moment, stiffness) in enumerate(zip(moments, bend, strict=True)):
+        modulus = 6.0 * ratio * stiffness / length
         if math.isfinite(moment):
-            share = ratio * bend[k] / (turn + ratio * bend[k])
-            ops.uniaxialMaterial("Steel01", first + 6 + k, moment, turn, share)
-        mats.append(first + 6 + k if math.isfinite(moment) else first + 4 + k)
-    ops.element("zeroLength", tag, *pair, "-mat", *mats, "-dir", 1, 2, 3, 4, 5, 6, *orient)
+            share = modulus / (stiffness + modulus)
+            ops.uniaxialMaterial("Steel01", first + 2 + k, moment, stiffness, share)
+        else:
+            ops.uniaxialMaterial("Elastic", first + 2 + k, stiffness)
+    ops.section(
+        "Aggregator", first, first, "P", first + 1, "T", first + 2, "My", first + 3, "Mz"
+    )  # fmt: skip
+    return first
+
+
+def sandwich(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: float) -> int:
+    """Make a section of four fibres, which yields at ``|N / axial| + |My / moment_y| = 1``.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSees.
+    first : int
+        First tag of its materials and sections.
+    member : Member
+        Whose elastic stiffness it has; the fibres are where they give its inertias. Bent about z
+        they yield, too.
+    hinge : PlasticHinge
+        Its plastic moment about y is ``axial (I / A)^(1/2)``. The fibres harden as it does in
+        bending, and six times as much in tension.
+    length : float
+        Of the member [m].
+
+    Returns
+    -------
+    int
+        Tag of the section.
+
+    Raises
+    ------
+    ValueError
+        If the hinge is none that fibres make.
+    """
+    s = member.section
+    across, arm = (math.sqrt(inertia / s.area) for inertia in (s.inertia_z, s.inertia_y))
+    fits = math.isclose(hinge.moment_y, hinge.axial * arm) and math.isinf(hinge.moment_z)
+    if not fits or hinge.axial_exponent > 1.0 or hinge.axial_centre:
+        msg = (
+            f'member "{member.name}": fibres make a hinge with moment_y = axial * {arm:.6g} m, '
+            "axial_exponent = 1 and axial_centre = 0 only"
+        )
+        raise ValueError(msg)
+    modulus = 6.0 * hinge.hardening / (1.0 - hinge.hardening) * s.elastic_modulus / length
+    share = modulus / (s.elastic_modulus + modulus)
+    ops.uniaxialMaterial("Steel01", first, hinge.axial / s.area, s.elastic_modulus, share)
+    ops.section("Fiber", first, "-GJ", s.shear_modulus * s.torsion_constant)
+    for y, z in product((-across, across), (-arm, arm)):
+        ops.fiber(y, z, 0.25 * s.area, first)
+    return first
+
+
+def plastic_rotations(ops: Any, tag: int) -> list[tuple[float, float]]:
+    """Return the plastic rotations about y and z of a hinged member, at either end [rad]."""
+    _, z_i, z_j, y_i, y_j, _ = ops.eleResponse(tag, "plasticDeformation")
+    return [(y_i, z_i), (y_j, z_j)]
