@@ -47,7 +47,7 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
         - residual: size of the deformation, or plastic rotation, that is left at the end of the
           run; NaN of a run that stopped before;
         - cumulative: plastic rotation run through [rad]; NaN of links;
-        - work: dissipated [J]; of ties taken up.
+        - work: done on what is plastic [J], what hardening stores of it included; of ties taken up.
 
         Without any rows where nothing can yield.
 
