@@ -238,6 +238,8 @@ def index(folder: Path = FOLDER) -> str:
         "both programs (`python -m validation.measurements.opensees_public_models`), "
         "[slip.md](slip.md), the slip of the interface where rims are met "
         "(`python -m validation.measurements.slip`), "
+        "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four systems "
+        "(`python -m validation.measurements.yielding_comparison`), "
         "and [random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
         "(`python -m validation.random_scenes`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "

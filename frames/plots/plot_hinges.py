@@ -59,7 +59,7 @@ def hinge_map(
         Instant [s]; the largest rotations of the run, whatever it recorded, if None.
     limits : sequence of 3 floats, optional
         Plastic rotations [rad] up to which a hinge is acceptable for Immediate Occupancy, Life
-        Safety and Collapse Prevention (IO, LS, CP; ASCE/SEI 41-17, tables 9-7.1 and others).
+        Safety and Collapse Prevention (IO, LS, CP; ASCE/SEI 41, chapters 9 and 10).
 
     Returns
     -------

@@ -42,8 +42,8 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
         - yield: deformation at first yield; NaN of hinges, which are rigid until then;
         - ductility: the one over the other [-]; of ties the deformation includes their slack. NaN
           of hinges: it would need the rotation at which the member yields, ``M_p L / (6 E I)``
-          (ASCE/SEI 41-17, 9-1), and data does not have the member. What codes limit is the plastic
-          rotation itself;
+          (ASCE/SEI 41, chapter 9), and data does not have the member. What codes limit is the
+          plastic rotation itself;
         - residual: size of the deformation, or plastic rotation, that is left at the end of the
           run; NaN of a run that stopped before;
         - cumulative: plastic rotation run through [rad]; NaN of links;
