@@ -95,6 +95,9 @@ TERMS = {
     "rims": "work done on the rims: strain and damping",
     "contact": "work done on the axial contacts: strain and damping",
     "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",
+    "yielding": "work on what is plastic in links and hinges",
+    "dampers": "dissipated by viscous dampers; what their springs store included",
+    "stops": "taken up by walls, stops and ties: stored and dissipated",
     "numerical": "left over: Newton's tolerance, and what the integrator itself takes out",
 }
 
