@@ -36,6 +36,8 @@ from frames.motion.ground_motion import GroundMotion as GroundMotion
 from frames.results.auditing import Finding as Finding
 from frames.results.auditing import audit as audit
 from frames.results.auditing import audit_report as audit_report
+from frames.results.ductility import ductility as ductility
+from frames.results.ductility import storey_ductility as storey_ductility
 from frames.results.envelopes import envelope as envelope
 from frames.results.envelopes import write_tables as write_tables
 from frames.results.measures import drift_by_line as drift_by_line
@@ -80,6 +82,7 @@ __all__ = [
     "audit",
     "audit_report",
     "drift_by_line",
+    "ductility",
     "energy_error",
     "envelope",
     "floor_acceleration",
@@ -96,6 +99,7 @@ __all__ = [
     "save",
     "shear_building",
     "storey_drift",
+    "storey_ductility",
     "storey_forces",
     "summary",
     "support_reactions",

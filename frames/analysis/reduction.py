@@ -110,7 +110,7 @@ class Reduction:
         for name, value in state.totals.items():
             dims, unit, meaning, _ = TOTALS[name]
             variables[REACHED + name] = labelled(dims, value, unit, meaning)
-        for name in LEFT:
+        for name in (name for name in LEFT if name in state.reached):
             dims, unit, meaning, of = QUANTITIES[name]
             at_end = of(_tail(state))[-1]
             variables[f"{REACHED}{name}_left"] = labelled(dims, at_end, unit, f"{meaning}, left")
@@ -284,6 +284,9 @@ def _present(piece: xr.Dataset) -> list[str]:
         lacking |= {"line_drift"}
     if "body_rotation" not in piece:
         lacking |= {"tilt"}
+    for part in ("link", "hinge"):
+        if part not in piece.dims:
+            lacking |= {name for name, each in QUANTITIES.items() if part in each.dims}
     return [name for name in QUANTITIES if name not in lacking]
 
 

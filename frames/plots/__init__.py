@@ -11,8 +11,10 @@ between figures of the same systems.
 
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
+from frames.plots.plot_hinges import hinge_map as hinge_map
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
+from frames.plots.plot_links import link_loops as link_loops
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
 from frames.plots.plot_model import mode_shapes as mode_shapes
@@ -29,8 +31,10 @@ __all__ = [
     "bearing_sections",
     "energy",
     "floor_spectra",
+    "hinge_map",
     "histories",
     "hysteresis",
+    "link_loops",
     "mode_shapes",
     "model_film",
     "model_view",

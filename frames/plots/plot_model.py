@@ -15,6 +15,7 @@ from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import member_lines
+from frames.plots.part_marks import HINGES, draw_links, hinge_places, part_handles
 from frames.results.kept import require_recorded, require_steps
 
 if TYPE_CHECKING:
@@ -59,8 +60,9 @@ def model_view(
     Returns
     -------
     Figure
-        Members, springs, bearings, supports and masses (by size); with a time history the
-        undeformed model in grey beside it.
+        Members, springs, bearings, supports and masses (by size); links by kind, walls at their gap
+        enlarged as displacements are, plastic hinges; with a time history the undeformed model in
+        grey beside it.
 
     Raises
     ------
@@ -70,7 +72,7 @@ def model_view(
         If the instant lies outside of it, or the factor is not positive.
     """
     system = assemble(model)
-    u, title = np.zeros((len(system.node_names), 6)), model.name
+    u, title, scale = np.zeros((len(system.node_names), 6)), model.name, 1.0
     if data is not None:
         require_own(model, system, data)
         moved, instant = _at(data, time)
@@ -80,8 +82,8 @@ def model_view(
     panel = figure.add_subplot(projection="3d")
     if data is not None:
         _draw(panel, model, system, np.zeros_like(u), plain=True)
-    _draw(panel, model, system, u)
-    _frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]])
+    _draw(panel, model, system, u, enlarged=scale)
+    frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]])
     ps.add_legend(figure, _handles(model, deformed=data is not None), columns=5, title=title)
     return figure
 
@@ -140,7 +142,7 @@ def model_film(
     _draw(panel, model, system, np.zeros(every.shape[1:]), plain=True)
     reach = scale * every[..., :3]
     corners = [system.coordinates + reach.min(axis=0), system.coordinates + reach.max(axis=0)]
-    _frame_of(panel, corners)
+    frame_of(panel, corners)
     title = f"{model.name}, enlarged {scale:.3g} times"
     ps.add_legend(figure, _handles(model, deformed=True), columns=5, title=title)
     drawn: list[Any] = []
@@ -149,7 +151,7 @@ def model_film(
         while drawn:
             drawn.pop().remove()
         step = int(steps[picture])
-        drawn.extend(_draw(panel, model, system, scale * every[step]))
+        drawn.extend(_draw(panel, model, system, scale * every[step], enlarged=scale))
         drawn.append(panel.text2D(0.02, 0.02, f"{times[step]:.2f} s", transform=panel.transAxes))
         return drawn
 
@@ -195,7 +197,7 @@ def mode_shapes(
         u = _scale(system, shape, None) * shape
         _draw(panel, model, system, np.zeros_like(u), plain=True)
         _draw(panel, model, system, u)
-        _frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]], bare=True)
+        frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]], bare=True)
         shares = ", ".join(f"{100.0 * share:.0f}" for share in found.mass_ratios[k])
         text = f"mode {k + 1}: {found.periods[k]:.3g} s\nmass x, y, z: {shares} %"
         panel.set_title(text, fontsize=ps.SMALL)
@@ -232,10 +234,18 @@ def _scale(system: System, u: FloatArray, factor: float | None) -> float:
 
 
 def _draw(
-    panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
+    panel: Any,
+    model: FrameContents,
+    system: System,
+    u: FloatArray,
+    *,
+    plain: bool = False,
+    enlarged: float = 1.0,
 ) -> list[Any]:
     # The model whole: the panel's own frame would cut what the view takes beyond it.
     drawn = _parts(panel, model, system, u, plain=plain)
+    if not plain:
+        drawn += draw_links(panel, model, system, system.coordinates + u[:, :3], enlarged)
     for artist in drawn:
         artist.set_clip_on(False)
         artist.set_in_layout(False)
@@ -271,15 +281,17 @@ def _parts(
         ends = place[[i, j]]
         drawn += panel.plot(*ends.T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
         drawn += panel.plot(*ends[1:].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
-    hinges = [
+    released = [
         lines[k, (0, -1)[end]] + 0.08 * (lines[k, (-1, 0)[end]] - lines[k, (0, -1)[end]])
         for k, member in enumerate(model.members.values())
         for end in (0, 1)
         if set(member.releases[end]) & {"My", "Mz"}
     ]
-    if hinges:
+    if released:
         style = {"linestyle": "", "marker": "o", "markersize": 4.0, "fillstyle": "none"}
-        drawn += panel.plot(*np.array(hinges).T, color=MEMBERS, **style)
+        drawn += panel.plot(*np.array(released).T, color=MEMBERS, **style)
+    if model.hinges:
+        drawn += panel.plot(*hinge_places(lines, system, model.hinges)[1].T, **HINGES)
     fixed = [index[name] for name, dofs in model.fixed_dofs.items() if {"ux", "uy", "uz"} & dofs]
     drawn += panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
     mass = system.node_mass[:, :3].max(axis=1)
@@ -293,8 +305,8 @@ def _parts(
     return drawn
 
 
-def _frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> None:
-    # Equal scales around all points.
+def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> None:
+    """Set the axes of a panel in space to equal scales around all points (n, 3)."""
     every = np.concatenate(points)
     low, high = every.min(axis=0), every.max(axis=0)
     span = np.maximum(high - low, 0.15 * float((high - low).max()) or 1.0)
@@ -317,11 +329,14 @@ def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
     if model.springs:
         handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
     if any(any(member.releases) for member in model.members.values()):
-        ring = Line2D([], [], color=MEMBERS, marker="o", fillstyle="none", label="hinges", **plain)
+        ring = Line2D(
+            [], [], color=MEMBERS, marker="o", fillstyle="none", label="releases", **plain
+        )
         handles.append(ring)
     if any(member.has_offsets for member in model.members.values()):
         stiff = Line2D([], [], color=MEMBERS, linewidth=3.5, label="rigid end zones")
         handles.append(stiff)
+    handles += part_handles(model)
     handles += [
         Line2D([], [], color=BEARINGS, marker="o", label="bearings", **plain),
         Line2D([], [], color=SUPPORTS, marker="^", label="supports", **plain),

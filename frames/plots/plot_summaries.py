@@ -18,6 +18,8 @@ from frames.results.measures import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import xarray as xr
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
@@ -34,13 +36,24 @@ ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
 }
 """Terms of the energy drawn together, from below, their colours and hatches."""
 
+PART_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "yielding": (("yielding",), "#8C510A", "+++"),
+    "dampers": (("dampers",), "#6A51A3", "|||"),
+    "stops, walls": (("stops",), "#444444", ""),
+}
+"""The same of links and hinges, drawn after the damping where one of the results has them."""
+
+_AFTER = "damping of the structure"
+
 EDGE = "#333333"
 PERIODS = np.geomspace(0.02, 5.0, 120)
 """Of the floor spectra [s]."""
 
 MOST_PANELS = 6
 _RING: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markersize": 6.0}
-_LINES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-", ":", "-.", ":", "--")
+_LINES: tuple[Literal["-", "--", "-.", ":"], ...] = (
+    "-", "--", "-", ":", "-.", ":", "--", "-", "-.", ":",
+)  # fmt: skip
 
 
 def storey_profiles(
@@ -202,10 +215,10 @@ def energy(
     for data in found.values():
         pick.need(data, ("energy",), "draw from the whole result of time_history")
     factor, unit = ps.engineering("J", ps.peak_of(d["energy"].to_numpy() for d in found.values()))
-    columns = ps.COLUMNS[len(found)]
+    columns, groups = ps.COLUMNS[len(found)], energy_groups(found)
     figure, panels = ps.panels_of(len(found), columns, 2.8)
     for place, (panel, (name, data)) in enumerate(zip(panels, found.items(), strict=True)):
-        _energies(panel, data, factor, stacked=stacked)
+        _energies(panel, data, factor, groups, stacked=stacked)
         title = ps.wrapped(pick.label_of(name, data, "\n"), 0.82 * ps.PAGE_WIDTH / columns)
         ps.caption(panel, title=title)
         if place % columns == 0:
@@ -220,28 +233,51 @@ def energy(
         Patch(facecolor=colour, hatch=hatch, edgecolor=EDGE, linewidth=0.4, label=text)
         if stacked
         else Line2D([], [], color=colour, linestyle=_LINES[k], linewidth=1.2, label=text)
-        for k, (text, (_, colour, hatch)) in enumerate(ENERGY_GROUPS.items())
+        for k, (text, (_, colour, hatch)) in enumerate(groups.items())
     ]
     handles.append(Line2D([], [], color="black", linewidth=0.9, linestyle="--", label="input"))
     ps.add_legend(figure, handles, columns=4, title="Where the energy goes", size=ps.SMALL)
     return figure
 
 
-def _energies(panel: Axes, data: xr.Dataset, factor: float, *, stacked: bool) -> None:
+def energy_groups(
+    systems: Mapping[str, xr.Dataset],
+) -> dict[str, tuple[tuple[str, ...], str, str]]:
+    """Return the groups of terms that a figure of these results shows."""
+    found = {}
+    for text, group in ENERGY_GROUPS.items():
+        found[text] = group
+        if text == _AFTER:
+            found |= {name: own for name, own in PART_GROUPS.items() if _is_there(systems, own[0])}
+    return found
+
+
+def _is_there(systems: Mapping[str, xr.Dataset], terms: tuple[str, ...]) -> bool:
+    # Whether a result has energy in one of the terms.
+    energies = (data["energy"].sel(term=list(terms)).to_numpy() for data in systems.values())
+    return ps.peak_of(energies) > 0.0
+
+
+def _energies(
+    panel: Axes,
+    data: xr.Dataset,
+    factor: float,
+    shown: Mapping[str, tuple[tuple[str, ...], str, str]],
+    *,
+    stacked: bool,
+) -> None:
     time, terms = data["time"].to_numpy(), factor * data["energy"]
-    groups = [
-        terms.sel(term=list(names)).sum("term").to_numpy() for names, _, _ in ENERGY_GROUPS.values()
-    ]
-    colours = [colour for _, colour, _ in ENERGY_GROUPS.values()]
+    groups = [terms.sel(term=list(names)).sum("term").to_numpy() for names, _, _ in shown.values()]
+    colours = [colour for _, colour, _ in shown.values()]
     if stacked:
-        hatches = [hatch for _, _, hatch in ENERGY_GROUPS.values()]
+        hatches = [hatch for _, _, hatch in shown.values()]
         for area, hatch in zip(
             panel.stackplot(time, *groups, colors=colours, linewidth=0.3, edgecolor=EDGE),
             hatches, strict=True,
         ):  # fmt: skip
             area.set_hatch(hatch)
     else:
-        for values, colour, line in zip(groups, colours, _LINES, strict=True):
+        for values, colour, line in zip(groups, colours, _LINES, strict=False):
             panel.plot(time, values, color=colour, linestyle=line, linewidth=1.2)
     total = terms.sel(term="input").to_numpy()
     panel.plot(time, total, color="black", linewidth=0.9, linestyle="--")

@@ -18,11 +18,14 @@ from frames.results.reached import (
     storeys_of_lines,
     total,
 )
+from frames.results.yielded import can_yield
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     import xarray as xr
+
+    from frames._types import BoolArray
 
 
 class Peak(NamedTuple):
@@ -52,7 +55,8 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         drifts, forces and accelerations in plan are sizes of vectors. What a run that stopped
         before its end would have left is NaN.
     """
-    rows = [*_of_bearings(data), *_of_uplift(data), *_of_structure(data), *_of_run(data)]
+    parts = _of_bearings, _of_uplift, _of_structure, _of_yielding, _of_run
+    rows = [row for part in parts for row in part(data)]
     return pd.DataFrame(rows, columns=Peak._fields).set_index("quantity")
 
 
@@ -165,6 +169,35 @@ def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
     worst = int(np.argmax(ratios))
     where = names[worst]
     yield Peak("torsion: worst line over mean drift", float(ratios[worst]), "1", where=where)
+
+
+def _of_yielding(data: xr.Dataset) -> Iterator[Peak]:
+    # Of links and hinges, where a structure has them.
+    links = data["link"].to_numpy() if "link" in data.dims else np.array([], dtype=str)
+    yields = can_yield(data) if len(links) else np.array([], dtype=bool)
+    if yields.any():
+        yield _peak("link ductility", "1", _chosen(data, "link_ductility", yields), links[yields])
+    if "hinge" in data.dims:
+        hinges = data["hinge"].to_numpy()
+        yield _peak("plastic rotation of hinges", "rad", largest(data, "hinge_rotation"), hinges)
+    if yields.any() or "hinge" in data.dims:
+        work, given = (float(largest(data, f"energy_{of}").values) for of in ("yielding", "input"))
+        share = work / given if given > 0.0 else math.nan
+        yield Peak("work of yielding over input", share, "1")
+    walls = _walls(data) if len(links) else yields
+    if walls.any():
+        yield _peak("force of a wall", "N", _chosen(data, "link_force", walls), links[walls])
+
+
+def _chosen(data: xr.Dataset, name: str, which: BoolArray) -> Extreme:
+    found = largest(data, name)
+    return Extreme(found.values[which], found.at[which])
+
+
+def _walls(data: xr.Dataset) -> BoolArray:
+    # Stops have no deformation at yield, as dampers, but they never pull.
+    unlimited = np.isnan(data["link_yield_deformation"].to_numpy())
+    return np.asarray(unlimited & (largest(data, "link_reversal").values <= 0.0))
 
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:

@@ -21,6 +21,7 @@ from frames.results.measures import (
     storey_drift,
     uplift_gap,
 )
+from frames.results.yielded import hinge_rotation, link_ductility, of_hinges, of_links
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -223,7 +224,7 @@ def _flag(mask: BoolArray) -> FloatArray:
     return np.asarray(mask, dtype=np.float64)
 
 
-_B = ("bearing",)
+_B, _L, _H = ("bearing",), ("link",), ("hinge",)
 QUANTITIES: dict[str, Quantity] = {
     "displacement": Quantity(
         _B, "m", "bearing displacement in plan",
@@ -310,10 +311,36 @@ QUANTITIES: dict[str, Quantity] = {
         (), "J", "work that the time integration leaves over", lambda d: _term(d, "numerical")
     ),
     "energy_gap": Quantity((), "J", "gap of the energy ledger", _gap),
+    "energy_yielding": Quantity(
+        (), "J", "work that yielding took up", lambda d: _term(d, "yielding")
+    ),
+    "link_ductility": Quantity(
+        _L, "1", "deformation of a link over that at yield", link_ductility
+    ),
+    "link_deformation": Quantity(
+        _L, "m, rad", "deformation of a link", lambda d: np.abs(of_links(d, "link_deformation"))
+    ),
+    "link_force": Quantity(
+        _L, "N, N m", "force of a link", lambda d: np.abs(of_links(d, "link_force"))
+    ),
+    "link_reversal": Quantity(
+        _L, "N, N m", "negative of the least force of a link",
+        lambda d: -of_links(d, "link_force"),
+    ),
+    "link_work": Quantity(
+        _L, "J", "work that a link has taken up", lambda d: of_links(d, "link_work")
+    ),
+    "hinge_rotation": Quantity(_H, "rad", "plastic rotation of a hinge", hinge_rotation),
+    "hinge_turn": Quantity(
+        _H, "rad", "plastic rotation run through", lambda d: of_hinges(d, "hinge_turn")
+    ),
+    "hinge_work": Quantity(
+        _H, "J", "work that a hinge has dissipated", lambda d: of_hinges(d, "hinge_work")
+    ),
 }  # fmt: skip
 """Derived histories by name; what begins with "1:" is 0 before it happens."""
 
-LEFT = ("displacement", "slip")
+LEFT = ("displacement", "slip", "link_deformation", "link_work", "hinge_rotation", "hinge_work")
 """Quantities of which the value at the last step is kept, too."""
 
 

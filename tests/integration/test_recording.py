@@ -14,13 +14,18 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import (
     AuditWarning,
+    Bilinear,
     Features,
     GroundMotion,
     ModelError,
+    PlasticHinge,
     Recording,
+    Stop,
+    ViscousDamper,
     audit,
     audit_report,
     drift_by_line,
+    ductility,
     energy_error,
     envelope,
     floor_acceleration,
@@ -81,10 +86,22 @@ def building():
     return frame
 
 
+def yielding():
+    """Return a building with hinges, a damper, a brace and walls that are met."""
+    hinge = PlasticHinge(moment_y=1.5e5, moment_z=1.5e5)
+    frame = moment_frame((1, 1), 1, bearing=device(), hinges={"column": hinge})
+    brace = Bilinear(stiffness=1e7, yield_force=2e4, hardening=0.02)
+    frame.add_link("brace", "base-0-0", "floor-1-1-0", brace)
+    frame.add_link("damper", "base-0-1", "floor-1-1-1", ViscousDamper(coefficient=1e4))
+    frame.add_moat("moat", ["base-0-0"], Stop(gap=0.08, stiffness=1e8, damping=1e5))
+    return frame
+
+
 SHAKEN = GroundMotion(x=WAVE, y=SIDE, dt=DT)
 THROWN = GroundMotion(x=WAVE, z=2.0 * UP, dt=DT)
 SCENES = {
     "impacts": (building(), SHAKEN, {}),
+    "yielding": (yielding(), SHAKEN.scaled(1.5), {}),
     "uplift": (lumped_mass(device(), 3e4), THROWN, {}),
     "left out": (
         lumped_mass(device(), 3e4),
@@ -181,12 +198,17 @@ def test_the_same_numbers_as_in_the_whole_record(scene, kind, whole, small_buffe
     assert_array_equal(mine["time"], theirs["time"])
     assert mine["where"].tolist() == theirs["where"].tolist()
     assert summary({"a": data}).shape == summary({"a": full}).shape
+    assert ductility(data).equals(ductility(full))
     assert data.attrs["recording"] == str(recording)
 
 
 def test_the_scenes_are_what_they_are_for(whole):
     assert float(whole("impacts")["rim_force"].max()) > 0.0
     assert peaks(whole("uplift")).loc["uplifts, all bearings", "value"] > 3.0
+    rows = peaks(whole("yielding"))["value"]
+    assert rows["link ductility"] > 1.0
+    assert rows["plastic rotation of hinges"] > 1e-4
+    assert rows["force of a wall"] > 1e5
     assert whole("failure").attrs["status"] == "slip_exceeded"
     assert "vertical coupling left out" in whole("left out").attrs["audit"]
     assert "body_rotation" in whole("contact")
