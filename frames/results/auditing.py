@@ -51,6 +51,9 @@ CONTACT = 0.33
 """The same where rims are met, from which on the level 'contact' is asked for: of such scenes
 forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
 
+TURNED = 0.05
+"""Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
+strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
 
 _ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
 
@@ -63,7 +66,8 @@ class Finding:
     ----------
     feature : str
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
-        "slip_stability": whether the slip that is left holds.
+        "slip_stability": whether the slip that is left holds; or "yielding": whether hinges
+        turned further than they keep their strength.
     left_out : bool
         Whether the run left it out.
     mattered : bool
@@ -96,7 +100,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        slip that holds.
+        slip that holds; of a structure with hinges one on how far they turned.
 
     Notes
     -----
@@ -106,7 +110,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     """
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
-    return (*found, _full_contact(data), _slip_stability(data))
+    return (*found, _full_contact(data), _slip_stability(data), *_yielding(data))
 
 
 def audit_report(data: xr.Dataset) -> str:
@@ -309,6 +313,24 @@ def _slip_stability(data: xr.Dataset) -> Finding:
         text = "the sliders are in one piece"
     finding = _finding("slip_stability", False, bool(parts), share, text)
     return replace(finding, doubtful=bool(parts))
+
+
+def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
+    # Hinges keep their strength here; those of steel lose it from about TURNED on.
+    if "hinge" not in data.dims:
+        return ()
+    turned = largest(data, "hinge_rotation")
+    k = int(np.argmax(turned.values))
+    most = float(turned.values[k])
+    text = f"hinges turned by up to {1e3 * most:.3g} mrad"
+    if most > TURNED:
+        text = (
+            f"hinge {data['hinge'].to_numpy()[k]} turned by {1e3 * most:.3g} mrad at t = "
+            f"{float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
+            "mrad on, which is not modelled; take it as the beginning of a failure"
+        )
+    finding = _finding("yielding", False, most > 0.0, most, text)
+    return (replace(finding, doubtful=most > TURNED),)
 
 
 def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from frames import (
+    AuditWarning,
     Bilinear,
     BoucWen,
     Frame,
@@ -22,6 +24,7 @@ from frames import (
     Stop,
     Tie,
     ViscousDamper,
+    audit,
     load,
     lumped_mass,
     member_forces,
@@ -440,3 +443,27 @@ def test_a_node_that_only_a_damper_holds_is_refused():
     frame.add_link("damper", "ground", "top", ViscousDamper(coefficient=1.0))
     with pytest.raises(ModelError, match="no member, spring"):
         assemble(frame)
+
+
+def test_the_audit_marks_hinges_that_turn_further_than_members_last():
+    frame = lumped_mass(bearing(), 3 * MASS)
+    base = next(iter(frame.masses))
+    frame.add_node("top", 0.0, 0.0, frame.nodes[base].z + 4.0)
+    frame.add_member("mast", base, "top", Section.box(0.4, 0.4, 0.02))
+    frame.add_mass("top", 2e4)
+    found = []
+    for moment in (1.5e4, 9e4, 5e6):
+        model = frame.copy()
+        hinge = PlasticHinge(moment_y=moment, moment_z=moment, hardening=0.005)
+        model.add_hinges("mast", {"i": hinge})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AuditWarning)
+            data = time_history(model, waves(2.0), dt=0.002)
+        finding = audit(data)[-1]
+        assert finding.feature == "yielding"
+        turned = np.linalg.norm(data["hinge_rotation"][..., 1:], axis=-1).max()
+        assert finding.number == pytest.approx(turned)
+        assert finding.doubtful is bool(turned > 0.05)
+        found.append((finding.mattered, finding.doubtful))
+    assert found[0] == (True, True)
+    assert found[-1] == (False, False)

@@ -89,7 +89,7 @@ def _hertz(ops: Any, tag: int, law: HertzStop) -> None:
         "Hertzdamp",
         tag,
         law.stiffness,
-        0.75 * (1.0 - law.restitution**2),
+        law.damping,
         -law.gap,
         law.exponent,
     )
