@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from frames.analysis.modes import modes
@@ -34,6 +35,7 @@ MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[0], ps.PALETTE[1], "black", ps.PALETTE[2], "#BBBBBB",
 )  # fmt: skip
 _PICTURES = 20  # a second, of a film
+_NARROW = 0.35  # of the longest side: below, there is room for few numbers along an axis
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
 
 
@@ -260,8 +262,10 @@ def _parts(
     index = {name: k for k, name in enumerate(system.node_names)}
     lines = member_lines(system.members, system.coordinates, u)
     colour = AT_REST if plain else MEMBERS
-    bars = Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2)
-    drawn = [panel.add_collection3d(bars)]
+    drawn = []
+    if len(lines):
+        bars = Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2)
+        drawn.append(panel.add_collection3d(bars))
     zones = [
         (place[node], lines[k, (0, -1)[end]])
         for k, nodes in enumerate(system.members.nodes)
@@ -313,6 +317,8 @@ def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> Non
     middle = 0.5 * (low + high)
     for name, centre, width in zip("xyz", middle, span, strict=True):
         getattr(panel, f"set_{name}lim")(centre - 0.55 * width, centre + 0.55 * width)
+        if width < _NARROW * span.max():
+            getattr(panel, f"{name}axis").set_major_locator(MaxNLocator(2))
     panel.set_box_aspect(span, zoom=1.12)
     panel.view_init(elev=18.0, azim=-62.0)
     if bare:

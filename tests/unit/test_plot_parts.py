@@ -19,6 +19,7 @@ from frames import (
     lumped_mass,
     moment_frame,
     plots,
+    shear_building,
     time_history,
 )
 from frames.plots.part_marks import HINGES, KINDS, SHARE
@@ -222,6 +223,27 @@ def test_energies_of_parts_are_drawn_where_there_are_any(run):
     assert max(tops) == pytest.approx(1e-3 * total, rel=1e-3)
     plain = time_history(lumped_mass(bearing(), 3e4), MOTION, dt=0.01)
     assert not {"yielding", "dampers", "stops, walls"} & set(labels(plots.energy(plain)))
+
+
+def test_a_stick_without_members(tmp_path):
+    """Springs and links alone: storeys that yield stand beside their axial springs."""
+    stick = shear_building(
+        bearing(), [3e4] * 2, [3e7] * 2,
+        storey_law=lambda k: Bilinear(stiffness=k, yield_force=3e4),
+    )  # fmt: skip
+    data = time_history(stick, MOTION, dt=0.01)
+    for figure in (
+        plots.model_view(stick),
+        plots.model_view(stick, data),
+        plots.mode_shapes(stick),
+    ):
+        assert "yielding links" in labels(figure)
+        assert "members" not in labels(figure)
+    ticks = [
+        np.ptp(np.array(line.get_data_3d()), axis=1).argmax()
+        for line in marked(plots.model_view(stick).axes[0], KINDS[0].colour, "None")
+    ]
+    assert ticks == [2, 0, 2, 1] * 2  # line and tick of each storey's two links
 
 
 def test_refusals(run):

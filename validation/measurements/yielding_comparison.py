@@ -22,6 +22,7 @@ from validation.measurements.yielding_page import FIGURE, figure, page
 from validation.measurements.yielding_runs import (
     AT2,
     SYSTEMS,
+    VARIANTS,
     factor_for,
     perform,
     records_in,
@@ -38,6 +39,9 @@ DEMANDS = (0.9, 1.1, 1.2, 1.35, 1.6)
 ELASTIC_AT = 1.2
 """The demand at which the same runs are made with frames that stay elastic."""
 
+VARIANTS_AT = (1.35, 1.6)
+"""The demands at which a soft moat and walls behind the LIR-DCFP are run."""
+
 LIMIT = 300.0
 """Longest time for a run [s]."""
 
@@ -52,11 +56,12 @@ def plan(folder: Path, records: Sequence[str]) -> tuple[list[dict[str, Any]], li
             if factor is None:
                 left_out.append(f"{record} from {demand:g} on")
                 break
-            for structure, system in product(structures(), SYSTEMS):
+            more = VARIANTS if demand in VARIANTS_AT else ()
+            for structure, system in product(structures(), (*SYSTEMS, *more)):
                 own = {"record": record, "demand": demand, "factor": factor,
                        "structure": structure, "system": system}  # fmt: skip
                 todo.append(own | {"elastic": False})
-                if demand == ELASTIC_AT:
+                if demand == ELASTIC_AT and system in SYSTEMS:
                     todo.append(own | {"elastic": True})
     return todo, left_out
 

@@ -9,14 +9,18 @@ from typing import TYPE_CHECKING, Any
 from frames.plots import plot_style as ps
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import (
+    BEHIND,
     LIR,
     LONGEST,
     MOAT,
     MOST,
     RESTITUTION,
     RIMS,
+    SOFT,
     SYSTEMS,
+    VARIANTS,
     WALL_STIFFNESS,
+    WALLS,
     WIDE,
     YIELD_STRESS,
     structures,
@@ -112,7 +116,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
         "stopped: a bearing failed.",
         "## Medians over the records",
         *(part for name in structures()
-          for part in (f"### The {name} frame", medians(found, name))),
+          for part in (f"### The {name} frame", medians(found, name, every, SYSTEMS))),
         "## Where each wins",
         verdict(found, met, every[-1]),
         wins_table(found, met),
@@ -125,6 +129,11 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
         "## What yielding changes",
         yielding_changes(found, elastic_at),
         elastic_table(found, elastic_at),
+        "## A soft wall, and walls behind the LIR-DCFP",
+        variants(found),
+        *(part for name in structures()
+          for part in (f"### On the {name} frame",
+                       medians(found, name, _of_variants(found), (LIR, BEHIND, MOAT, SOFT)))),
         "## The demo's record",
         of_record(found, PACOIMA, [d for d in every if d > 1.0]),
     ]) + "\n"  # fmt: skip
@@ -206,8 +215,8 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
         f"runs. Completed at {highest:g}: {'; '.join(done(system) for system in SYSTEMS)}. With "
         f"walls the hinges then turn by {1e3 * middle(MOAT, 'rotation'):.1f} mrad, "
         f"{1e2 * middle(MOAT, 'residual'):.2f} % of drift are left, and floors feel "
-        f"{g * middle(MOAT, 'floor'):.1f} g: damaged, and standing. LIR-DCFP bearings with a wall "
-        "behind them were not run.",
+        f"{g * middle(MOAT, 'floor'):.1f} g: damaged, and standing. Walls behind the "
+        "LIR-DCFP give it the same ([below](#a-soft-wall-and-walls-behind-the-lir-dcfp)).",
         f"- **In {behind} of {all_runs} comparisons with rims or walls these do better** by drift, "
         "hinge rotation or drift left (second table below): where the impact is slight, as the "
         "corner of a moat is farther than the rims, and in the light frame where the limit of the "
@@ -215,6 +224,41 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
         "- **It needs a wider gap than a building that is stopped**: displacement at demand "
         f"{last:g} {over('displacement', RIMS, 1e3, '.0f')} mm with rims.",
     ])  # fmt: skip
+
+
+def _of_variants(found: Sequence[Row]) -> list[float]:
+    # The demands at which the variants were run.
+    return sorted({row["demand"] for row in found if row["system"] in VARIANTS})
+
+
+def variants(found: Sequence[Row]) -> str:
+    """Return what a softer wall and walls behind the LIR-DCFP change, in words."""
+    demands = _of_variants(found)
+    g = 1.0 / STANDARD_GRAVITY
+
+    def middle(system: str, key: str) -> float:
+        rows = completed(chosen(found, system=system, demand=demands[-1], elastic=False))
+        return median(float(row[key]) for row in rows)
+
+    stopped, held = (
+        ", ".join(f"{ends(chosen(found, system=system, demand=d, elastic=False))} at {d:g}"
+                  for d in demands)
+        for system in (LIR, BEHIND)
+    )  # fmt: skip
+    soft, hard = (
+        f"{g * middle(system, 'floor'):.2f} g, {1e2 * middle(system, 'drift'):.2f} % of drift and "
+        f"{1e3 * middle(system, 'displacement'):.0f} mm"
+        for system in (SOFT, MOAT)
+    )
+    return (
+        f"Of the runs of the LIR-DCFP alone are completed {stopped}; with walls "
+        f"{1e3 * WALLS[BEHIND][0]:.0f} mm away behind it {held}. Where the walls stop it, the "
+        f"frame feels them as with the plain DCFP: at demand {demands[-1]:g} a median of "
+        f"{1e2 * middle(BEHIND, 'drift'):.2f} % of drift and {g * middle(BEHIND, 'floor'):.2f} g. "
+        f"A wall of a tenth of the stiffness makes of the moat's {hard} these: {soft} (medians, "
+        "both frames): what an impact does depends on what is assumed of the wall, and a soft one "
+        "comes near to the LIR-DCFP."
+    )
 
 
 def yielding_changes(found: Sequence[Row], demand: float) -> str:

@@ -51,8 +51,13 @@ YIELD_STRESS = 345e6
 
 LIR, RIMS, WIDE, MOAT = "LIR-DCFP", "DCFP with rims", "DCFP of larger plan", "DCFP in a moat"
 SYSTEMS = (LIR, RIMS, WIDE, MOAT)
+SOFT, BEHIND = "DCFP in a soft moat", "LIR-DCFP, walls behind"
+VARIANTS = (SOFT, BEHIND)
 WALL_STIFFNESS, RESTITUTION = 5e8, 0.65
 """Of the wall at one side of the moat [N/m], and of the building against it [-]: assumptions."""
+
+WALLS = {MOAT: (0.25, 1.0), SOFT: (0.25, 0.1), BEHIND: (0.29, 1.0)}
+"""Distance of the walls [m], and their stiffness over that of a wall, by system."""
 
 TAIL = 6.0
 """Without ground motion, for the building to come to rest [s]."""
@@ -163,27 +168,32 @@ def bearings_of(name: str) -> dict[Place, LIRBearing]:
 def model_of(structure: Structure, system: str, *, elastic: bool = False) -> Frame:
     """Return a building on a system."""
     own = bearings_of(structure.name)
-    if system != LIR:
+    if system not in (LIR, BEHIND):
         rims = system == RIMS  # a larger plan: none are met, and its displacement is what it needs
         own = {place: bearing.as_dcfp(rims=rims) for place, bearing in own.items()}
     frame = moment_frame(
         bearing=own, column=structure.column, beam=structure.beam, name=system,
         hinges=None if elastic else structure.hinges,
     )  # fmt: skip
-    if system == MOAT:
+    if system in WALLS:
         mass = sum(each.resolved()["design_load"] for each in own.values()) / STANDARD_GRAVITY
-        gap = bearings_of(structure.name)[0, 0].lateral_capacity
-        wall = Stop(
-            gap=gap, stiffness=WALL_STIFFNESS / 3.0,
-            damping=Stop.damping_for(RESTITUTION, WALL_STIFFNESS, mass) / 3.0,
-        )  # fmt: skip
-        for side, nodes in {
-            "x-": [(0, 0), (0, 1), (0, 2)], "x+": [(2, 0), (2, 1), (2, 2)],
-            "y-": [(0, 0), (1, 0), (2, 0)], "y+": [(0, 2), (1, 2), (2, 2)],
-        }.items():  # fmt: skip
-            names = [f"base-{ix}-{iy}" for ix, iy in nodes]
-            frame.add_moat(f"moat {side}", names, {side: wall})
+        _add_walls(frame, mass, *WALLS[system])
     return frame
+
+
+def _add_walls(frame: Frame, mass: float, gap: float, share: float) -> None:
+    # Three nodes at each side run into a part of its wall.
+    stiffness = share * WALL_STIFFNESS
+    wall = Stop(
+        gap=gap, stiffness=stiffness / 3.0,
+        damping=Stop.damping_for(RESTITUTION, stiffness, mass) / 3.0,
+    )  # fmt: skip
+    for side, nodes in {
+        "x-": [(0, 0), (0, 1), (0, 2)], "x+": [(2, 0), (2, 1), (2, 2)],
+        "y-": [(0, 0), (1, 0), (2, 0)], "y+": [(0, 2), (1, 2), (2, 2)],
+    }.items():  # fmt: skip
+        names = [f"base-{ix}-{iy}" for ix, iy in nodes]
+        frame.add_moat(f"moat {side}", names, {side: wall})
 
 
 def motion_of(record: str, folder: Path, factor: float) -> GroundMotion:

@@ -66,12 +66,14 @@ def cells(rows: Sequence[Row]) -> list[str]:
     ]
 
 
-def medians(found: Sequence[Row], structure: str) -> str:
+def medians(
+    found: Sequence[Row], structure: str, demands: Sequence[float], systems: Sequence[str]
+) -> str:
     """Return the table of a structure: medians over the records."""
     head = ["demand", "system", "completed", *(name for name, *_ in COLUMNS)]
     lines = []
-    for demand in sorted({row["demand"] for row in found}):
-        for system in SYSTEMS:
+    for demand in demands:
+        for system in systems:
             rows = chosen(found, structure=structure, demand=demand, system=system, elastic=False)
             lines.append([f"{demand:g}", system, ends(rows), *cells(completed(rows))])
     return table(head, lines)
