@@ -71,7 +71,7 @@ def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str,
             history,
             out.part_state[:count, :n, WORK_DONE].copy(),
             "J",
-            "work that the link has dissipated (stops and ties: taken up)",
+            "work the link took up: what yielding dissipates, and hardening or a wall stores",
         ),
         "link_yield_deformation": labelled(
             ("link",), np.array(limits), "m, rad", "deformation at first yield, NaN without"
@@ -111,7 +111,9 @@ def _hinge_variables(
         "hinge_turn": labelled(
             history, turn, "rad", "plastic rotation run through since the start"
         ),
-        "hinge_work": labelled(history, work, "J", "work that the hinge has dissipated"),
+        "hinge_work": labelled(
+            history, work, "J", "work the hinge took up, what hardening stores included"
+        ),
         "hinge_moment": labelled(
             ("hinge", "hinge_force_component"),
             np.array([(each.axial, each.moment_y, each.moment_z) for _, _, each in hinges]),
