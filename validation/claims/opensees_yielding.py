@@ -210,7 +210,8 @@ def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> li
         "without what is elastic at the end.",
         "## Hinges",
         "A steel moment frame of one bay and two storeys, hinges in the beams of its floors "
-        "(moments about one axis) and columns (both moments, on a circle). In OpenSees a member is a "
+        "(moments about one axis) and columns (both moments, on a circle). In OpenSees a member "
+        "is a "
         "`forceBeamColumn` with the integration `ConcentratedPlasticity`: sections at its ends "
         "that are rigid until they yield, of `Steel01` and of the kind `Bidirectional`. The "
         "geometric stiffness differs: here the consistent one of a bent column, there that of a "
