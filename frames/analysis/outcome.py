@@ -116,10 +116,28 @@ def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
         if near is not None:
             run.counts["bearing"][0] = near[0]
             return RunStatus.SLIP_UNSTABLE, near[1]
-        return status, f"last cause: {cause.meaning}"
+        return status, f"last cause: {cause.meaning}{_without_inertia(state)}"
     if status.is_bearing_failure:
         return status, limit_detail(state.model.props, run.new, int(run.counts["bearing"][0]))
     return status, ""
+
+
+def _without_inertia(state: GravityState) -> str:
+    # Plates that turn without inertia have to be in equilibrium at every instant; where friction
+    # of a tilted slider and a rim let go, there may be none.
+    labels, inertia = state.system.dof_labels, state.system.mass.diagonal()
+    turning = [
+        labels[place].rsplit(" ", 1)[0]
+        for place in state.basis.bearing_dofs
+        if labels[place].endswith((" rx", " ry")) and not inertia[place] > 0.0
+    ]
+    if not turning:
+        return ""
+    return (
+        f'; node "{turning[0]}" and others turn without inertia, and their rotations may have no '
+        "equilibrium: give the nodes at the bearings some, "
+        "add_mass(node, 0.0, (J, J, 0.0)) with 1 to 100 kg m2"
+    )
 
 
 def culprit(state: GravityState) -> str:

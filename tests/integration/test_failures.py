@@ -13,6 +13,7 @@ from frames import (
     GroundMotion,
     energy_error,
     lumped_mass,
+    moment_frame,
     shear_building,
     time_history,
 )
@@ -254,3 +255,28 @@ def test_runs_without_end_are_refused(options, words):
     motion = GroundMotion(x=np.ones(100), dt=DT)
     with pytest.raises(ValueError, match=words):
         time_history(lumped_mass(LIRBearing(**FUSED, capacity=0.1), MASS), motion, **options)
+
+
+def test_plates_without_inertia_are_named_where_they_find_no_equilibrium():
+    """Interface and rim let go together: with rotary inertia the same run goes on to its limit."""
+    device = LIRBearing(
+        radius=1.5, slider_height=0.2, slider_radius=0.2, capacity=0.25,
+        friction=CoulombFriction(0.05), interface_friction=0.16,
+    )  # fmt: skip
+    t = np.arange(0.0, 3.6, 0.01)
+    shape = np.exp(-(((t - 4.0) / 2.0) ** 2))
+    motion = GroundMotion(
+        x=4.2 * np.sin(2.0 * np.pi * 0.42 * t) * shape,
+        y=2.0 * np.sin(2.0 * np.pi * 0.6 * t) * shape,
+        dt=0.01,
+    )
+    frame = moment_frame((2, 1), 3, bearing=device)
+    with pytest.warns(AnalysisWarning, match=r"turn without inertia.*add_mass\(node, 0.0, \(J, J"):
+        data = time_history(frame, motion)
+    assert data.attrs["status"] == "step_too_small"
+    for name in frame.nodes:
+        if name.startswith("base-"):
+            frame.add_mass(name, 0.0, (10.0, 10.0, 0.0))
+    with pytest.warns(AnalysisWarning, match="slipped further"):
+        data = time_history(frame, motion)
+    assert data.attrs["status"] == "slip_exceeded"
