@@ -213,6 +213,8 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
         message = f"it has {len(system.bearings)} bearings, the level takes one"
     elif system.stiffness.nnz and np.abs(system.stiffness.data).max() > 0.0:
         message = "it has members or springs, the level takes a mass on a bearing"
+    elif len(system.parts.kind):
+        message = "it has links or hinges, the level takes a mass on a bearing"
     elif system.damping.nnz:
         message = "it has a damping matrix, the level takes a mass on a bearing"
     rows = bearing_rows(system).toarray()

@@ -332,6 +332,15 @@ def test_auto_chooses_with_parts_too():
     assert "second_direction" in data.attrs["features_left_out"]
 
 
+def test_the_level_of_bodies_takes_no_links():
+    frame = lumped_mass(bearing(), MASS)
+    frame.add_link("damper", "ground", "mass", ViscousDamper(coefficient=1e5), "ux")
+    with pytest.raises(ModelError, match="it has links or hinges"):
+        time_history(frame, waves(), level="rigid_body")
+    data = time_history(frame, waves(1.5), level="contact")
+    assert float(data["energy"].sel(term="dampers")[-1]) > 0.0
+
+
 def test_an_oblique_link_couples_the_plane():
     frame = stick(storeys=1)
     assert is_plane(assemble(frame))
