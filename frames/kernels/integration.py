@@ -13,14 +13,10 @@ from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes, times
 from frames.kernels.effective import effective
 from frames.kernels.ledger import add_bearing_energy, add_energy, add_part_energy
+from frames.kernels.part_works import commit_parts
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton
-from frames.kernels.yielding import (
-    begin_parts,
-    commit_parts,
-    part_load_on_modes,
-    set_part_follow,
-)
+from frames.kernels.yielding import begin_parts, part_load_on_modes, set_part_follow
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined
 from frames.kernels.coupling import coupled_work
-from frames.kernels.yielding import part_energy_on
+from frames.kernels.part_works import part_energy_on
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:

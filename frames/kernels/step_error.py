@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.kernels.yielding import part_defect, part_error
+from frames.kernels.part_works import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
