@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.kernel_data import MOST_HALVINGS
-from frames.parts_layout import STATE_SIZE, WIDEST
+from frames.parts_layout import SCRATCH, STATE_SIZE, WIDEST
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -62,7 +62,7 @@ class Parts(NamedTuple):
     load_e: Array
     matrix: Array  # (m, m) scratch
     right: Array  # (m, max(n_b, 1)) scratch
-    small: Array  # (18, 16) scratch of a hinged member
+    small: Array  # SCRATCH, of of a hinged member
     vector: Array  # (2, m) scratch
     modes: Array  # (2, n_e) scratch
     scheme: Array  # (5,) speed over deformation, what is known of it, share of the end, tolerance
@@ -97,6 +97,6 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Par
         still=np.ascontiguousarray(rows @ basis.shift(rows.T.toarray())),
         follow=np.zeros((sizes, m, n_b)), slot=np.zeros((sizes, m), np.int64),
         pool=np.zeros((pool, m)), load_b=np.zeros(n_b), load_e=np.zeros(n_e),
-        matrix=np.zeros((m, m)), right=np.zeros((m, max(n_b, 1))), small=np.zeros((18, 16)),
+        matrix=np.zeros((m, m)), right=np.zeros((m, max(n_b, 1))), small=np.zeros(SCRATCH),
         vector=np.zeros((2, m)), modes=np.zeros((2, n_e)), scheme=np.zeros(5), work=np.zeros(4),
     )  # fmt: skip

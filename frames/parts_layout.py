@@ -22,6 +22,9 @@ N_PLASTIC = 6
 WORK_DONE = 8
 """Where the state of a part has the work it has done; of hinge j it is the next one."""
 
+SCRATCH = (18, 16)
+"""Room that the solution of a hinged member needs."""
+
 WIDEST = 5
 """Most deformations of one part."""
 

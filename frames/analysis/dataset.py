@@ -67,7 +67,7 @@ def build_dataset(
     system, basis = state.system, state.basis
     q = expand(basis, out.b[:count], out.e[:count])
     if state.parts is not None:
-        q -= out.beyond[:count] @ basis.shift(system.part_rows.T.toarray()).T
+        q -= out.beyond[:count] @ state.part_shift.T
     # what lags without mass has a velocity, but no acceleration of use
     a = expand(basis, out.a_b[:count], basis.mass_e * out.a_e[:count], offset=False)
     shape = (count, len(system.node_names), 6)

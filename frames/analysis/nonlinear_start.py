@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.kernels.hinges import is_inside, set_stress, surface
+from frames.kernels.hinges import is_outside, set_forces, set_stress
 from frames.model.laws import Bilinear, BoucWen
 from frames.parts_data import parts_arrays
-from frames.parts_layout import BOUC_WEN, HINGE, STATE_SIZE, STRIDE
+from frames.parts_layout import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -69,31 +69,23 @@ def refuse_yielding(found: NonlinearParts, d: FloatArray) -> None:
                 "turn it out of their direction"
             )
             raise ModelError(message)
+    sigma, forces, at_rest, scratch = (
+        np.zeros(3),
+        np.zeros(5),
+        np.zeros(STATE_SIZE),
+        np.zeros(SCRATCH),
+    )
     for k, member in enumerate(found.hinged, start=len(found.links)):
-        at = found.first[k]
-        for end, forces, value in hinge_states(found.par[k], d[at : at + 5]):
-            if value > 0.0:
-                n, m_y, m_z = forces
+        par = found.par[k]
+        set_forces(par, at_rest, d[found.first[k] : found.first[k + 1]], forces)
+        for hinge, end in enumerate("ij"):
+            at = HINGE + STRIDE * hinge
+            set_stress(par, hinge, at_rest, forces, sigma)
+            if par[at + 8] > 0.0 and is_outside(par, at, sigma, scratch):
+                n, m_y, m_z = sigma
                 message = (
                     f'the hinge at end {end} of member "{member}" yields under the permanent '
                     f"loads, with N = {n:.4g} N, My = {m_y:.4g} N m, Mz = {m_z:.4g} N m: make the "
                     "member stronger, or release its moments there"
                 )
                 raise ModelError(message)
-
-
-def hinge_states(
-    par: FloatArray, d: FloatArray
-) -> list[tuple[str, tuple[float, float, float], float]]:
-    """Return end, forces (N, My, Mz) and yield function of each hinge of an elastic member."""
-    forces = par[25:30] + par[:25].reshape(5, 5) @ d
-    found = []
-    first, second = np.zeros(3), np.zeros((3, 3))
-    for hinge, end in enumerate("ij"):
-        at = HINGE + STRIDE * hinge
-        if par[at + 8] > 0.0:
-            sigma = np.zeros(3)
-            set_stress(par, hinge, np.zeros(STATE_SIZE), forces, sigma)
-            value = -1.0 if is_inside(par, at, sigma) else surface(par, at, sigma, first, second)
-            found.append((end, (float(sigma[0]), float(sigma[1]), float(sigma[2])), float(value)))
-    return found

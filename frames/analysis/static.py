@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -81,6 +82,11 @@ class GravityState:
     seconds: float
     load_path: LoadPath
     parts: Parts | None
+
+    @cached_property
+    def part_shift(self) -> FloatArray:
+        """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
+        return self.basis.shift(self.system.part_rows.T.toarray())
 
     @property
     def held_periods(self) -> tuple[float, ...]:

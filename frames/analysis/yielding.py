@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.kernels.hinges import place
-from frames.model.laws import PlasticHinge
+from frames.model.parts import hinge_name, hinged_ends
 from frames.parts_layout import N_PLASTIC, WORK_DONE
 from frames.results.kept import require_recorded
 from lir_element.results.dataset import labelled
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from frames.assembly.system import System
     from frames.kernel_data import Output
     from frames.model.contents import FrameContents
+    from frames.model.parts import HingedEnd
 
 HINGE_FORCES = ("N", "My", "Mz")
 """Forces on a hinge, in local axes of its member."""
@@ -35,24 +36,11 @@ def part_variables(
         coordinates["link"] = [link.name for link in found.links]
         variables |= _link_variables(found, out, count)
     if found.hinged:
-        coordinates["hinge"] = hinge_names(found, frame)
+        hinges = hinged_ends(frame.hinges)
+        coordinates["hinge"] = [hinge.name for hinge in hinges]
         coordinates["hinge_force_component"] = list(HINGE_FORCES)
-        variables |= _hinge_variables(found, frame, out, count)
+        variables |= _hinge_variables(found, hinges, out, count)
     return variables, coordinates
-
-
-def hinge_names(found: NonlinearParts, frame: FrameContents) -> list[str]:
-    """Return the names of the hinges, "member:end"."""
-    return [f"{member}:{'ij'[end]}" for member, end, _ in _hinges(found, frame)]
-
-
-def _hinges(found: NonlinearParts, frame: FrameContents) -> list[tuple[str, int, PlasticHinge]]:
-    return [
-        (member, end, hinge)
-        for member in found.hinged
-        for end, hinge in enumerate(frame.hinges[member])
-        if hinge is not None
-    ]
 
 
 def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str, xr.Variable]:
@@ -80,20 +68,19 @@ def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str,
 
 
 def _hinge_variables(
-    found: NonlinearParts, frame: FrameContents, out: Output, count: int
+    found: NonlinearParts, hinges: list[HingedEnd], out: Output, count: int
 ) -> dict[str, xr.Variable]:
-    hinges = _hinges(found, frame)
     order = {member: k for k, member in enumerate(found.hinged, start=len(found.links))}
     shape = (count, len(hinges), 3)
     force, plastic = np.zeros(shape), np.zeros(shape)
     turn, work = np.zeros(shape[:2]), np.zeros(shape[:2])
-    for h, (member, end, _) in enumerate(hinges):
+    for h, (_, member, end, _) in enumerate(hinges):
         k = order[member]
         at = slice(found.first[k], found.first[k + 1])
         stiffness = found.par[k, :25].reshape(5, 5)
         five = found.par[k, 25:30] + out.deformation[:count, at] @ stiffness
         five += out.beyond[:count, at]
-        force[:, h] = five[:, [place(end, part) for part in range(3)]]
+        force[:, h] = five[:, _places(end)]
         plastic[:, h] = out.part_state[:count, k, 3 * end : 3 * end + 3]
         turn[:, h] = out.part_state[:count, k, N_PLASTIC + end]
         work[:, h] = out.part_state[:count, k, WORK_DONE + end]
@@ -116,7 +103,7 @@ def _hinge_variables(
         ),
         "hinge_moment": labelled(
             ("hinge", "hinge_force_component"),
-            np.array([(each.axial, each.moment_y, each.moment_z) for _, _, each in hinges]),
+            np.array([(each.axial, each.moment_y, each.moment_z) for *_, each in hinges]),
             "N, N m",
             "plastic forces of the hinge: axial from its centre, moments",
         ),
@@ -141,9 +128,14 @@ def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
         for k, member in enumerate(found.hinged, start=n):
             stiffness = found.par[k, :25].reshape(5, 5)
             for end in (0, 1):
-                h = names.get(f"{member}:{'ij'[end]}")
+                h = names.get(hinge_name(member, end))
                 if h is not None:
-                    columns = stiffness[:, [place(end, part) for part in range(3)]]
+                    columns = stiffness[:, _places(end)]
                     at = slice(found.first[k], found.first[k + 1])
                     beyond[:, at] -= plastic[:, h] @ columns.T
     return beyond
+
+
+def _places(end: int) -> list[int]:
+    # Of N, My and Mz at an end among a member's five forces.
+    return [place(end, part) for part in range(3)]

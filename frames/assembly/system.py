@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -133,7 +134,7 @@ class System:
     features: Features
     parts: NonlinearParts
 
-    @property
+    @cached_property
     def part_rows(self) -> SparseMatrix:
         """Deformations of the nonlinear parts from the free degrees of freedom, (m, n_free)."""
         return sparse.csr_array(self.parts.node_rows @ self.transform)

@@ -139,12 +139,11 @@ def flow(par: Floats, force: float) -> tuple[float, float]:
 
 
 @kernel
-def maxwell_stage(par: Floats, start: float, h: float) -> tuple[float, float]:
-    """Solve ``f = start - h k flow(f)``; returns f and its derivative by `start`."""
+def maxwell_stage(par: Floats, start: float, h: float) -> tuple[float, float, float]:
+    """Solve ``f = start - h k flow(f)``; returns f, and flow(f) with its derivative."""
     stiff = h * par[3]
     low, high = min(start, 0.0), max(start, 0.0)
     f = start
-    slope = 0.0
     for _ in range(_MOST):
         speed, slope = flow(par, f)
         gap = f + stiff * speed - start
@@ -158,8 +157,8 @@ def maxwell_stage(par: Floats, start: float, h: float) -> tuple[float, float]:
             f = 0.5 * (low + high)
         if abs(step) <= 1e-13 * (abs(start) + abs(f)):
             break
-    _, slope = flow(par, f)
-    return f, 1.0 / (1.0 + stiff * slope)
+    speed, slope = flow(par, f)
+    return f, speed, slope
 
 
 @kernel
@@ -172,13 +171,14 @@ def maxwell(
     Runge-Kutta method.
     """
     share, k = _SDIRK, par[3]
-    f_1, slope_1 = maxwell_stage(par, old[0] + share * k * stretch, share * dt)
-    rate_1 = k * stretch / dt - k * flow(par, f_1)[0]
-    d_rate_1 = k / dt - k * flow(par, f_1)[1] * slope_1 * share * k
+    stiff = share * dt * k
+    _, speed_1, flow_1 = maxwell_stage(par, old[0] + share * k * stretch, share * dt)
+    rate_1 = k * stretch / dt - k * speed_1
+    d_rate_1 = k / dt - k * flow_1 * (1.0 / (1.0 + stiff * flow_1)) * share * k
     start = old[0] + (1.0 - share) * dt * rate_1 + share * k * stretch
-    f_2, slope_2 = maxwell_stage(par, start, share * dt)
+    f_2, _, flow_2 = maxwell_stage(par, start, share * dt)
     new[0] = f_2
-    return f_2, slope_2 * ((1.0 - share) * dt * d_rate_1 + share * k)
+    return f_2, (1.0 / (1.0 + stiff * flow_2)) * ((1.0 - share) * dt * d_rate_1 + share * k)
 
 
 @kernel

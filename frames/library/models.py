@@ -182,11 +182,8 @@ def shear_building(
     frame.add_level("base", ["base"])
     laws = _laws(storey_law, chains[1])
     for k, values in enumerate(zip(*chains, strict=True), start=1):
-        if laws:
-            values = values[0], laws[k - 1].stiffness, values[2]
-        _add_storey(frame, k, level + k * height, values, polar, held)
-        if laws:
-            _let_yield(frame, k, laws[k - 1])
+        law = laws[k - 1] if laws else None
+        _add_storey(frame, k, level + k * height, values, polar, held, law)
         _add_mass(frame, f"floor-{k}", values[0], gyration, off)
     frame.set_damping(damping)
     return frame
@@ -211,16 +208,6 @@ def _laws(given: StoreyLaws | None, stiffness: list[float]) -> list[Bilinear | B
     return laws
 
 
-def _let_yield(frame: Frame, number: int, law: Bilinear | BoucWen) -> None:
-    # Puts links in the place of the lateral springs of a storey.
-    name = f"storey-{number}"
-    spring = frame.springs[name]
-    frame.remove("spring", name)
-    frame.add_spring(name, spring.i, spring.j, (0.0, 0.0, *spring.stiffness[2:]))
-    for axis in "xy":
-        frame.add_link(f"{name}-{axis}", spring.i, spring.j, law, f"u{axis}")
-
-
 def _add_storey(
     frame: Frame,
     number: int,
@@ -228,14 +215,22 @@ def _add_storey(
     values: tuple[float, float, float],
     polar: float,
     held: tuple[str, ...],
+    law: Bilinear | BoucWen | None,
 ) -> None:
-    # Floor `number` at elevation z on the storey below it, of lateral and axial stiffness.
+    # Floor `number` at elevation z on the storey below it, of lateral and axial stiffness; with a
+    # law links take the place of the lateral springs.
     _, lateral, axial = values
+    if law is not None:
+        lateral = law.stiffness
     floor, below = f"floor-{number}", f"floor-{number - 1}" if number > 1 else "base"
     frame.add_node(floor, 0.0, 0.0, z)
     frame.fix(floor, *held)
-    stiffness = (lateral, lateral, axial, 0.0, 0.0, lateral * polar)
+    along = lateral if law is None else 0.0
+    stiffness = (along, along, axial, 0.0, 0.0, lateral * polar)
     frame.add_spring(f"storey-{number}", below, floor, stiffness)
+    if law is not None:
+        for axis in "xy":
+            frame.add_link(f"storey-{number}-{axis}", below, floor, law, f"u{axis}")
     frame.add_level(floor, [floor])
 
 

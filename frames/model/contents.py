@@ -16,6 +16,7 @@ from frames.model.parts import (
     BearingLink,
     Diaphragm,
     FloorLoad,
+    Hinges,
     Level,
     Link,
     Member,
@@ -154,7 +155,7 @@ class FrameContents:
         return MappingProxyType(self._links)
 
     @property
-    def hinges(self) -> Mapping[str, tuple[PlasticHinge | None, PlasticHinge | None]]:
+    def hinges(self) -> Hinges:
         """Plastic hinges at ends i and j by member."""
         return MappingProxyType(self._hinges)
 

@@ -16,9 +16,6 @@ from scipy.optimize import brentq
 from frames._errors import ModelError
 from lir_element.door import require_between, require_non_negative, require_positive, require_type
 
-KINDS = ("bilinear", "bouc-wen", "tie", "viscous", "maxwell", "stop", "hertz-stop", "hinges")
-"""Kinds of law as the kernels number them."""
-
 _TOP = 1.0 - 1e-9
 
 

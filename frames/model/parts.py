@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from frames._errors import ModelError
-from frames.model.laws import Law
+from frames.model.laws import Law, PlasticHinge
 from frames.model.sections import Section
 from lir_element.door import require_non_negative, require_positive
 
@@ -21,6 +22,9 @@ DEFAULT_CASE = "D"
 
 Vector: TypeAlias = tuple[float, float, float]
 """Components along global x, y, z."""
+
+Hinges: TypeAlias = Mapping[str, tuple[PlasticHinge | None, PlasticHinge | None]]
+"""Plastic hinges at ends i and j by member."""
 
 RELEASABLE = ("T", "My", "Mz")
 """Moments about a member's local axes that its ends may be free of."""
@@ -117,6 +121,30 @@ class Link:
     law: Law
     direction: tuple[float, ...]
     turns: bool = False
+
+
+class HingedEnd(NamedTuple):
+    """A plastic hinge and where it is: its name, its member and the end, 0 for i and 1 for j."""
+
+    name: str
+    member: str
+    end: int
+    hinge: PlasticHinge
+
+
+def hinge_name(member: str, end: int) -> str:
+    """Return the name of the hinge at an end (0, 1) of a member: "member:i", "member:j"."""
+    return f"{member}:{'ij'[end]}"
+
+
+def hinged_ends(hinges: Hinges) -> list[HingedEnd]:
+    """Return the plastic hinges of members, in their order."""
+    return [
+        HingedEnd(hinge_name(member, end), member, end, hinge)
+        for member, pair in hinges.items()
+        for end, hinge in enumerate(pair)
+        if hinge is not None
+    ]
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,17 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from frames.model.laws import Bilinear, BoucWen, HertzStop, Stop, Tie, ViscousDamper
+from frames.model.parts import hinged_ends
 from frames.plots import plot_style as ps
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from frames._types import FloatArray
     from frames.assembly.system import System
     from frames.model.contents import FrameContents
     from frames.model.laws import Law
-    from frames.model.parts import Link
+    from frames.model.parts import Hinges, Link
 
 SHARE = 0.07
 """Of a member's length, from its end, at which a hinge is drawn."""
@@ -116,20 +117,15 @@ def _strokes(
     yield middle[None], {"linestyle": "", "marker": kind.mark, "markersize": 4.0}
 
 
-def hinge_places(
-    lines: FloatArray, system: System, hinges: Mapping[str, tuple[object, object]]
-) -> tuple[list[str], FloatArray]:
+def hinge_places(lines: FloatArray, system: System, hinges: Hinges) -> tuple[list[str], FloatArray]:
     """Return the names of plastic hinges, "member:i", and where they are drawn, (n, 3)."""
     place = {name: k for k, name in enumerate(system.members.names)}
-    names, points = [], []
-    for member, pair in hinges.items():
+    found, points = hinged_ends(hinges), []
+    for _, member, end, _ in found:
         line = lines[place[member]]
-        for end, hinge in enumerate(pair):
-            if hinge is not None:
-                near, far = line[(0, -1)[end]], line[(-1, 0)[end]]
-                names.append(f"{member}:{'ij'[end]}")
-                points.append(near + SHARE * (far - near))
-    return names, np.array(points).reshape(-1, 3)
+        near, far = line[(0, -1)[end]], line[(-1, 0)[end]]
+        points.append(near + SHARE * (far - near))
+    return [hinge.name for hinge in found], np.array(points).reshape(-1, 3)
 
 
 def part_handles(model: FrameContents) -> list[Line2D]:

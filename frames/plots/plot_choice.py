@@ -217,6 +217,15 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     return str(data["bearing"].to_numpy()[int(np.argmax(peaks))])
 
 
+def step_at(data: xr.Dataset, time: float) -> int:
+    """Return the recorded step nearest to a time; a ValueError if that lies outside of them."""
+    times = data["time"].to_numpy()
+    if not times[0] <= time <= times[-1]:
+        msg = f"time = {time:g} s lies outside of the result, {times[0]:g} to {times[-1]:g} s"
+        raise ValueError(msg)
+    return int(np.abs(times - time).argmin())
+
+
 def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
     """Raise a ValueError that says why, if the Dataset lacks one of `names`."""
     missing = [name for name in names if name not in data.variables]

@@ -124,12 +124,8 @@ def _rotations(data: xr.Dataset, time: float | None) -> tuple[FloatArray, str]:
     # Sizes of the plastic rotations (hinge,), and of when they are.
     if time is None:
         return largest(data, "hinge_rotation").values, "largest of the run"
-    times = data["time"].to_numpy()
-    if not times[0] <= time <= times[-1]:
-        msg = f"time = {time:g} s lies outside of the result, {times[0]:g} to {times[-1]:g} s"
-        raise ValueError(msg)
-    step = int(np.abs(times - time).argmin())
-    return hinge_rotation(data.isel(time=[step]))[0], f"at {times[step]:.3f} s"
+    step = pick.step_at(data, time)
+    return hinge_rotation(data.isel(time=[step]))[0], f"at {float(data['time'][step]):.3f} s"
 
 
 def _classes(sizes: FloatArray, bounds: FloatArray | None) -> IntArray:

@@ -53,12 +53,9 @@ def link_loops(
     found = pick.as_systems(systems, start, end)
     shown = _chosen(found, links)
     columns = ps.COLUMNS[len(shown)]
-    rows = -(-len(shown) // columns)
-    figure = ps.new_figure(0.6 + (3.2 if len(shown) == 1 else 2.3) * rows)
-    panels = [panel for row in ps.grid_of(figure, rows, columns) for panel in row]
-    for panel in panels[len(shown) :]:
-        panel.remove()
-    for place, (panel, name) in enumerate(zip(panels, shown, strict=False)):
+    height = 3.2 if len(shown) == 1 else 2.3
+    figure, panels = ps.panels_of(len(shown), columns, height, share=False)
+    for place, (panel, name) in enumerate(zip(panels, shown, strict=True)):
         for k, data in enumerate(found.values()):
             one = data.sel(link=name)
             style = ps.line_of(k) | {"linewidth": 0.8, "linestyle": "-"}

@@ -210,18 +210,14 @@ def mode_shapes(
 
 def _at(data: xr.Dataset, time: float | None) -> tuple[FloatArray, float]:
     # Displacements (n_nodes, 6) at an instant, and the instant that was recorded.
-    times = data["time"].to_numpy()
     if time is None:
         require_steps(data, "model_view without a time")
         require_recorded(data, "model_view without a time", "bearing_displacement")
         u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1)
         step = int(u.max(axis=1).argmax())
-    elif not times[0] <= time <= times[-1]:
-        msg = f"time = {time:g} s lies outside of the result, {times[0]:g} to {times[-1]:g} s"
-        raise ValueError(msg)
     else:
-        step = int(np.abs(times - time).argmin())
-    return data["node_displacement"].to_numpy()[step], float(times[step])
+        step = pick.step_at(data, time)
+    return data["node_displacement"].to_numpy()[step], float(data["time"][step])
 
 
 def _scale(system: System, u: FloatArray, factor: float | None) -> float:

@@ -79,11 +79,13 @@ def grid_of(
     return table
 
 
-def panels_of(count: int, columns: int, height: float) -> tuple[PageFigure, list[Axes]]:
-    """Return a figure of `count` panels with common axes, row after row of a height [in]."""
+def panels_of(
+    count: int, columns: int, height: float, *, share: bool = True
+) -> tuple[PageFigure, list[Axes]]:
+    """Return a figure of `count` panels, row after row of a height [in]; common axes or not."""
     rows = math.ceil(count / columns)
     figure = new_figure(0.6 + height * rows)
-    table = grid_of(figure, rows, columns, share_x=True, share_y=True)
+    table = grid_of(figure, rows, columns, share_x=share, share_y=share)
     panels = [panel for row in table for panel in row]
     for panel in panels[count:]:
         panel.remove()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.results.reached import largest, left
+from frames.results.reached import largest, left, remaining
 from frames.results.yielded import can_yield
 
 if TYPE_CHECKING:
@@ -57,11 +57,10 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
         If histories were left out of the recording that kept no extremes of them.
     """
     rows = []
-    ended = 1.0 if "failed_at" not in data.attrs else math.nan
     if "link_yield_deformation" in data:
         found, names = largest(data, "link_ductility"), data["link"].to_numpy()
         limits = data["link_yield_deformation"].to_numpy()
-        rest, work = ended * left(data, "link_deformation"), left(data, "link_work")
+        rest, work = remaining(data, "link_deformation"), left(data, "link_work")
         for k in np.flatnonzero(can_yield(data)).tolist():
             ratio, at = _reached(found.values[k], found.at[k])
             size = ratio * limits[k]
@@ -70,7 +69,7 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
     if "hinge_moment" in data:
         found, names = largest(data, "hinge_rotation"), data["hinge"].to_numpy()
         turn, work = largest(data, "hinge_turn").values, left(data, "hinge_work")
-        rest = ended * left(data, "hinge_rotation")
+        rest = remaining(data, "hinge_rotation")
         for k, name in enumerate(names):
             size, at = _reached(found.values[k], found.at[k])
             numbers = (size, at, math.nan, math.nan, rest[k], turn[k], work[k])

@@ -14,7 +14,7 @@ from frames.results.reached import (
     Extreme,
     computed_until,
     largest,
-    left,
+    remaining,
     storeys_of_lines,
     total,
 )
@@ -104,11 +104,10 @@ def _peak(quantity: str, unit: str, found: Extreme, names: Any = ()) -> Peak:
 
 def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
     names, end = data["bearing"].to_numpy(), computed_until(data)
-    ended = 1.0 if "failed_at" not in data.attrs else math.nan
     u, slip = largest(data, "displacement"), largest(data, "slip")
     over = Extreme(u.values / lateral_capacity(data), u.at)
     overlap = Extreme(slip.values / data["slip_capacity"].to_numpy(), slip.at)
-    left_over = {name: ended * float(left(data, name).max()) for name in ("displacement", "slip")}
+    left_over = {name: float(remaining(data, name).max()) for name in ("displacement", "slip")}
     yield _peak("bearing displacement", "m", u, names)
     yield _peak("bearing displacement over capacity", "1", over, names)
     yield Peak("bearing displacement left", left_over["displacement"], "m", end)

@@ -7,6 +7,7 @@ run goes on, at every base step, and keeps them as variables ``reached_...``: so
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -94,6 +95,11 @@ def left(data: xr.Dataset, name: str) -> FloatArray:
     if f"{REACHED}{name}_left" in data.variables:
         return data[f"{REACHED}{name}_left"].to_numpy()
     return np.asarray(QUANTITIES[name].of(data)[-1])
+
+
+def remaining(data: xr.Dataset, name: str) -> FloatArray:
+    """Return the same of a run that went to its end; NaN of one that stopped before."""
+    return left(data, name) * (math.nan if "failed_at" in data.attrs else 1.0)
 
 
 def computed_until(data: xr.Dataset) -> float:

@@ -14,12 +14,12 @@ from frames import (
     GroundMotion,
     HertzStop,
     PlasticHinge,
-    Section,
     Stop,
     moment_frame,
     shear_building,
     time_history,
 )
+from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element
 from validation.opensees.frames import Built, add_loads, build
@@ -47,9 +47,7 @@ MASS, STIFFNESS = 2e5, 1.2e8  # kg, N/m, of a storey
 LEAST = 0.25
 """Share of the largest value from which on a part is compared [-]."""
 TURNING = (500.0, 500.0, 800.0)  # kg m2, at every node of the moment frame
-COLUMN = Section.box(0.40, 0.40, 0.025)
-BEAM = Section.i_shape(0.55, 0.22, 0.020, 0.012)
-BASE_BEAM = Section.i_shape(0.80, 0.30, 0.030, 0.016)
+SECTIONS = {"column": DEFAULT_COLUMN, "beam": DEFAULT_BEAM, "base_beam": DEFAULT_BASE_BEAM}
 HINGES = {
     "beam": PlasticHinge(moment_y=1.6e5, hardening=0.03),
     "column": PlasticHinge(moment_y=2.5e5, moment_z=2.5e5, hardening=0.03),
@@ -166,7 +164,7 @@ def hinged(capacity: float) -> Frame:
         (1, 1), 2, bearing=bearing(capacity, 0.1), damping=None, hinges=HINGES, floor_load=3000.0,
         **{
             name: replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
-            for name, section in (("column", COLUMN), ("beam", BEAM), ("base_beam", BASE_BEAM))
+            for name, section in SECTIONS.items()
         },
     )  # fmt: skip
     for name in frame.nodes:

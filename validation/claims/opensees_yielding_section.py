@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import Frame, PlasticHinge, Section
+from frames import Frame, PlasticHinge
 from frames.assembly.assemble import assemble
 from frames.kernels.hinges import hinged_member
+from frames.library.moment_frames import DEFAULT_COLUMN
 from frames.parts_data import STATE_SIZE
 from validation.opensees.model import advance, empty_model, lead, solver, static_steps
 from validation.opensees.nonlinear import hinged_member as hinged_in_opensees
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 LENGTH = 3.5  # m
 AXIAL = 4e6  # N, of the hinge
-SECTION = replace(Section.box(0.40, 0.40, 0.025), shear_area_y=math.inf, shear_area_z=math.inf)
+SECTION = replace(DEFAULT_COLUMN, shear_area_y=math.inf, shear_area_z=math.inf)
 ARM = math.sqrt(SECTION.inertia_y / SECTION.area)
 HARDENING = 1e-3
 HINGE = PlasticHinge(moment_y=AXIAL * ARM, axial=AXIAL, axial_exponent=1.0, hardening=HARDENING)

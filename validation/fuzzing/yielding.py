@@ -137,8 +137,12 @@ def _ends(frame: Frame) -> tuple[str, str]:
     return low[0], high[-1]
 
 
+def _weight(frame: Frame) -> float:
+    return float(sum(values[0] for values in frame.masses.values())) * GRAVITY
+
+
 def _damper(rng: np.random.Generator, frame: Frame) -> str:
-    weight = -float(sum(values[0] for values in frame.masses.values())) * -GRAVITY
+    weight = _weight(frame)
     law = ViscousDamper(
         coefficient=weight * rng.uniform(0.02, 0.2),
         exponent=float(rng.choice([0.3, 0.5, 1.0])),
@@ -151,7 +155,7 @@ def _damper(rng: np.random.Generator, frame: Frame) -> str:
 
 
 def _braces(rng: np.random.Generator, frame: Frame) -> str:
-    weight = float(sum(values[0] for values in frame.masses.values())) * GRAVITY
+    weight = _weight(frame)
     law = Tie(
         stiffness=weight * log_uniform(rng, 10.0, 200.0), yield_force=0.1 * weight,
         hardening=0.01, slack=float(rng.choice([0.0, 0.002])),
@@ -163,7 +167,7 @@ def _braces(rng: np.random.Generator, frame: Frame) -> str:
 
 
 def _walls(rng: np.random.Generator, frame: Frame) -> str:
-    weight = float(sum(values[0] for values in frame.masses.values())) * GRAVITY
+    weight = _weight(frame)
     gap = rng.uniform(0.05, 0.25)
     nodes = list(frame.levels[0].nodes)
     stiffness = weight / len(nodes) * log_uniform(rng, 20.0, 2000.0)
