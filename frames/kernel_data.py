@@ -54,12 +54,15 @@ CLOCK_FIELDS = (
     Field("dt_before", "s", "", "last step that was accepted, zero at the start"),
     Field("share", "-", "", "estimated error of the last step over what is allowed"),
     Field("reach", "m", "", "largest horizontal displacement of a bearing so far"),
+    Field("equal", "-", "", "accepted steps since one of another size", (), "i8"),
+    Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
 )
 
 COUNT_FIELDS = (
     Field("steps", "-", "", "steps accepted", (), "i8"),
     Field("iterations", "-", "", "iterations of Newton's method", (), "i8"),
+    Field("tangents", "-", "", "tangents made", (), "i8"),
     Field("halvings", "-", "", "steps halved", (), "i8"),
     Field("trials", "-", "", "state determinations of all bearings", (), "i8"),
     Field("bearing", "-", "", "bearing whose limit or state was the last to fail", (), "i8"),
@@ -80,7 +83,7 @@ class Model(NamedTuple):
     mass_eb: Array
     mass_e: Array
     stiffness_b: Array
-    damping_b: Array
+    damping_b: Array  # of no size where there is none
     omega2: Array
     damping_e: Array
     damping_be: Array  # full damping besides; of no size where the modes' is diagonal
@@ -103,6 +106,7 @@ class Run(NamedTuple):
     v_b: Array
     a_b: Array
     mean_v_b: Array  # of the last step: a guess free of what rings in v_b
+    mean_v_before: Array  # of the step before that
     e: Array
     v_e: Array
     a_e: Array
@@ -117,11 +121,14 @@ class Run(NamedTuple):
     carried: Array  # (n_bearings,) mass that the permanent axial force holds [kg]
     force_old: Array  # (n_b,) bearing forces, committed
     force: Array
-    tangent: Array  # (n_b, n_b)
+    force_before: Array  # (2, n_b) and those of the two steps before
+    tangent: Array  # (n_b, n_b) the last one made, transposed and factorised
+    order: Array  # (n_b,) of its rows
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
     follow_e: Array  # (halvings, n_e, n_b) and how they follow b
+    lead_e: Array  # (halvings, n_b, n_e) its transpose
     b_new: Array
     v_b_new: Array
     a_b_new: Array
@@ -163,6 +170,7 @@ class Setup(NamedTuple):
     gamma: float
     force_tolerance: float
     max_iterations: int
+    tangent_worth: float  # iterations that a kept tangent may take before a new one is cheaper
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
     error_tolerance: float  # of a step over the displacement reached; infinite: fixed step
@@ -192,7 +200,7 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         mass_eb=plain(basis.mass_be.T),
         mass_e=plain(basis.mass_e),
         stiffness_b=plain(basis.stiffness_b),
-        damping_b=plain(basis.damping_b),
+        damping_b=plain(basis.damping_b if basis.damping_b.any() else np.zeros((0, 0))),
         omega2=plain(basis.omega2),
         damping_e=plain(basis.damping_e),
         damping_be=plain(basis.damping_be),
@@ -230,14 +238,15 @@ def run_arrays(model: Model) -> Run:
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
     return Run(
-        b=b(), v_b=b(), a_b=b(), mean_v_b=b(), e=e(), v_e=e(), a_e=e(),
+        b=b(), v_b=b(), a_b=b(), mean_v_b=b(), mean_v_before=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK), store_at_rest=np.zeros(1),
         push=np.zeros((count, 3)), rise=np.zeros((count, 2)), carried=np.ones(count),
-        force_old=b(), force=b(), tangent=np.zeros((n_b, n_b)),
+        force_old=b(), force=b(), force_before=np.zeros((2, n_b)),
+        tangent=np.zeros((n_b, n_b)), order=np.zeros(n_b, np.int64),
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),
-        follow_e=np.zeros((sizes, n_full, n_b)),
+        follow_e=np.zeros((sizes, n_full, n_b)), lead_e=np.zeros((sizes, n_b, n_full)),
         b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
         rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),

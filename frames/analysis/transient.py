@@ -43,13 +43,15 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 METHODS = ("direct",)
-_FORCE_TOLERANCE = 1e-7  # of the total weight
+_FORCE_TOLERANCE = 1e-6  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
 _CONTACT_TOLERANCE = 3e-5  # the same with a bearing at the level 'contact': its sliders' own motion
 _SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from the start
 _ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
+_PRODUCT = 3e-4  # cost of a multiplication over that of a bearing's state determination (measured)
+_SERVES = 5.0  # steps that a new tangent serves (measured)
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
 
@@ -320,6 +322,7 @@ def _settings(state: GravityState, options: Options) -> Setup:
         gamma=float(0.5 - alpha_m + alpha_f),
         force_tolerance=float(force_tolerance(state.system, _FORCE_TOLERANCE)),
         max_iterations=_MAX_ITERATIONS,
+        tangent_worth=_tangent_worth(len(state.model.props), len(state.run.b)),
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
         error_tolerance=float(tolerance),
@@ -329,6 +332,13 @@ def _settings(state: GravityState, options: Options) -> Setup:
         error_open=float(_ERROR_OPEN),
         first=0,
     )
+
+
+def _tangent_worth(bearings: int, unknowns: int) -> float:
+    # Cost of a new tangent in iterations with a kept one, over the steps that it serves.
+    new = bearings + _PRODUCT * unknowns**3 / 3.0
+    kept = bearings + _PRODUCT * unknowns**2
+    return max(new / kept - 1.0, 0.0) / _SERVES
 
 
 def _start(state: GravityState, ground: Ground) -> None:

@@ -10,19 +10,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
+from lir_element.kernels.linear import add_product, dot
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
-
-
-@kernel
-def times(matrix: Floats, x: Floats, factor: float, out: Floats) -> None:
-    """Add ``factor * matrix @ x`` to `out`."""
-    for a in range(matrix.shape[0]):
-        total = 0.0
-        for c in range(matrix.shape[1]):
-            total += matrix[a, c] * x[c]
-        out[a] += factor * total
 
 
 @kernel
@@ -46,11 +37,12 @@ def invert(matrix: Floats) -> None:
 def eliminate_modes(
     mass_e: Floats, mass_eb: Floats, omega2: Floats, damping_e: Floats, damping_eb: Floats,
     damping_ee: Floats, c_m: float, c_c: float, c_k: float, inverse: Floats, follow: Floats,
-    out: Floats,
+    lead: Floats, out: Floats,
 ) -> None:  # fmt: skip
     """Take the modes' share from the effective stiffness of b, `out`.
 
-    Sets `inverse`, the modes' effective flexibility, and `follow`, how they follow b.
+    Sets `inverse`, the modes' effective flexibility, and `follow`, how they follow b, with `lead`
+    its transpose.
     """
     n_e, n_b = mass_eb.shape
     for k in range(n_e):
@@ -67,6 +59,7 @@ def eliminate_modes(
     for k in range(n_e):
         for a in range(n_b):
             value = c_m * mass_eb[k, a] + c_c * damping_eb[k, a]
+            lead[a, k] = follow[k, a]
             for c in range(n_b):
                 out[a, c] -= value * follow[k, c]
 
@@ -81,31 +74,29 @@ def coupled_load(
     `g_b` and `g_e` are the known part of the velocities. Sets `h_e` to what the modes do while b
     rests.
     """
-    times(damping_be, g_e, -1.0, rhs_b)
-    times(damping_eb, g_b, -1.0, rhs_e)
-    times(damping_ee, g_e, -1.0, rhs_e)
+    add_product(damping_eb, g_e, -1.0, rhs_b)
+    add_product(damping_be, g_b, -1.0, rhs_e)
+    add_product(damping_ee, g_e, -1.0, rhs_e)
     for k in range(rhs_e.shape[0]):
         h_e[k] = 0.0
-        for a in range(rhs_b.shape[0]):
-            rhs_b[a] -= follow[k, a] * rhs_e[k]
-    times(inverse, rhs_e, 1.0, h_e)
+    add_product(follow, rhs_e, -1.0, rhs_b)
+    add_product(inverse, rhs_e, 1.0, h_e)
 
 
 @kernel
 def coupled_work(
-    damping_be: Floats, damping_ee: Floats, step_b: Floats, step_e: Floats, v_b: Floats,
-    v_b_new: Floats, v_e: Floats, v_e_new: Floats,
+    damping_be: Floats, damping_eb: Floats, damping_ee: Floats, step_b: Floats, step_e: Floats,
+    v_b: Floats, v_e: Floats, flow_b: Floats, flow_e: Floats,
 ) -> float:  # fmt: skip
-    """Return the work of the coupled damping over the step, by the trapezoidal rule."""
-    total = 0.0
-    for a in range(step_b.shape[0]):
-        speed = 0.5 * (v_b[a] + v_b_new[a])
-        for k in range(step_e.shape[0]):
-            mean = 0.5 * (v_e[k] + v_e_new[k])
-            total += damping_be[a, k] * (step_b[a] * mean + speed * step_e[k])
-    for k in range(step_e.shape[0]):
-        part = 0.0
-        for j in range(step_e.shape[0]):
-            part += damping_ee[k, j] * 0.5 * (v_e[j] + v_e_new[j])
-        total += step_e[k] * part
-    return total
+    """Return the work of the coupled damping over the step at the mean speeds `v_b` and `v_e`.
+
+    `flow_b` (n_b,) and `flow_e` (n_e,) are overwritten.
+    """
+    for a in range(flow_b.shape[0]):
+        flow_b[a] = 0.0
+    for k in range(flow_e.shape[0]):
+        flow_e[k] = 0.0
+    add_product(damping_eb, v_e, 1.0, flow_b)
+    add_product(damping_be, v_b, 1.0, flow_e)
+    add_product(damping_ee, v_e, 1.0, flow_e)
+    return dot(step_b, flow_b) + dot(step_e, flow_e)

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
 from frames.kernel_data import MOST_HALVINGS
-from frames.kernels.coupling import coupled_load, eliminate_modes, times
+from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective
 from frames.kernels.ledger import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.part_works import commit_parts
 from frames.kernels.step_error import is_rough, keep_motion
-from frames.kernels.stepping import commit_bearings, newton
+from frames.kernels.stepping import commit_bearings, newton, predict
 from frames.kernels.yielding import begin_parts, part_load_on_modes, set_part_follow
 from lir_element.errors import RunStatus
+from lir_element.kernels.linear import add_product
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -45,13 +46,15 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
         for c in range(n_b):
             out[a, c] = (
                 c_m * model.mass_b[a, c]
-                + c_c * model.damping_b[a, c]
                 + (c_k * model.stiffness_b[a, c])
             )
+            if model.damping_b.shape[0] > 0:
+                out[a, c] += c_c * model.damping_b[a, c]
     if model.damping_ee.shape[0] > 0:
         eliminate_modes(
             model.mass_e, model.mass_eb, model.omega2, model.damping_e, model.damping_eb,
-            model.damping_ee, c_m, c_c, c_k, run.inverse_e[at], run.follow_e[at], out,
+            model.damping_ee, c_m, c_c, c_k, run.inverse_e[at], run.follow_e[at],
+            run.lead_e[at], out,
         )  # fmt: skip
     else:
         for k in range(n_e):
@@ -97,13 +100,14 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
             run.rhs_b[a] -= model.inertia_b[a, axis] * pull
         for k in range(run.e.shape[0]):
             run.rhs_e[k] -= model.inertia_e[k, axis] * pull
-    times(model.mass_b, run.h_b, 1.0, run.rhs_b)
-    times(model.mass_be, run.h_e, 1.0, run.rhs_b)
-    times(model.mass_eb, run.h_b, 1.0, run.rhs_e)
-    times(model.damping_b, run.g_b, -1.0, run.rhs_b)
-    times(model.stiffness_b, run.b, -1.0, run.rhs_b)
+    add_product(model.mass_b, run.h_b, 1.0, run.rhs_b)
+    add_product(model.mass_be, run.h_b, 1.0, run.rhs_e)
+    add_product(model.stiffness_b, run.b, -1.0, run.rhs_b)
+    if model.damping_b.shape[0] > 0:
+        add_product(model.damping_b, run.g_b, -1.0, run.rhs_b)
     # the modes, eliminated
     if model.damping_ee.shape[0] > 0:
+        add_product(model.mass_eb, run.h_e, 1.0, run.rhs_b)
         for k in range(run.e.shape[0]):
             run.g_e[k] = damp_v * run.v_e[k] + damp_a * run.a_e[k]
         coupled_load(
@@ -113,8 +117,10 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
         return
     c_m, c_c, c_k = effective(settings, dt)
     for k in range(run.e.shape[0]):
-        run.h_e[k] = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
-    times(model.mass_be, run.h_e, -c_m, run.rhs_b)
+        free = run.rhs_e[k] / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+        run.g_e[k] = run.h_e[k] - c_m * free
+        run.h_e[k] = free
+    add_product(model.mass_eb, run.g_e, 1.0, run.rhs_b)
 
 
 @inlined
@@ -125,17 +131,17 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
     if model.damping_ee.shape[0] > 0:
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.h_e[k]
-        times(run.follow_e[at], run.step, -1.0, run.g_e)
+        add_product(run.lead_e[at], run.step, -1.0, run.g_e)
         if parts is not None:
             for k in range(run.e.shape[0]):
                 run.e_new[k] = 0.0
             part_load_on_modes(parts, run.e_new)
-            times(run.inverse_e[at], run.e_new, 1.0, run.g_e)
+            add_product(run.inverse_e[at], run.e_new, 1.0, run.g_e)
     else:
         c_m, c_c, c_k = effective(settings, dt)
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.rhs_e[k]
-        times(model.mass_eb, run.step, -c_m, run.g_e)
+        add_product(model.mass_be, run.step, -c_m, run.g_e)
         if parts is not None:
             part_load_on_modes(parts, run.g_e)
         for k in range(run.e.shape[0]):
@@ -166,13 +172,17 @@ def try_step(
         if parts is not None:
             set_part_follow(model, run, parts, settings)
     set_load(model, run, parts, settings, ground)
-    if parts is not None:
-        begin_parts(model, run, parts, settings)
     for a in range(run.b.shape[0]):
         run.step[a] = clock.dt * run.mean_v_b[a]
+    foreseen = clock.kept == clock.halvings + 1 and clock.dt_before > 0.0
+    if parts is not None:
+        foreseen = foreseen and parts.number[0] == 0
+        begin_parts(model, run, parts, settings)
+    if foreseen:
+        predict(run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
     code = newton(
         model, run, contacts, parts, run.reduced[clock.halvings], 1.0 - settings.alpha_f,
-        settings.force_tolerance, settings.max_iterations,
+        settings.force_tolerance, settings.max_iterations, settings.tangent_worth,
     )  # fmt: skip
     if code == _OK:
         finish_step(model, run, parts, settings)
@@ -204,7 +214,9 @@ def accept_step(
     if parts is not None:
         commit_parts(parts, settings.beta, settings.gamma, clock.dt)
         add_part_energy(run, parts)
+    clock.equal = clock.equal + 1 if clock.dt == clock.dt_before else 0
     for a in range(run.b.shape[0]):
+        run.mean_v_before[a] = run.mean_v_b[a]
         run.mean_v_b[a] = run.step[a] / clock.dt
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
     for k in range(run.e.shape[0]):

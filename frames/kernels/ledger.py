@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined
 from frames.kernels.coupling import coupled_work
 from frames.kernels.part_works import part_energy_on
+from lir_element.kernels.linear import add_product, dot
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -20,33 +21,53 @@ if TYPE_CHECKING:
 
 
 @inlined
-def quadratic(mass: Floats, coupling: Floats, own: Floats, x: Floats, y: Floats) -> float:
-    """Return ``x' mass x + 2 x' coupling y + y' diag(own) y`` halved."""
-    total = 0.0
-    for a in range(x.shape[0]):
-        part = 0.0
-        for c in range(x.shape[0]):
-            part += mass[a, c] * x[c]
-        for k in range(y.shape[0]):
-            part += 2.0 * coupling[a, k] * y[k]
-        total += x[a] * part
-    for k in range(y.shape[0]):
-        total += own[k] * y[k] * y[k]
+def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, momentum: Floats) -> float:
+    """Return the kinetic energy relative to the ground; `momentum` (n_b,) is overwritten."""
+    for a in range(momentum.shape[0]):
+        momentum[a] = 0.0
+    add_product(model.mass_b, v_b, 1.0, momentum)
+    add_product(model.mass_eb, v_e, 2.0, momentum)
+    total = dot(v_b, momentum)
+    for k in range(v_e.shape[0]):
+        total += model.mass_e[k] * v_e[k] * v_e[k]
     return 0.5 * total
 
 
 @inlined
-def elastic_energy(model: Model, b: Floats, e: Floats) -> float:
-    """Return the strain energy of the structure, geometric part included."""
-    total = 0.0
-    for a in range(b.shape[0]):
-        part = 0.0
-        for c in range(b.shape[0]):
-            part += model.stiffness_b[a, c] * b[c]
-        total += b[a] * part
+def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
+    """Return the strain energy of the structure, geometric part included.
+
+    `force` (n_b,) is overwritten.
+    """
+    for a in range(force.shape[0]):
+        force[a] = 0.0
+    add_product(model.stiffness_b, b, 1.0, force)
+    total = dot(b, force)
     for k in range(e.shape[0]):
         total += model.omega2[k] * e[k] * e[k]
     return 0.5 * total
+
+
+@inlined
+def damping_work(model: Model, run: Run) -> float:
+    """Return the work of all damping of the structure over the step."""
+    total = 0.0
+    for k in range(run.e.shape[0]):
+        mean = 0.5 * (run.v_e[k] + run.v_e_new[k])
+        run.h_e[k] = mean
+        total += run.g_e[k] * model.damping_e[k] * mean
+    for a in range(run.b.shape[0]):
+        run.h_b[a] = 0.5 * (run.v_b[a] + run.v_b_new[a])
+        run.g_b[a] = 0.0
+    if model.damping_b.shape[0] > 0:
+        add_product(model.damping_b, run.h_b, 1.0, run.g_b)
+        total += dot(run.step, run.g_b)
+    if model.damping_ee.shape[0] > 0:
+        total += coupled_work(
+            model.damping_be, model.damping_eb, model.damping_ee, run.step, run.g_e, run.h_b,
+            run.h_e, run.g_b, run.rhs_e,
+        )  # fmt: skip
+    return total
 
 
 @inlined
@@ -57,7 +78,7 @@ def add_energy(model: Model, run: Run, parts: Parts | None, ground: Ground) -> N
     unbalanced at the ends of the step: nothing for Newmark's method but Newton's tolerance.
     """
     energy, clock = run.energy[0], run.clock[0]
-    supplied, lifted, damped, bearings = 0.0, 0.0, 0.0, 0.0
+    supplied, lifted, bearings = 0.0, 0.0, 0.0
     for axis in range(3):
         mean = 0.5 * (
             ground_acceleration(ground.acceleration, ground.dt, clock.time + clock.dt, axis)
@@ -70,16 +91,9 @@ def add_energy(model: Model, run: Run, parts: Parts | None, ground: Ground) -> N
     for a in range(run.b.shape[0]):
         lifted -= model.load_b[a] * run.step[a]
         bearings += 0.5 * (run.force_old[a] + run.force[a]) * run.step[a]
-        for c in range(run.b.shape[0]):
-            damped += 0.5 * run.step[a] * model.damping_b[a, c] * (run.v_b[c] + run.v_b_new[c])
     for k in range(run.e.shape[0]):
         lifted -= model.load_e[k] * run.g_e[k]
-        damped += 0.5 * run.g_e[k] * model.damping_e[k] * (run.v_e[k] + run.v_e_new[k])
-    if model.damping_ee.shape[0] > 0:
-        damped += coupled_work(
-            model.damping_be, model.damping_ee, run.step, run.g_e, run.v_b, run.v_b_new, run.v_e,
-            run.v_e_new,
-        )  # fmt: skip
+    damped = damping_work(model, run)
     before = energy.elastic
     if parts is not None:  # what is not linear comes into the elastic energy by add_part_energy
         before -= part_store(parts)
@@ -87,8 +101,8 @@ def add_energy(model: Model, run: Run, parts: Parts | None, ground: Ground) -> N
         given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
         parts.work[3] += given
         bearings += given
-    kinetic = quadratic(model.mass_b, model.mass_be, model.mass_e, run.v_b_new, run.v_e_new)
-    elastic = elastic_energy(model, run.b_new, run.e_new) - clock.elastic_start
+    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.h_b)
+    elastic = elastic_energy(model, run.b_new, run.e_new, run.h_b) - clock.elastic_start
     energy.input += supplied
     energy.gravity += lifted
     energy.damping += damped

@@ -14,7 +14,7 @@ from frames._jit import inlined, kernel
 from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
-from lir_element.kernels.linear import gather, scatter, solve_many
+from lir_element.kernels.linear import add_product, factorise, gather, scatter, substitute
 from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def bearing_forces(
 
 @inlined
 def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
-    """Add `factor` times the bearings' tangents at the last trial to `run.tangent`."""
+    """Add `factor` times the bearings' tangents at the last trial, transposed, to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
         bearing_tangent(model.props, run.new, run.work, contacts, k, element)
@@ -70,7 +70,7 @@ def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: 
                 for col in range(12):
                     value = factor * model.values[i] * element[row, col]
                     for j in range(model.start[k, col], model.start[k, col + 1]):
-                        run.tangent[model.columns[i], model.columns[j]] += value * model.values[j]
+                        run.tangent[model.columns[j], model.columns[i]] += value * model.values[j]
 
 
 @kernel
@@ -109,15 +109,54 @@ def set_residual(
     if has_no_state(code):
         return math.inf
     for a in range(n_b):
-        total = run.rhs_b[a] - share * run.force[a]
-        for c in range(n_b):
-            total -= linear[a, c] * step[c]
-        run.residual[a] = total
+        run.residual[a] = run.rhs_b[a] - share * run.force[a]
+    add_product(linear, step, -1.0, run.residual)
     if parts is not None:
         if not settle_parts(model, run, parts, step):
             return math.inf
         add_part_forces(run, parts, run.residual)
     return norm(run.residual)
+
+
+@inlined
+def predict(run: Run, linear: Floats, share: float) -> None:
+    """Set a guess of ``run.step`` that takes no state determination.
+
+    One iteration with the kept tangent, as if displacements and forces of the bearings went on as
+    in the last steps, quadratically after three equal ones: what is linear in a bearing is met,
+    however it rings, and the horizontal motion is that of a mass under a known force.
+    """
+    clock = run.clock[0]
+    n_b = run.step.shape[0]
+    ratio = clock.dt / clock.dt_before
+    bent = 1.0 if clock.equal >= 2 and ratio == 1.0 else 0.0
+    for a in range(n_b):
+        turn = bent * (run.mean_v_b[a] - run.mean_v_before[a])
+        run.step[a] = clock.dt * (run.mean_v_b[a] + turn)
+        gain = run.force_old[a] - run.force_before[0, a]
+        turn = bent * (gain - (run.force_before[0, a] - run.force_before[1, a]))
+        run.residual[a] = run.rhs_b[a] - share * (run.force_old[a] + ratio * gain + turn)
+    add_product(linear, run.step, -1.0, run.residual)
+    substitute(run.tangent, run.order, run.residual)
+    for a in range(n_b):
+        run.step[a] += run.residual[a]
+
+
+@inlined
+def renew_tangent(
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, linear: Floats,
+    share: float,
+) -> bool:  # fmt: skip
+    """Set and factorise the tangent at the last trial; returns False where it is singular."""
+    n_b = run.step.shape[0]
+    run.counts[0].tangents += 1
+    for a in range(n_b):
+        for c in range(n_b):
+            run.tangent[a, c] = linear[a, c]
+    bearing_tangents(model, run, contacts, share)
+    if parts is not None and not add_part_tangent(model, run, parts):
+        return False
+    return factorise(run.tangent, run.order)
 
 
 @inlined
@@ -130,12 +169,17 @@ def newton(
     share: float,
     tolerance: float,
     max_iterations: int,
+    worth: float,
 ) -> int:
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
-    `run.step` holds the first guess. A step that does not reduce the residual is shortened.
+    `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
+    iteration while it serves: it is renewed where the residual falls so slowly that it would take
+    more than `worth` further iterations. A step of a new tangent that does not reduce the residual
+    is shortened.
     """
     n_b = run.step.shape[0]
+    clock = run.clock[0]
     size = set_residual(model, run, contacts, parts, linear, run.step, share)
     if size == math.inf:  # start from rest instead
         for a in range(n_b):
@@ -143,31 +187,37 @@ def newton(
         size = set_residual(model, run, contacts, parts, linear, run.step, share)
         if size == math.inf:
             return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
+    kept = clock.kept == clock.halvings + 1
     for _ in range(max_iterations):
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
+        if not kept:
+            clock.kept = 0
+            if not renew_tangent(model, run, contacts, parts, linear, share):
+                return _SINGULAR
+            clock.kept = clock.halvings + 1
         for a in range(n_b):
             run.h_b[a] = run.residual[a]
-            for c in range(n_b):
-                run.tangent[a, c] = linear[a, c]
-        bearing_tangents(model, run, contacts, share)
-        if parts is not None and not add_part_tangent(model, run, parts):
-            return _SINGULAR
-        if not solve_many(run.tangent, run.h_b.reshape((n_b, 1)), n_b, 1):
-            return _SINGULAR
+        substitute(run.tangent, run.order, run.h_b)
         factor = 1.0
-        for attempt in range(_TRIES):
+        new = math.inf
+        for attempt in range(1 if kept else _TRIES):
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
             new = set_residual(model, run, contacts, parts, linear, run.g_b, share)
             if new < size or (attempt >= _PATIENCE and new < _RISE * size):
                 break
             factor *= _SHORTER
+        if kept and not new < size:  # back to where it was, with a tangent of its own
+            kept = False
+            set_residual(model, run, contacts, parts, linear, run.step, share)
+            continue
         if new == math.inf:
             return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
         for a in range(n_b):
             run.step[a] = run.g_b[a]
+        kept = new * (new / size) ** worth <= tolerance
         size = new
     return _NEWTON_FAILED
 
@@ -185,7 +235,9 @@ def solve_gravity(
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
-    code = newton(model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations)
+    run.clock[0].kept = 0
+    code = newton(model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations, 0.0)
+    run.clock[0].kept = 0
     if code != _OK:
         return code
     for a in range(n_b):
@@ -214,4 +266,6 @@ def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
     for k in range(run.old.shape[0]):
         bearing_commit(model.props, run.old, run.new, run.old_words, run.new_words, contacts, k)
     for a in range(run.force.shape[0]):
+        run.force_before[1, a] = run.force_before[0, a]
+        run.force_before[0, a] = run.force_old[a]
         run.force_old[a] = run.force[a]

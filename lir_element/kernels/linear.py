@@ -35,6 +35,83 @@ def scatter(
 
 
 @kernel
+def add_product(columns: Floats, x: Floats, factor: float, out: Floats) -> None:
+    """Add ``factor * columns.T @ x`` to `out`: row c of `columns` is column c of the matrix.
+
+    Four columns at a time are added to all of `out`, which processors do in wide registers.
+    """
+    n, m = columns.shape
+    whole = n - n % 4
+    for c in range(0, whole, 4):
+        x_0, x_1, x_2, x_3 = factor * x[c], factor * x[c + 1], factor * x[c + 2], factor * x[c + 3]
+        for a in range(m):
+            out[a] += (columns[c, a] * x_0 + columns[c + 1, a] * x_1) + (
+                columns[c + 2, a] * x_2 + columns[c + 3, a] * x_3
+            )
+    for c in range(whole, n):
+        x_0 = factor * x[c]
+        for a in range(m):
+            out[a] += columns[c, a] * x_0
+
+
+@kernel
+def dot(x: Floats, y: Floats) -> float:
+    """Return the scalar product of `x` and `y`."""
+    total = 0.0
+    for a in range(x.shape[0]):
+        total += x[a] * y[a]
+    return total
+
+
+@kernel
+def factorise(columns: Floats, order: Words) -> bool:
+    """Factorise a matrix (n, n) in place, row c of `columns` being its column c.
+
+    Gaussian elimination of the transposed with pivoted rows, exchanged as `order` tells; the
+    pivots are kept inverted. Returns False if the matrix is singular.
+    """
+    n = columns.shape[0]
+    for col in range(n):
+        pivot = col
+        largest = abs(columns[col, col])
+        for row in range(col + 1, n):
+            if abs(columns[row, col]) > largest:
+                pivot, largest = row, abs(columns[row, col])
+        if not largest > 0.0:
+            return False
+        order[col] = pivot
+        if pivot != col:
+            for k in range(n):
+                columns[col, k], columns[pivot, k] = columns[pivot, k], columns[col, k]
+        inv = 1.0 / columns[col, col]
+        columns[col, col] = inv
+        for row in range(col + 1, n):
+            factor = columns[row, col] * inv
+            columns[row, col] = factor
+            if factor != 0.0:
+                for k in range(col + 1, n):
+                    columns[row, k] -= factor * columns[col, k]
+    return True
+
+
+@kernel
+def substitute(factors: Floats, order: Words, x: Floats) -> None:
+    """Solve for the right-hand side `x` (n,) in place, with what `factorise` made."""
+    n = factors.shape[0]
+    for c in range(n):
+        value = x[c] * factors[c, c]
+        x[c] = value
+        for a in range(c + 1, n):
+            x[a] -= factors[c, a] * value
+    for c in range(n - 1, 0, -1):
+        value = x[c]
+        for a in range(c):
+            x[a] -= factors[c, a] * value
+    for c in range(n - 1, -1, -1):
+        x[c], x[order[c]] = x[order[c]], x[c]
+
+
+@kernel
 def solve_many(a: Floats, x: Floats, n: int, m: int) -> bool:
     """Solve ``a x = rhs`` for the first `n` rows and `m` right-hand sides held by `x` (n, m).
 

@@ -10,9 +10,15 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.pendulum.solve import solve_axis
+from lir_element.kernels.pendulum.solve import (
+    mark_start,
+    move,
+    residual_size,
+    small_residual,
+    solve_axis,
+)
 from lir_element.kernels.pendulum.spin import rates_by_spin, spin_against, spin_balance, spin_by
-from lir_element.kernels.pendulum.string import set_axis, turn_axis
+from lir_element.kernels.pendulum.string import aim_slip, evaluate, set_axis, turn_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.layout import SPIN_BALANCE
 
@@ -26,6 +32,9 @@ _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
 _LARGEST_SHIFT = 20.0  # yield displacements of the interface, of the slip in one (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
 _FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
+_MOST_JOINT = 12  # iterations for axis and spin together
+_FROM_FIRST = 0.05  # rad from the spin that goes on: further, the search is bounded (a choice)
+_SLIPPING = 0.998  # of the square of the hysteretic variable: the interface slips
 _SMALLEST_STEP = 1e-15  # rad, round-off
 _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last one (a choice)
 
@@ -75,6 +84,76 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
     spin_by(p, old, w, spin)
     set_axis(w, x, y, z)
     return min(solve_axis(p, old, w), -1)
+
+
+@kernel
+def aim_on(old: State, w: Work) -> None:
+    """Set the axis that goes on slipping as in the last step, if it slipped."""
+    z, ahead = old.interface_hysteresis, 0.0
+    if z[0] * z[0] + z[1] * z[1] > _SLIPPING and old.step > 0.0:
+        ahead = w.dt / old.step
+    aim_slip(
+        w,
+        old.slip[0] + ahead * old.slip_increment[0],
+        old.slip[1] + ahead * old.slip_increment[1],
+    )
+
+
+@kernel
+def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
+    """Return Newton's step of axis and spin together: two turns and a spin; zeros where none is."""
+    w.spins = 1.0
+    slider_jacobian(p, w)
+    j = w.jacobian
+    det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
+    if not (det > 0.0 and j[0, 0] + j[1, 1] > 0.0):
+        return 0.0, 0.0, 0.0
+    e_1 = -(j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1]) / det
+    e_2 = -(j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0]) / det
+    rates_by_spin(p, w)
+    slope = w.spun[SPIN_BALANCE]
+    if not slope < 0.0:
+        return 0.0, 0.0, 0.0
+    lacking = w.n_hat * balance + w.turns[0, SPIN_BALANCE] * e_1 + w.turns[1, SPIN_BALANCE] * e_2
+    most = largest_step(p, w)
+    step = min(max(-lacking / slope, -most), most)
+    return e_1 + w.spun_turn[0] * step, e_2 + w.spun_turn[1] * step, step
+
+
+@kernel
+def spin_with_axis(p: Props, old: State, w: Work) -> int:
+    """Find the axis and the spin of a step together; return the iterations, or -1.
+
+    Newton's method in three unknowns from where slip and spin go on as in the last step. It gives
+    up where it does not settle quickly: then the spin is found around the axis (`spin_sliders`).
+    """
+    first = first_spin(old, w.dt)
+    if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
+        return -1
+    aim_on(old, w)
+    evaluate(p, old, w)
+    mu = old.friction_coefficient
+    enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])
+    balance = spin_balance(p, old, w)
+    lacks = max(residual_size(w), abs(balance) / p.slider_radius)
+    for count in range(_MOST_JOINT):
+        if not w.n_true > p.axial_floor or max(w.rim[0], w.rim[1]) == 0.0:
+            return -1
+        if abs(balance) <= enough and residual_size(w) < small_residual(p, w):
+            w.spins = 1.0 if w.spin != 0.0 else 0.0
+            return count
+        e_1, e_2, step = joint_step(p, w, balance)
+        spin = w.spin + step
+        if step == 0.0 or abs(spin - first) > _FROM_FIRST:
+            return -1
+        mark_start(w)
+        spin_by(p, old, w, spin)
+        move(p, old, w, e_1, e_2)
+        balance = spin_balance(p, old, w)
+        before, lacks = lacks, max(residual_size(w), abs(balance) / p.slider_radius)
+        if not lacks < before:
+            return -1
+    return -1
 
 
 @kernel

@@ -97,10 +97,15 @@ def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
         set_axis(w, -w.c[0], -w.c[1], -w.c[2])
         w.sigma[0], w.sigma[1] = 0.0, 0.0
         return
-    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
     back = 2.0 * p.interface_yield * (1.0 - kept) / (1.0 + kept)
-    s_1 = old.slip[0] + back * old.interface_hysteresis[0]
-    s_2 = old.slip[1] + back * old.interface_hysteresis[1]
+    z = old.interface_hysteresis
+    aim_slip(w, old.slip[0] + back * z[0], old.slip[1] + back * z[1])
+
+
+@kernel
+def aim_slip(w: Work, s_1: float, s_2: float) -> None:
+    """Set the axis at which the slip is (s_1, s_2)."""
+    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
     for _ in range(8):
         e_1, e_2 = (s_1 - w.sigma[0]) / w.l, (s_2 - w.sigma[1]) / w.l
         turn_axis(w, w.n[0], w.n[1], w.n[2], e_1, e_2)

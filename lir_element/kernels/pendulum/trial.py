@@ -13,7 +13,7 @@ from lir_element._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis
 from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin
-from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders
+from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders, spin_with_axis
 from lir_element.kernels.pendulum.string import (
     aim_axis,
     evaluate,
@@ -222,6 +222,20 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
 
 
 @kernel
+def solve_in_turns(p: Props, old: State, w: Work) -> int:
+    """Find the axis for a spin, and the spin around it; return the iterations, or -1."""
+    spin_by(p, old, w, first_spin(old, w.dt))
+    aim_axis(p, old, w, 1.0)
+    count = solve_axis(p, old, w)
+    if count < 0:
+        spin_by(p, old, w, 0.0)
+        count = solve_from_elsewhere(p, old, w)
+    if count >= 0:
+        spin_sliders(p, old, w)
+    return count
+
+
+@kernel
 def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time: float) -> int:
     """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
 
@@ -248,13 +262,9 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         w.old_top[a] = (
             w.a[a, 0] * old.axis_top[0] + w.a[a, 1] * old.axis_top[1] + w.a[a, 2] * old.axis_top[2]
         )
-    aim_axis(p, old, w, 1.0)
-    count = solve_axis(p, old, w)
+    count = spin_with_axis(p, old, w)
     if count < 0:
-        spin_by(p, old, w, 0.0)
-        count = solve_from_elsewhere(p, old, w)
-    if count >= 0:
-        spin_sliders(p, old, w)
+        count = solve_in_turns(p, old, w)
     for k in range(12):
         new.displacement[k] = u[k]
     new.time = time
