@@ -121,6 +121,8 @@ WORK_FIELDS = (
     Field("l", "m", "l", "string length"),
     Field("sigma", "m", "sigma", "interface slip in the basis t", _W_PAIR),
     Field("dt", "s", "", "time since the committed state, zero if static"),
+    Field("share", "-", "", "time step over the sum of this one and the one before"),
+    Field("law_stiffness", "-, 1/m", "", "of the friction laws: surfaces, interface", _W_PAIR),
     Field("static_speed", "m/s", "", "sliding speeds of a static trial", _W_PAIR),
     Field("height", "m", "c_3", "vertical part of c, where the string has its own"),
     Field("fixed_length", "m", "l", "the string's constant length under a fixed load; 0: elastic"),

@@ -20,12 +20,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Mapped
 
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
+_STEEPEST = math.tan(_BEND)
+_SMALL = 0.05  # rad, below which a few terms of a series are exact to round-off
 _FALL = 1e12  # of the axial force in a step, beyond which nothing but slip can follow
 
 
@@ -66,6 +68,27 @@ def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, 
 
 
 @kernel
+def small_angle(tangent: float) -> float:
+    """Return the arc tangent; for a small one by its series."""
+    if abs(tangent) > _SMALL:
+        return math.atan(tangent)
+    x = tangent * tangent
+    tail = 1.0 / 7.0 - x * (1.0 / 9.0 - x * (1.0 / 11.0 - x * (1.0 / 13.0)))
+    return tangent * (1.0 - x * (1.0 / 3.0 - x * (1.0 / 5.0 - x * tail)))
+
+
+@kernel
+def direction_of(angle: float) -> tuple[float, float]:
+    """Return cosine and sine; of a small angle by their series."""
+    if abs(angle) > _SMALL:
+        return math.cos(angle), math.sin(angle)
+    x = angle * angle
+    c = 1.0 - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40320.0))))
+    s = 1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0 - x * (1.0 / 362880.0))))
+    return c, angle * s
+
+
+@inlined
 def return_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
@@ -74,15 +97,17 @@ def return_map(
     Nine numbers: z (2), dz/d(dw) (2 x 2, by rows), the slipped part of the sliding (>= 0, along
     z) and its derivative by dw (2).
     """
-    d_1, d_2 = dw_1 / u_y, dw_2 / u_y
-    b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
-    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     inv = 1.0 / u_y
-    if size == 0.0:
+    d_1, d_2 = dw_1 * inv, dw_2 * inv
+    b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
+    square = b_1 * b_1 + b_2 * b_2
+    if square == 0.0 or (square <= 1.0 and not bouc_wen):
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
-    e_1, e_2 = b_1 / size, b_2 / size
+    size = math.sqrt(square)
+    hoop = 1.0 / size
+    e_1, e_2 = b_1 * hoop, b_2 * hoop
     kappa = e_1 * d_1 + e_2 * d_2
-    if size <= 1.0 and (not bouc_wen or kappa <= 0.0):
+    if size <= 1.0 and kappa <= 0.0:
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     if bouc_wen and size < 1.0 + kappa and kappa > 0.0:
         rho, by_size = bouc_wen_radius(size, kappa, exponent)
@@ -90,9 +115,9 @@ def return_map(
         power = rho**exponent
         grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
         grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
+        hoop *= rho
     else:
         rho, grad_1, grad_2 = 1.0, 0.0, 0.0
-    hoop = rho / size
     return (
         rho * e_1,
         rho * e_2,
@@ -131,7 +156,7 @@ def bouc_wen_rate(
     return radial * e_1 + rho * w_1, radial * e_2 + rho * w_2, along - radial
 
 
-@kernel
+@inlined
 def friction_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
     u_y: float, kept: float, by_push: float, before_1: float, before_2: float, share: float,
@@ -173,21 +198,23 @@ def friction_map(
     dot = before_1 * dw_1 + before_2 * dw_2
     if not dot > 0.0:
         return flat
-    angle = math.atan2(cross, dot)
-    q = (angle / _BEND) ** 2
-    if not q < 1.0:
+    if not abs(cross) < _STEEPEST * dot:
         return flat
+    angle = small_angle(cross / dot)
+    q = angle * angle * (1.0 / (_BEND * _BEND))
     if slid < slip:  # what a falling axial force takes from z is no sliding
         slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
     square = dw_1 * dw_1 + dw_2 * dw_2
-    part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
-    turn = share * angle * (1.0 - q) ** 2 * part  # (3.7)
+    inv = 1.0 / (slip + u_y)
+    part = slip * inv  # what a turn adds up to over the steps is then half a step's
+    whole = share * angle * (1.0 - q) ** 2
+    turn = whole * part  # (3.7)
     by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
-    by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
+    by_slip = whole * u_y * inv * inv
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2
     turn_n = by_slip * s_n
-    c, s = math.cos(turn), math.sin(turn)
+    c, s = direction_of(turn)
     r_1, r_2 = c * z_1 - s * z_2, s * z_1 + c * z_2
     return (
         r_1,
@@ -204,7 +231,7 @@ def friction_map(
     )
 
 
-@kernel
+@inlined
 def sliding_on(
     old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
 ) -> tuple[float, float, float]:
@@ -213,11 +240,13 @@ def sliding_on(
     It gives the friction its speed. What unloads z has none; neither has what a changing axial
     force takes from z or asks to be filled, so that it does not switch the friction.
     """
-    b_1, b_2 = old_1 + dw_1 / u_y, old_2 + dw_2 / u_y
+    inv = 1.0 / u_y
+    b_1, b_2 = old_1 + dw_1 * inv, old_2 + dw_2 * inv
     size, before = math.sqrt(b_1 * b_1 + b_2 * b_2), math.sqrt(old_1 * old_1 + old_2 * old_2)
     if size <= before:
         return 0.0, 0.0, 0.0
-    return u_y * (size - before), b_1 / size, b_2 / size  # (3.9)
+    inv = 1.0 / size
+    return u_y * (size - before), b_1 * inv, b_2 * inv  # (3.9)
 
 
 @kernel
@@ -226,7 +255,7 @@ def step_share(dt: float, before: float) -> float:
     return dt / (dt + before) if dt > 0.0 and before > 0.0 else 0.0
 
 
-@kernel
+@inlined
 def speed_at_end(
     slip: float, dt: float, slip_before: float, dt_before: float, share: float
 ) -> tuple[float, float]:
@@ -235,12 +264,13 @@ def speed_at_end(
     The mean speed of a step is that of its middle; the step before tells how it changes. `share`
     is ``dt / (dt + dt_before)``.
     """
+    rate = 1.0 / dt
+    speed = slip * rate
     if share == 0.0 or slip == 0.0 or slip_before == 0.0:
-        return slip / dt, 1.0 / dt
-    speed = slip / dt
+        return speed, rate
     ahead = speed + share * (speed - slip_before / dt_before)
     if ahead > 0.0:
-        return ahead, (1.0 + share) / dt
+        return ahead, (1.0 + share) * rate
     return 0.0, 0.0
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def fix_length(p: Props, w: Work) -> None:
         w.c[2] = -math.sqrt(rest) if rest > 0.0 else 0.0
 
 
-@kernel
+@inlined
 def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike).
 
