@@ -52,7 +52,7 @@ def axial(p: Props, old: State, w: Work) -> None:
             gap, old.closure, p.axial_stiffness, p.axial_damping, w.dt
         )
     w.vertical, w.stiff_vertical = 0.0, 0.0
-    w.kept, w.kept_n = 1.0, 0.0
+    w.kept, w.kept_n, w.softer = 1.0, 0.0, 1.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
         return
@@ -63,6 +63,7 @@ def axial(p: Props, old: State, w: Work) -> None:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
     if w.dt > 0.0:
         w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
+        w.softer = 2.0 / (1.0 + w.kept)
 
 
 @kernel

@@ -37,14 +37,17 @@ _SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle
 
 @kernel
 def start_search(p: Props, old: State, w: Work) -> None:
-    """Set what a trial's step alone decides: its share, and the stiffness of the friction laws."""
+    """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
     stiff = 0.0
     for k in range(2):
+        z = old.hysteresis[k]
+        w.z_size[k], w.per_yield[k] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.yield_displacement[k]
         by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
-        stiff += p.radius[k] * (p.friction_max[k] / p.yield_displacement[k] + by_speed)
-    w.law_stiffness[0] = stiff
-    w.law_stiffness[1] = p.interface_friction / p.interface_yield
+        stiff += p.radius[k] * (p.friction_max[k] * w.per_yield[k] + by_speed)
+    z = old.interface_hysteresis
+    w.z_size[2], w.per_yield[2] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.interface_yield
+    w.law_stiffness[0], w.law_stiffness[1] = stiff, p.interface_friction * w.per_yield[2]
 
 
 @kernel

@@ -29,7 +29,7 @@ from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rotation import rotate
 from lir_element.kernels.slip import (
     friction_coefficient,
-    friction_map,
+    friction_step,
     kelvin_voigt,
     speed_at_end,
 )
@@ -67,6 +67,7 @@ def set_axis(w: Work, x: float, y: float, z: float) -> None:
     inv = 1.0 / math.sqrt(x * x + y * y + z * z)
     x, y, z = x * inv, y * inv, z * inv
     k = 1.0 / (1.0 + z)
+    w.lean = k
     w.n[0], w.n[1], w.n[2] = x, y, z
     w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x  # (1.2)
     w.t[1, 0], w.t[1, 1], w.t[1, 2] = -k * x * y, 1.0 - k * y * y, -y
@@ -172,9 +173,10 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_2 = w.dw[k, 1] + w.spin * w.shift[k, 0]
     w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
-    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_map(
-        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], w.kept, w.kept_n, before[0], before[1], w.share,
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_step(
+        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], w.z_size[k], d_1, d_2,
+        p.yield_displacement[k], w.per_yield[k], w.kept, w.kept_n, w.softer, before[0], before[1],
+        w.share,
     )  # fmt: skip
     w.slid[k] = slid
     # sliding that unloads has no speed: friction must not grow meanwhile
@@ -206,10 +208,10 @@ def interface(p: Props, old: State, w: Work) -> None:
     if spins:
         x, y = turn_with_sliders(-w.spin, x, y)
     d_1, d_2 = x - old.slip[0], y - old.slip[1]
-    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_step(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
-        d_1, d_2, p.interface_yield,
-        w.kept, w.kept_n, before[0], before[1], w.share,
+        w.z_size[2], d_1, d_2, p.interface_yield, w.per_yield[2],
+        w.kept, w.kept_n, w.softer, before[0], before[1], w.share,
     )  # fmt: skip
     if spins:
         d_1, d_2 = turn_with_sliders(w.spin, d_1, d_2)
@@ -289,8 +291,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
             w.residual[a] = 0.0
         return
     w.rim_scale = w.scale
-    k = 1.0 / (1.0 + w.n[2])
-    chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
+    chi = w.lean * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
     w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
     w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
     w.f_s[0], w.f_s[1] = w.n_pos * w.phi_s[0], w.n_pos * w.phi_s[1]

@@ -108,7 +108,7 @@ def string_rates(
     d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
     s_1, s_2, n_1, n_2 = w.sigma[0], w.sigma[1], w.n[0], w.n[1]
-    k = 1.0 / (1.0 + w.n[2])
+    k = w.lean
     g_1, g_2 = w.f_s[0], w.f_s[1]
     g_d1, g_d2 = 0.0, 0.0
     if not p.fused:
@@ -152,7 +152,7 @@ def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
     interface is fused its force is left out: it follows from the residual. The balance is that of
     the moments that spin the sliders, zero where the spin is no unknown.
     """
-    k = 1.0 / (1.0 + w.n[2])
+    k = w.lean
     s_1, s_2 = w.sigma[0], w.sigma[1]
     spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
     tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
