@@ -43,10 +43,6 @@ def add_cross(k: Floats, row: int, col: int, x: float, y: float, z: float, facto
 def rotate(x: float, y: float, z: float, q: Floats, spin: Floats) -> None:
     """Fill `q` (3, 3) with the matrix of the rotation vector and `spin` (3, 3) with d(spin)."""
     s, c, d = coefficients(x * x + y * y + z * z)
-    for row in range(3):
-        for col in range(3):
-            q[row, col] = 0.0
-            spin[row, col] = 0.0
     xx, yy, zz = x * x, y * y, z * z
     xy, yz, zx = x * y, y * z, z * x
     q[0, 0] = 1.0 - c * (yy + zz)

@@ -20,12 +20,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Mapped
 
 _BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
+_STEEPEST = math.tan(_BEND)
+_SMALL = 0.02  # rad, below which a few terms of a series are exact to round-off
 _FALL = 1e12  # of the axial force in a step, beyond which nothing but slip can follow
 
 
@@ -41,8 +43,9 @@ def kept_share(push_old: float, push: float, floor: float) -> tuple[float, float
         return 1.0, 0.0
     if before > _FALL * after:
         return math.sqrt(_FALL), 0.0
-    kept = math.sqrt(before / after)  # (3.5)
-    return kept, -0.5 * kept / after if push > floor else 0.0
+    inv = 1.0 / after
+    kept = math.sqrt(before * inv)  # (3.5)
+    return kept, -0.5 * kept * inv if push > floor else 0.0
 
 
 @kernel
@@ -65,6 +68,27 @@ def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, 
     return rho, 1.0 / (1.0 + kappa * exponent * rho ** (exponent - 1.0))
 
 
+@inlined
+def small_angle(tangent: float) -> float:
+    """Return the arc tangent; for a small one by its series."""
+    if abs(tangent) > _SMALL:
+        return math.atan(tangent)
+    x = tangent * tangent
+    high = 1.0 / 5.0 - x * (1.0 / 7.0 - x * (1.0 / 9.0))
+    return tangent * (1.0 - x * (1.0 / 3.0) + x * x * high)
+
+
+@inlined
+def direction_of(angle: float) -> tuple[float, float]:
+    """Return cosine and sine; of a small angle by their series."""
+    if abs(angle) > _SMALL:
+        return math.cos(angle), math.sin(angle)
+    x = angle * angle
+    c = 1.0 - 0.5 * x + x * x * (1.0 / 24.0 - x * (1.0 / 720.0))
+    s = 1.0 - x * (1.0 / 6.0) + x * x * (1.0 / 120.0 - x * (1.0 / 5040.0))
+    return c, angle * s
+
+
 @kernel
 def return_map(
     bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
@@ -74,15 +98,24 @@ def return_map(
     Nine numbers: z (2), dz/d(dw) (2 x 2, by rows), the slipped part of the sliding (>= 0, along
     z) and its derivative by dw (2).
     """
-    d_1, d_2 = dw_1 / u_y, dw_2 / u_y
+    return returned(bouc_wen, exponent, old_1, old_2, dw_1 / u_y, dw_2 / u_y, u_y, 1.0 / u_y)
+
+
+@inlined
+def returned(
+    bouc_wen: int, exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
+    u_y: float, inv: float,
+) -> tuple[float, float, float, float, float, float, float, float, float]:  # fmt: skip
+    """Return what `return_map` does; `d` is the sliding over `u_y`, `inv` is one over it."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
-    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
-    inv = 1.0 / u_y
-    if size == 0.0:
+    square = b_1 * b_1 + b_2 * b_2
+    if square == 0.0 or (square <= 1.0 and not bouc_wen):
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
-    e_1, e_2 = b_1 / size, b_2 / size
+    size = math.sqrt(square)
+    hoop = 1.0 / size
+    e_1, e_2 = b_1 * hoop, b_2 * hoop
     kappa = e_1 * d_1 + e_2 * d_2
-    if size <= 1.0 and (not bouc_wen or kappa <= 0.0):
+    if size <= 1.0 and kappa <= 0.0:
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     if bouc_wen and size < 1.0 + kappa and kappa > 0.0:
         rho, by_size = bouc_wen_radius(size, kappa, exponent)
@@ -90,9 +123,9 @@ def return_map(
         power = rho**exponent
         grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
         grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
+        hoop *= rho
     else:
         rho, grad_1, grad_2 = 1.0, 0.0, 0.0
-    hoop = rho / size
     return (
         rho * e_1,
         rho * e_2,
@@ -148,24 +181,42 @@ def friction_map(
     on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
     slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
-    k_1, k_2, u = kept * old_1, kept * old_2, 2.0 * u_y / (1.0 + kept)  # (3.6)
-    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = return_map(
-        bouc_wen, exponent, k_1, k_2, dw_1, dw_2, u
+    size = math.sqrt(old_1 * old_1 + old_2 * old_2)
+    return friction_step(
+        bouc_wen, exponent, old_1, old_2, size, dw_1, dw_2, u_y, 1.0 / u_y,
+        kept, by_push, 2.0 / (1.0 + kept), before_1, before_2, share,
+    )  # fmt: skip
+
+
+@inlined
+def friction_step(
+    bouc_wen: int, exponent: float, old_1: float, old_2: float, size: float,
+    dw_1: float, dw_2: float, u_y: float, per_u: float,
+    kept: float, by_push: float, softer: float, before_1: float, before_2: float, share: float,
+) -> Mapped:  # fmt: skip
+    """Return what `friction_map` does from what all trials of a step, or all contacts, share.
+
+    `size` is that of the old z, `per_u` is ``1 / u_y``, `softer` is ``2 / (1 + kept)``.
+    """
+    k_1, k_2, u = kept * old_1, kept * old_2, softer * u_y  # (3.6)
+    inv = 0.5 * (1.0 + kept) * per_u
+    z_1, z_2, h_11, h_12, h_21, h_22, slip, s_1, s_2 = returned(
+        bouc_wen, exponent, k_1, k_2, dw_1 * inv, dw_2 * inv, u, inv
     )
     n_1, n_2, s_n = 0.0, 0.0, 0.0
     if by_push != 0.0:
-        more = 0.5 * by_push / u_y  # derivative of 1 / u
+        more = 0.5 * by_push * per_u  # derivative of 1 / u
         c_1, c_2, e_1, e_2 = by_push * old_1, by_push * old_2, more * dw_1, more * dw_2
         if bouc_wen:
             n_1, n_2, s_n = bouc_wen_rate(
-                exponent, k_1, k_2, dw_1 / u, dw_2 / u, c_1, c_2, e_1, e_2
+                exponent, k_1, k_2, dw_1 * inv, dw_2 * inv, c_1, c_2, e_1, e_2
             )
         else:  # a function of b alone
             c_1, c_2 = c_1 + e_1, c_2 + e_2
             n_1, n_2 = u * (h_11 * c_1 + h_12 * c_2), u * (h_21 * c_1 + h_22 * c_2)
             s_n = s_1 * c_1 + s_2 * c_2
         s_n = u * (s_n - more * slip)
-    slid, a_1, a_2 = sliding_on(old_1, old_2, dw_1, dw_2, u_y)
+    slid, a_1, a_2 = sliding_on(old_1, old_2, size, dw_1 * per_u, dw_2 * per_u, u_y)
     flat = (z_1, z_2, h_11, h_12, h_21, h_22, slid, a_1, a_2, n_1, n_2)
     if share == 0.0 or slip == 0.0 or slid == 0.0:
         return flat
@@ -173,21 +224,23 @@ def friction_map(
     dot = before_1 * dw_1 + before_2 * dw_2
     if not dot > 0.0:
         return flat
-    angle = math.atan2(cross, dot)
-    q = (angle / _BEND) ** 2
-    if not q < 1.0:
+    if not abs(cross) < _STEEPEST * dot:
         return flat
+    angle = small_angle(cross / dot)
+    q = angle * angle * (1.0 / (_BEND * _BEND))
     if slid < slip:  # what a falling axial force takes from z is no sliding
         slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
     square = dw_1 * dw_1 + dw_2 * dw_2
-    part = slip / (slip + u_y)  # what a turn adds up to over the steps is then half a step's
-    turn = share * angle * (1.0 - q) ** 2 * part  # (3.7)
+    over = 1.0 / (slip + u_y)
+    part = slip * over  # what a turn adds up to over the steps is then half a step's
+    whole = share * angle * (1.0 - q) ** 2
+    turn = whole * part  # (3.7)
     by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
-    by_slip = share * angle * (1.0 - q) ** 2 * u_y / (slip + u_y) ** 2
+    by_slip = whole * u_y * over * over
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2
     turn_n = by_slip * s_n
-    c, s = math.cos(turn), math.sin(turn)
+    c, s = direction_of(turn)
     r_1, r_2 = c * z_1 - s * z_2, s * z_1 + c * z_2
     return (
         r_1,
@@ -204,20 +257,21 @@ def friction_map(
     )
 
 
-@kernel
+@inlined
 def sliding_on(
-    old_1: float, old_2: float, dw_1: float, dw_2: float, u_y: float
+    old_1: float, old_2: float, before: float, d_1: float, d_2: float, u_y: float
 ) -> tuple[float, float, float]:
     """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
 
-    It gives the friction its speed. What unloads z has none; neither has what a changing axial
+    `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed. What unloads z has none; neither has what a changing axial
     force takes from z or asks to be filled, so that it does not switch the friction.
     """
-    b_1, b_2 = old_1 + dw_1 / u_y, old_2 + dw_2 / u_y
-    size, before = math.sqrt(b_1 * b_1 + b_2 * b_2), math.sqrt(old_1 * old_1 + old_2 * old_2)
+    b_1, b_2 = old_1 + d_1, old_2 + d_2
+    size = math.sqrt(b_1 * b_1 + b_2 * b_2)
     if size <= before:
         return 0.0, 0.0, 0.0
-    return u_y * (size - before), b_1 / size, b_2 / size  # (3.9)
+    inv = 1.0 / size
+    return u_y * (size - before), b_1 * inv, b_2 * inv  # (3.9)
 
 
 @kernel
@@ -226,7 +280,7 @@ def step_share(dt: float, before: float) -> float:
     return dt / (dt + before) if dt > 0.0 and before > 0.0 else 0.0
 
 
-@kernel
+@inlined
 def speed_at_end(
     slip: float, dt: float, slip_before: float, dt_before: float, share: float
 ) -> tuple[float, float]:
@@ -235,12 +289,13 @@ def speed_at_end(
     The mean speed of a step is that of its middle; the step before tells how it changes. `share`
     is ``dt / (dt + dt_before)``.
     """
+    rate = 1.0 / dt
+    speed = slip * rate
     if share == 0.0 or slip == 0.0 or slip_before == 0.0:
-        return slip / dt, 1.0 / dt
-    speed = slip / dt
+        return speed, rate
     ahead = speed + share * (speed - slip_before / dt_before)
     if ahead > 0.0:
-        return ahead, (1.0 + share) / dt
+        return ahead, (1.0 + share) * rate
     return 0.0, 0.0
 
 
@@ -284,8 +339,9 @@ def kelvin_voigt(
     slope = stiffness
     force = stiffness * gap
     if dt > 0.0:
-        force += damping * (gap - closure_old) / dt  # (3.8)
-        slope += damping / dt
+        viscous = damping / dt
+        force += viscous * (gap - closure_old)  # (3.8)
+        slope += viscous
     if force < 0.0:
         return 0.0, 0.0, gap
     return force, slope, gap

@@ -15,11 +15,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:
-    from lir_element.layout import Floats, Props, State, Work
+    from lir_element.layout import Props, State, Work
 
 
 @kernel
@@ -33,7 +33,7 @@ def fix_length(p: Props, w: Work) -> None:
         w.c[2] = -math.sqrt(rest) if rest > 0.0 else 0.0
 
 
-@kernel
+@inlined
 def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike).
 
@@ -52,7 +52,7 @@ def axial(p: Props, old: State, w: Work) -> None:
             gap, old.closure, p.axial_stiffness, p.axial_damping, w.dt
         )
     w.vertical, w.stiff_vertical = 0.0, 0.0
-    w.kept, w.kept_n = 1.0, 0.0
+    w.kept, w.kept_n, w.softer = 1.0, 0.0, 1.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
         return
@@ -63,6 +63,7 @@ def axial(p: Props, old: State, w: Work) -> None:
         w.n_hat, w.scale = p.axial_floor, w.n_pos / p.axial_floor
     if w.dt > 0.0:
         w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
+        w.softer = 2.0 / (1.0 + w.kept)
 
 
 @kernel
@@ -102,23 +103,14 @@ def held_rate_fused(w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> 
 
 
 @kernel
-def follow_height(p: Props, w: Work, e_1: float, e_2: float, d: Floats) -> float:
-    """Return the vertical part of a shift `d` of the centre: under a fixed load, what l asks for.
+def tension_rates(
+    w: Work, e_1: float, e_2: float, spin: float, d_1: float, d_2: float, d_3: float
+) -> tuple[float, float]:
+    """Return the derivative of ``N s / l``, what the interface passes while the bearing pulls.
 
-    ``dl = -s . eta - n . d = 0``.
+    By a turn eta and a shift along the slider's own axes.
     """
-    if p.fixed_load > 0.0:
-        s = w.sigma
-        return -(s[0] * e_1 + s[1] * e_2 + w.n[0] * d[0] + w.n[1] * d[1]) / w.n[2]
-    return d[2]
-
-
-@kernel
-def tension_rates(w: Work, e_1: float, e_2: float, spin: float, d: Floats) -> tuple[float, float]:
-    """Return the derivative of ``N s / l``, what the interface passes while the bearing pulls."""
     s_1, s_2 = w.sigma[0], w.sigma[1]
-    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * d[2]
-    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * d[2]
-    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * d[2]
-    by_l = (w.stiff_n - w.n_true / w.l) * d_l
+    d_s1, d_s2 = w.l * e_1 + spin * s_2 + d_1, w.l * e_2 - spin * s_1 + d_2
+    by_l = (w.stiff_n - w.n_true / w.l) * (-s_1 * e_1 - s_2 * e_2 - d_3)
     return (by_l * s_1 + w.n_true * d_s1) / w.l, (by_l * s_2 + w.n_true * d_s2) / w.l

@@ -16,26 +16,54 @@ if TYPE_CHECKING:
 
 
 @kernel
-def rotate_to_global(w: Work) -> None:
-    """Turn the 6 x 6 stiffness (four 3 x 3 blocks) and dn6 into global axes, in place."""
-    q = w.q_i
-    for block_row in (0, 3):
-        for block_col in (0, 3):
-            for a in range(3):  # rows: Q k
-                for b in range(3):
-                    w.half[a, b] = 0.0
-                    for k in range(3):
-                        w.half[a, b] += q[a, k] * w.k6[block_row + k, block_col + b]
-            for a in range(3):  # columns: k Q'
-                for b in range(3):
-                    total = 0.0
-                    for k in range(3):
-                        total += w.half[a, k] * q[b, k]
-                    w.k6[block_row + a, block_col + b] = total
-    for block in (0, 3):
-        x, y, z = w.dn6[block], w.dn6[block + 1], w.dn6[block + 2]
+def set_frames(p: Props, w: Work) -> None:
+    """Set the slider's own axes seen globally: for moments, for forces, for shifts of the centre.
+
+    Under a fixed load the vertical force is that load, and the centre's height follows from the
+    string's length: ``dl = -n . d = 0``.
+    """
+    q, t, n = w.q_i, w.t, w.n
+    for a in range(3):
+        for b in range(2):
+            w.axes[a, b] = q[a, 0] * t[b, 0] + q[a, 1] * t[b, 1] + q[a, 2] * t[b, 2]
+        w.axes[a, 2] = q[a, 0] * n[0] + q[a, 1] * n[1] + q[a, 2] * n[2]
+    for a in range(3):
+        for b in range(3):
+            w.axes_force[a, b], w.axes_shift[a, b] = w.axes[a, b], w.axes[a, b]
+    if p.fixed_load > 0.0:
         for a in range(3):
-            w.dn6[block + a] = q[a, 0] * x + q[a, 1] * y + q[a, 2] * z
+            rise = w.axes[a, 2] / n[2]
+            for b in range(2):
+                w.axes_force[a, b] -= q[a, 2] * t[b, 2]
+                w.axes_shift[a, b] -= t[b, 2] * rise
+            w.axes_force[a, 2] -= q[a, 2] * n[2]
+            w.axes_shift[a, 2] = 0.0
+
+
+@kernel
+def set_rows(p: Props, w: Work) -> None:
+    """Set the derivatives of g, tau and N (global axes) by the nodes' displacements: `d_rows`."""
+    k, half, rows = w.k6, w.half, w.d_rows
+    for a in range(3):
+        f, m = w.axes_force[a], w.axes[a]
+        for c in range(6):
+            half[a, c] = f[0] * k[0, c] + f[1] * k[1, c] + f[2] * k[2, c]
+            half[3 + a, c] = m[0] * k[3, c] + m[1] * k[4, c] + m[2] * k[5, c]
+    for c in range(6):
+        half[6, c] = k[6, c]
+    x, y = w.axes_shift, w.axes
+    for a in range(7):
+        r = half[a]
+        spread(
+            rows[a],
+            x[0, 0] * r[0] + x[0, 1] * r[1] + x[0, 2] * r[2],
+            x[1, 0] * r[0] + x[1, 1] * r[1] + x[1, 2] * r[2],
+            x[2, 0] * r[0] + x[2, 1] * r[1] + x[2, 2] * r[2],
+            w, p.lever[0], p.lever[1],
+            y[0, 0] * r[3] + y[0, 1] * r[4] + y[0, 2] * r[5],
+            y[1, 0] * r[3] + y[1, 1] * r[4] + y[1, 2] * r[5],
+            y[2, 0] * r[3] + y[2, 1] * r[4] + y[2, 2] * r[5],
+        )  # fmt: skip
 
 
 @kernel
@@ -79,15 +107,16 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     Unsymmetric. Rows: node i, node j; each forces, then moments.
     """
     condense(p, w)
-    rotate_to_global(w)
+    set_frames(p, w)
+    set_rows(p, w)
     g_x, g_y, g_z = force[6], force[7], force[8]
-    m_x, m_y, m_z = w.tau[0], w.tau[1], w.tau[2]
-    rows = w.d_rows
-    for a in range(6):
-        r = w.k6[a]
-        spread(rows[a], r[0], r[1], r[2], w, p.lever[0], p.lever[1], r[3], r[4], r[5])
+    rows, q_j, turn = w.d_rows, w.spin_j, w.torque_axial
+    if p.fixed_load > 0.0:
+        add_vertical(p, w)
     add_cross(rows, 0, 3, g_x, g_y, g_z, -1.0)  # g and tau turn with the bottom plate: phi x g
-    add_cross(rows, 3, 3, m_x, m_y, m_z, -1.0)
+    add_cross(rows, 3, 3, w.tau[0], w.tau[1], w.tau[2], -1.0)
+    apply_spin(w.spin_i, rows, 3)
+    apply_spin(q_j, rows, 9)
     a_x, a_y, a_z = p.lever[1] * w.q_j[0, 2], p.lever[1] * w.q_j[1, 2], p.lever[1] * w.q_j[2, 2]
     b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
     b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
@@ -99,26 +128,47 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
         k[6, col], k[7, col], k[8, col] = d_x, d_y, d_z
         k[3, col] = -(b_y * d_z - b_z * d_y) - t_x
         k[4, col] = -(b_z * d_x - b_x * d_z) - t_y
-        k[5, col] = -(b_x * d_y - b_y * d_x) - t_z
+        k[5, col] = -(b_x * d_y - b_y * d_x) - t_z - turn * rows[6, col]
         k[9, col] = -(a_y * d_z - a_z * d_y) + t_x
         k[10, col] = -(a_z * d_x - a_x * d_z) + t_y
-        k[11, col] = -(a_x * d_y - a_y * d_x) + t_z
+        k[11, col] = -(a_x * d_y - a_y * d_x) + t_z + turn * rows[6, col]  # torsional friction
     # levers move: m_i = -(a_i e_i + c) x g - tau, whose arm shifts by u_j - u_i + a_j e_j x phi_j
     add_cross(k, 3, 6, g_x, g_y, g_z, 1.0)
     add_cross(k, 3, 0, g_x, g_y, g_z, -1.0)
     # ... and m_j = -a_j e_j x g + tau, whose arm turns: (phi x arm) x g = arm (phi.g) - phi (arm.g)
     dot = a_x * g_x + a_y * g_y + a_z * g_z
-    arm = (a_x, a_y, a_z)
-    g = (g_x, g_y, g_z)
-    for a in range(3):
-        for b in range(3):
-            turn = arm[a] * g[b] - (dot if a == b else 0.0)
-            k[9 + a, 9 + b] -= turn
-            k[3 + a, 9 + b] += turn
-    axial_torsion(p, w, k)
-    apply_spin(w.spin_i, k, 3)
-    apply_spin(w.spin_j, k, 9)
+    for b in range(3):
+        along = g_x * q_j[0, b] + g_y * q_j[1, b] + g_z * q_j[2, b]
+        x, y, z = (
+            a_x * along - dot * q_j[0, b],
+            a_y * along - dot * q_j[1, b],
+            a_z * along - dot * q_j[2, b],
+        )
+        k[9, 9 + b], k[10, 9 + b], k[11, 9 + b] = (
+            k[9, 9 + b] - x,
+            k[10, 9 + b] - y,
+            k[11, 9 + b] - z,
+        )
+        k[3, 9 + b], k[4, 9 + b], k[5, 9 + b] = (
+            k[3, 9 + b] + x,
+            k[4, 9 + b] + y,
+            k[5, 9 + b] + z,
+        )
     add_twist(k, w.torque_stiffness)
+
+
+@kernel
+def add_vertical(p: Props, w: Work) -> None:
+    """Add the vertical spring beside a fixed load to the rows of the force on the centre."""
+    q = w.q_i
+    for a in range(3):
+        value = w.stiff_vertical * q[a, 2]
+        spread(
+            w.spare_u, value * q[0, 2], value * q[1, 2], value * q[2, 2], w,
+            p.lever[0], p.lever[1], 0.0, 0.0, 0.0,
+        )  # fmt: skip
+        for c in range(12):
+            w.d_rows[a, c] += w.spare_u[c]
 
 
 @kernel
@@ -131,22 +181,9 @@ def add_twist(k: Floats, stiffness: float) -> None:
 
 
 @kernel
-def axial_torsion(p: Props, w: Work, k: Floats) -> None:
-    """Add the change of the torsional friction (about z, + on node j) with the axial force."""
-    if w.torque_axial == 0.0:
-        return
-    row, n = w.n_row, w.dn6
-    spread(row, n[0], n[1], n[2], w, p.lever[0], p.lever[1], n[3], n[4], n[5])
-    for col in range(12):
-        value = w.torque_axial * row[col]
-        k[11, col] += value
-        k[5, col] -= value
-
-
-@kernel
 def apply_spin(spin: Floats, k: Floats, first: int) -> None:
-    """Turn columns `first`.. from derivatives by spin into derivatives by the rotation vector."""
-    for row in range(12):
+    """Turn columns `first`.. of `k` from derivatives by spin into derivatives by the rotation vector."""
+    for row in range(k.shape[0]):
         x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]
         for b in range(3):
             k[row, first + b] = x * spin[0, b] + y * spin[1, b] + z * spin[2, b]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from lir_element._jit import kernel
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
+from lir_element.kernels.slip import step_share
 
 if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
@@ -35,6 +36,21 @@ _SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle
 
 
 @kernel
+def start_search(p: Props, old: State, w: Work) -> None:
+    """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
+    w.share = step_share(w.dt, old.step)
+    stiff = 0.0
+    for k in range(2):
+        z = old.hysteresis[k]
+        w.z_size[k], w.per_yield[k] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.yield_displacement[k]
+        by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
+        stiff += p.radius[k] * (p.friction_max[k] * w.per_yield[k] + by_speed)
+    z = old.interface_hysteresis
+    w.z_size[2], w.per_yield[2] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.interface_yield
+    w.law_stiffness[0], w.law_stiffness[1] = stiff, p.interface_friction * w.per_yield[2]
+
+
+@kernel
 def residual_size(w: Work) -> float:
     """Return the residual of the slider's equilibrium over axial force and length."""
     return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
@@ -43,11 +59,10 @@ def residual_size(w: Work) -> float:
 @kernel
 def small_residual(p: Props, w: Work) -> float:
     """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
-    stiff = w.l * p.interface_friction / p.interface_yield
-    for k in range(2):
-        by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
-        stiff += p.radius[k] * (p.friction_max[k] / p.yield_displacement[k] + by_speed)
-        stiff += p.radius[k] ** 2 * w.stiff_rim[k] / (w.n_hat * w.l)
+    stiff = w.l * w.law_stiffness[1] + w.law_stiffness[0]
+    if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
+        rim = p.radius[0] ** 2 * w.stiff_rim[0] + p.radius[1] ** 2 * w.stiff_rim[1]
+        stiff += rim / (w.n_hat * w.l)
     return _TOLERANCE + _ROUND_OFF * stiff
 
 

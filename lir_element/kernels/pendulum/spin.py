@@ -230,7 +230,7 @@ def rates_by_spin(p: Props, w: Work) -> None:
     g_1, g_2 = g_1 + f[0] * d_n, g_2 + f[1] * d_n
     r_1, r_2, balance = w.l * g_1, w.l * g_2, s[0] * g_2 - s[1] * g_1 - d_n * w.torque_spin
     r_1, r_2 = r_1 - d_n * s[0], r_2 - d_n * s[1]
-    k_n = 1.0 / (1.0 + w.n[2])
+    k_n = w.lean
     basis = k_n * (s[1] * g_1 - s[0] * g_2)
     r_1, r_2 = r_1 + basis * w.n[1], r_2 - basis * w.n[0]
     for k in range(2):

@@ -23,20 +23,21 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rotation import rotate
 from lir_element.kernels.slip import (
     friction_coefficient,
-    friction_map,
+    friction_step,
     kelvin_voigt,
     speed_at_end,
-    step_share,
 )
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
+
+_UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
 
 @kernel
@@ -63,9 +64,10 @@ def place_plates(p: Props, w: Work, u: Floats) -> None:
 @kernel
 def set_axis(w: Work, x: float, y: float, z: float) -> None:
     """Set the axis n (normalised), the basis t, the string length and the slip."""
-    size = math.sqrt(x * x + y * y + z * z)
-    x, y, z = x / size, y / size, z / size
+    inv = 1.0 / math.sqrt(x * x + y * y + z * z)
+    x, y, z = x * inv, y * inv, z * inv
     k = 1.0 / (1.0 + z)
+    w.lean = k
     w.n[0], w.n[1], w.n[2] = x, y, z
     w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x  # (1.2)
     w.t[1, 0], w.t[1, 1], w.t[1, 2] = -k * x * y, 1.0 - k * y * y, -y
@@ -93,24 +95,40 @@ def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
 
     With a share `kept` of its hysteretic variable other than one, the axis that keeps its z.
     """
+    c = w.c
     if p.fused:
-        set_axis(w, -w.c[0], -w.c[1], -w.c[2])
+        set_axis(w, -c[0], -c[1], -c[2])
         w.sigma[0], w.sigma[1] = 0.0, 0.0
         return
-    back = 2.0 * p.interface_yield * (1.0 - kept) / (1.0 + kept)
-    z = old.interface_hysteresis
-    aim_slip(w, old.slip[0] + back * z[0], old.slip[1] + back * z[1])
+    s_1, s_2 = old.slip[0], old.slip[1]
+    if kept != 1.0:
+        back = 2.0 * p.interface_yield * (1.0 - kept) / (1.0 + kept)
+        s_1 += back * old.interface_hysteresis[0]
+        s_2 += back * old.interface_hysteresis[1]
+    aim_slip(w, s_1, s_2)
 
 
 @kernel
 def aim_slip(w: Work, s_1: float, s_2: float) -> None:
     """Set the axis at which the slip is (s_1, s_2)."""
-    set_axis(w, -w.c[0], -w.c[1], -w.c[2])
-    for _ in range(8):
-        e_1, e_2 = (s_1 - w.sigma[0]) / w.l, (s_2 - w.sigma[1]) / w.l
-        turn_axis(w, w.n[0], w.n[1], w.n[2], e_1, e_2)
-        if abs(e_1) + abs(e_2) < 1e-10:
-            break
+    c = w.c
+    d_1, d_2 = s_1 - c[0], s_2 - c[1]  # the axis leans this way (1.9)
+    square = d_1 * d_1 + d_2 * d_2
+    if square < _UPRIGHT:
+        set_axis(w, 0.0, 0.0, 1.0)
+        return
+    on_slip, on_centre = s_1 * d_1 + s_2 * d_2, c[0] * d_1 + c[1] * d_2
+    slip = s_1 * s_1 + s_2 * s_2
+    if w.fixed_length > 0.0:
+        length = w.fixed_length
+        rest = length * length + (on_slip * on_slip - on_centre * on_centre) / square
+        height = math.sqrt(max(rest, 0.0))
+    else:
+        height = -c[2]
+        rest = c[0] * c[0] + c[1] * c[1] + height * height - slip
+        length = math.sqrt(max(rest, 0.0))
+    lean = on_slip * height - on_centre * length
+    set_axis(w, d_1 * lean, d_2 * lean, on_slip * on_centre + square * length * height)
 
 
 @kernel
@@ -150,7 +168,7 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
     w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
-@kernel
+@inlined
 def surface(p: Props, old: State, w: Work, k: int) -> None:
     """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
     m = w.old_top if k == 1 else old.axis
@@ -162,16 +180,16 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_2 = w.dw[k, 1] + w.spin * w.shift[k, 0]
     w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
-    share = step_share(w.dt, old.step)
-    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_map(
-        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], d_1, d_2,
-        p.yield_displacement[k], w.kept, w.kept_n, before[0], before[1], share,
+    z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_step(
+        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], w.z_size[k], d_1, d_2,
+        p.yield_displacement[k], w.per_yield[k], w.kept, w.kept_n, w.softer, before[0], before[1],
+        w.share,
     )  # fmt: skip
     w.slid[k] = slid
     # sliding that unloads has no speed: friction must not grow meanwhile
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
-        w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, share)
+        w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, w.share)
     mu, slope = friction_coefficient(
         p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
     )
@@ -185,7 +203,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     w.h[k, 1, 0], w.h[k, 1, 1] = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
 
 
-@kernel
+@inlined
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N.
 
@@ -197,10 +215,10 @@ def interface(p: Props, old: State, w: Work) -> None:
     if spins:
         x, y = turn_with_sliders(-w.spin, x, y)
     d_1, d_2 = x - old.slip[0], y - old.slip[1]
-    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_map(
+    z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_step(
         p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
-        d_1, d_2, p.interface_yield,
-        w.kept, w.kept_n, before[0], before[1], step_share(w.dt, old.step),
+        w.z_size[2], d_1, d_2, p.interface_yield, w.per_yield[2],
+        w.kept, w.kept_n, w.softer, before[0], before[1], w.share,
     )  # fmt: skip
     if spins:
         d_1, d_2 = turn_with_sliders(w.spin, d_1, d_2)
@@ -218,34 +236,39 @@ def interface(p: Props, old: State, w: Work) -> None:
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
 
 
-@kernel
+@inlined
 def rims(p: Props, old: State, w: Work) -> None:
-    """Set the rim forces of both plates.
+    """Set the rim forces of both plates; their directions where one of the rims is met.
 
     One piece that is lifted by more than its height is no longer between the rims.
     """
     height = p.radius[0] + p.radius[1] - p.length
     away = p.fused and p.length - w.l > height
+    y_1 = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
+    y_2 = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
+    w.n_hor[0] = math.sqrt(w.n[0] * w.n[0] + w.n[1] * w.n[1])  # (1.8)
+    w.n_hor[1] = math.sqrt(y_1 * y_1 + y_2 * y_2)
+    w.push[0], w.push[1] = 0.0, 0.0
     for k in range(2):
-        if k == 0:
-            x, y = w.n[0], w.n[1]
-        else:
-            x = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
-            y = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
-        size = math.sqrt(x * x + y * y)  # (1.8)
-        w.n_hor[k] = size
         w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
-            -math.inf if away else p.radius[k] * size - p.rim_displacement[k],
+            -math.inf if away else p.radius[k] * w.n_hor[k] - p.rim_displacement[k],
             old.rim_closure[k],
             p.rim_stiffness,
             p.rim_damping,
             w.dt,
         )
+    if not (w.rim_closure[0] > 0.0 or w.rim_closure[1] > 0.0):
+        return
+    for k in range(2):
+        x, y, size = (w.n[0], w.n[1], w.n_hor[0]) if k == 0 else (y_1, y_2, w.n_hor[1])
         w.unit[k, 0], w.unit[k, 1] = (x / size, y / size) if size > 0.0 else (1.0, 0.0)
     e_1, e_2 = w.unit[1, 0], w.unit[1, 1]
     for a in range(3):
         w.r_top[a] = w.a[a, 0] * e_1 + w.a[a, 1] * e_2
         w.b_top[a] = w.a[a, 1] * e_1 - w.a[a, 0] * e_2
+    for a in range(2):
+        top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
+        w.push[a] = p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a] + p.radius[1] * w.rim[1] * top
 
 
 @kernel
@@ -260,11 +283,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
     surface(p, old, w, 1)
     rims(p, old, w)
     for a in range(2):
-        rim_top = w.t[a, 0] * w.r_top[0] + w.t[a, 1] * w.r_top[1] + w.t[a, 2] * w.r_top[2]
         w.drag[a] = p.radius[0] * w.phi[0, a] + p.radius[1] * w.phi[1, a]
-        w.push[a] = (
-            p.radius[0] * w.rim[0] * w.n[2] * w.unit[0, a] + p.radius[1] * w.rim[1] * rim_top
-        )
     if not p.fused:
         interface(p, old, w)
     if p.fixed_load > 0.0:
@@ -279,8 +298,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
             w.residual[a] = 0.0
         return
     w.rim_scale = w.scale
-    k = 1.0 / (1.0 + w.n[2])
-    chi = k * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
+    chi = w.lean * (w.sigma[1] * w.phi_s[0] - w.sigma[0] * w.phi_s[1])
     w.residual[0] += w.n_hat * (w.l * w.phi_s[0] + chi * w.n[1] - w.sigma[0])
     w.residual[1] += w.n_hat * (w.l * w.phi_s[1] - chi * w.n[0] - w.sigma[1])
     w.f_s[0], w.f_s[1] = w.n_pos * w.phi_s[0], w.n_pos * w.phi_s[1]
@@ -299,7 +317,9 @@ def elastic_jacobian(p: Props, w: Work) -> None:
     )
     for a in range(2):
         for b in range(2):
-            w.jacobian[a, b] = p.radius[0] ** 2 * w.stiff_rim[0] * w.unit[0, a] * w.unit[0, b] + (
-                p.radius[1] ** 2 * w.stiff_rim[1] * w.unit[1, a] * w.unit[1, b]
-            )
+            w.jacobian[a, b] = 0.0
+            for k in range(2):
+                if w.stiff_rim[k] > 0.0:
+                    stiff = p.radius[k] ** 2 * w.stiff_rim[k]
+                    w.jacobian[a, b] += stiff * w.unit[k, a] * w.unit[k, b]
         w.jacobian[a, a] += friction

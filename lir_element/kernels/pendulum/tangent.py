@@ -1,8 +1,9 @@
 """Kernels of the level 'pendulum': derivatives of its residual and forces, and the tangent.
 
-One kernel takes the derivative in a direction (a turn `eta` of the slider's axis, a shift `d`
-of the top sphere's centre, a spin `v` of the top plate, all in axes of the bottom plate); the
-slider's jacobian and the condensed tangent are made of it. docs/theory.md derives each line.
+Three kernels take the derivative: by a turn `eta` of the slider's axis, by a shift `d` of the top
+sphere's centre, by a spin of the top plate. Shifts and spins have the components along the slider's
+own axes (t_1, t_2, n), where most terms vanish. The slider's jacobian and the condensed tangent are
+made of them. docs/theory.md derives each line.
 """
 
 from __future__ import annotations
@@ -10,12 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
-from lir_element.kernels.pendulum.axial import (
-    follow_height,
-    held_rate,
-    held_rate_fused,
-    tension_rates,
-)
+from lir_element.kernels.pendulum.axial import held_rate, held_rate_fused, tension_rates
 from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE
 
@@ -105,36 +101,76 @@ def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float)
 
 
 @kernel
-def direction(p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats) -> Rates:
-    """Return the derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin, balance.
+def string_rates(
+    p: Props, w: Work, d_s1: float, d_s2: float, d_l: float, d_n: float, tilt: float
+) -> tuple[float, float, float, float]:
+    """Return the part of interface and string in the residual's derivative, and d(F_h)."""
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    s_1, s_2, n_1, n_2 = w.sigma[0], w.sigma[1], w.n[0], w.n[1]
+    k = w.lean
+    g_1, g_2 = w.f_s[0], w.f_s[1]
+    g_d1, g_d2 = 0.0, 0.0
+    if not p.fused:
+        g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.phi_sn[0] * d_pos
+        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_pos
+        g_d1 = w.n_hat * g_d1 + w.phi_s[0] * d_hat
+        g_d2 = w.n_hat * g_d2 + w.phi_s[1] * d_hat
+    cross = s_2 * g_1 - s_1 * g_2  # over 1 + n_z: moment about n that the basis passes on (2.1)
+    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * cross
+    r_1 = d_l * g_1 + w.l * g_d1 + d_chi * n_2 - d_hat * s_1 - w.n_hat * d_s1
+    r_2 = d_l * g_2 + w.l * g_d2 - d_chi * n_1 - d_hat * s_2 - w.n_hat * d_s2
+    return r_1, r_2, g_d1, g_d2
 
-    Where the interface is fused its force is left out: it follows from the residual. The balance is
-    that of the moments that spin the sliders, zero where the spin is no unknown.
+
+@kernel
+def balance_rate(
+    p: Props, w: Work, d_s1: float, d_s2: float, d_n: float, g_d1: float, g_d2: float,
+    f_11: float, f_12: float, f_21: float, f_22: float,
+    w_11: float, w_12: float, w_21: float, w_22: float,
+    p_11: float, p_12: float, p_21: float, p_22: float,
+) -> float:  # fmt: skip
+    """Return the derivative of the moments that spin the sliders (2.6)."""
+    s_1, s_2 = w.sigma[0], w.sigma[1]
+    g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
+    m_1 = p.radius[0] * (g_d1 - f_11) + shared(p, w, 0, p_11, p_21)
+    m_2 = p.radius[0] * (g_d2 - f_12) + shared(p, w, 0, p_12, p_22)
+    balance -= drag_rate(w, 0, w_11, w_12, m_1, m_2)
+    m_1 = p.radius[1] * (g_d1 - f_21) + shared(p, w, 1, p_11, p_21)
+    m_2 = p.radius[1] * (g_d2 - f_22) + shared(p, w, 1, p_12, p_22)
+    return balance - drag_rate(w, 1, w_21, w_22, m_1, m_2)
+
+
+@kernel
+def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
+    """Return the derivatives by a turn of the slider's axis.
+
+    Of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin of the basis, balance. Where the
+    interface is fused its force is left out: it follows from the residual. The balance is that of
+    the moments that spin the sliders, zero where the spin is no unknown.
     """
-    k = 1.0 / (1.0 + w.n[2])
+    k = w.lean
     s_1, s_2 = w.sigma[0], w.sigma[1]
     spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
     tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
-    rise = follow_height(p, w, e_1, e_2, d)
-    # (1.4), (1.5)
-    d_s1 = w.l * e_1 + spin * s_2 + w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise
-    d_s2 = w.l * e_2 - spin * s_1 + w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise
-    d_l = -s_1 * e_1 - s_2 * e_2 - w.n[0] * d[0] - w.n[1] * d[1] - w.n[2] * rise
+    d_s1, d_s2 = w.l * e_1 + spin * s_2, w.l * e_2 - spin * s_1  # (1.5)
+    d_l = -s_1 * e_1 - s_2 * e_2
+    if p.fixed_load > 0.0:  # the height follows, so that the length stays
+        d_s1, d_s2 = d_s1 + w.t[0, 2] * d_l / w.n[2], d_s2 + w.t[1, 2] * d_l / w.n[2]
+        d_l = 0.0
     d_n = w.stiff_n * d_l
     if p.fixed_load > 0.0 and not p.fused:
         d_n = held_rate(w, e_1, e_2, d_s1, d_s2)
     d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
-    # surfaces
     w_11 = p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1])
     w_12 = p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0])
+    w_21 = p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1])
+    w_22 = p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0])
     f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, w_11, w_12)
-    m = w.old_top
-    o_1, o_2, o_3 = v[1] * m[2] - v[2] * m[1], v[2] * m[0] - v[0] * m[2], v[0] * m[1] - v[1] * m[0]
-    t = w.t
-    w_21 = -w.old[1, 2] * e_1 + spin * w.old[1, 1] + t[0, 0] * o_1 + t[0, 1] * o_2 + t[0, 2] * o_3
-    w_22 = -w.old[1, 2] * e_2 - spin * w.old[1, 0] + t[1, 0] * o_1 + t[1, 1] * o_2 + t[1, 2] * o_3
-    w_21, w_22 = p.radius[1] * w_21, p.radius[1] * w_22
     f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, w_21, w_22)
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
         f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
@@ -144,81 +180,117 @@ def direction(p: Props, w: Work, e_1: float, e_2: float, d: Floats, v: Floats) -
     d_rim, q_1, q_2, q_3 = 0.0, 0.0, 0.0, 0.0
     p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
     if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
-        p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(p, w, e_1, e_2, v, spin, tilt)
+        p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(
+            p, w, e_1, e_2, w.still, spin, tilt
+        )
         r_1, r_2 = r_1 + p_11 + p_21, r_2 + p_12 + p_22
     if p.fixed_load > 0.0 and p.fused:
         d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
         r_1, r_2 = r_1 - w.drag[0] * d_n, r_2 - w.drag[1] * d_n
-    # interface and string
+    x_1, x_2, g_d1, g_d2 = string_rates(p, w, d_s1, d_s2, d_l, d_n, tilt)
     g_1, g_2 = w.f_s[0], w.f_s[1]
     if not p.fused:
         g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
-    g_d1, g_d2 = 0.0, 0.0
-    if not p.fused:
-        g_d1 = w.h_s[0, 0] * d_s1 + w.h_s[0, 1] * d_s2 + w.phi_sn[0] * d_pos
-        g_d2 = w.h_s[1, 0] * d_s1 + w.h_s[1, 1] * d_s2 + w.phi_sn[1] * d_pos
-        g_d1 = w.n_hat * g_d1 + w.phi_s[0] * d_hat
-        g_d2 = w.n_hat * g_d2 + w.phi_s[1] * d_hat
-    cross = s_2 * g_1 - s_1 * g_2
-    chi = k * cross  # moment about n that the basis passes on: (2.1)
-    d_chi = k * (d_s2 * g_1 + s_2 * g_d1 - d_s1 * g_2 - s_1 * g_d2) + k * k * tilt * cross
-    r_1 += d_l * g_1 + w.l * g_d1 + d_chi * w.n[1] + chi * (e_2 - k * w.n[1] * tilt)
-    r_2 += d_l * g_2 + w.l * g_d2 - d_chi * w.n[0] - chi * (e_1 - k * w.n[0] * tilt)
-    r_1 -= d_hat * s_1 + w.n_hat * d_s1
-    r_2 -= d_hat * s_2 + w.n_hat * d_s2
+    chi = k * (s_2 * g_1 - s_1 * g_2)
+    r_1 += x_1 + chi * (e_2 - k * w.n[1] * tilt)
+    r_2 += x_2 - chi * (e_1 - k * w.n[0] * tilt)
     balance = 0.0
-    if w.spins > 0.0:  # of (2.6)
-        balance = d_s1 * g_2 - d_s2 * g_1 + s_1 * g_d2 - s_2 * g_d1 - d_hat * w.torque_spin
-        m_1 = p.radius[0] * (g_d1 - f_11) + shared(p, w, 0, p_11, p_21)
-        m_2 = p.radius[0] * (g_d2 - f_12) + shared(p, w, 0, p_12, p_22)
-        balance -= drag_rate(w, 0, w_11, w_12, m_1, m_2)
-        m_1 = p.radius[1] * (g_d1 - f_21) + shared(p, w, 1, p_11, p_21)
-        m_2 = p.radius[1] * (g_d2 - f_22) + shared(p, w, 1, p_12, p_22)
-        balance -= drag_rate(w, 1, w_21, w_22, m_1, m_2)
+    if w.spins > 0.0:
+        balance = balance_rate(
+            p, w, d_s1, d_s2, d_n, g_d1, g_d2, f_11, f_12, f_21, f_22, w_11, w_12, w_21, w_22,
+            p_11, p_12, p_21, p_22,
+        )  # fmt: skip
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
+
+
+@kernel
+def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
+    """Return the same by a shift of the top sphere's centre along the slider's own axes (1.4)."""
+    d_l = -d_3
+    d_n = w.stiff_n * d_l
+    if p.fixed_load > 0.0 and not p.fused:
+        d_n = held_rate(w, 0.0, 0.0, d_1, d_2)
+    d_pos = d_n if w.n_true >= 0.0 else 0.0
+    d_hat = d_n if w.scale == 1.0 else 0.0
+    f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, 0.0, 0.0)
+    f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, 0.0, 0.0)
+    if p.fused and w.scale < 1.0:
+        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
+    r_1, r_2, g_d1, g_d2 = string_rates(p, w, d_1, d_2, d_l, d_n, 0.0)
+    r_1 -= p.radius[0] * f_11 + p.radius[1] * f_21
+    r_2 -= p.radius[0] * f_12 + p.radius[1] * f_22
+    balance = 0.0
+    if w.spins > 0.0:
+        balance = balance_rate(
+            p, w, d_1, d_2, d_n, g_d1, g_d2, f_11, f_12, f_21, f_22, 0.0, 0.0, 0.0, 0.0,
+            0.0, 0.0, 0.0, 0.0,
+        )  # fmt: skip
+    return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, 0.0, 0.0, 0.0, 0.0, 0.0, balance
+
+
+@kernel
+def by_plate(p: Props, w: Work, v_1: float, v_2: float, v_3: float) -> Rates:
+    """Return the same by a spin of the top plate about the slider's own axes."""
+    m = w.old[1]
+    w_21, w_22 = p.radius[1] * (v_2 * m[2] - v_3 * m[1]), p.radius[1] * (v_3 * m[0] - v_1 * m[2])
+    f_21, f_22 = friction_rate(w, 1, 0.0, 0.0, w_21, w_22)
+    if p.fused and w.scale < 1.0:
+        f_21, f_22 = w.scale * f_21, w.scale * f_22
+    r_1, r_2 = -p.radius[1] * f_21, -p.radius[1] * f_22
+    d_n, d_rim, q_1, q_2, q_3, p_21, p_22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if w.stiff_rim[1] > 0.0:
+        for a in range(3):
+            w.along[a] = w.t[0, a] * v_1 + w.t[1, a] * v_2 + w.n[a] * v_3
+        _, _, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(p, w, 0.0, 0.0, w.along, 0.0, 0.0)
+        r_1, r_2 = r_1 + p_21, r_2 + p_22
+    balance = 0.0
+    if w.spins > 0.0:
+        balance = balance_rate(
+            p, w, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f_21, f_22, 0.0, 0.0, w_21, w_22,
+            0.0, 0.0, p_21, p_22,
+        )  # fmt: skip
+    if p.fixed_load > 0.0 and p.fused:
+        d_n = held_rate_fused(w, 0.0, 0.0, r_1, r_2)
+        f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
+        r_1 -= w.drag[0] * d_n + (d_n if w.scale == 1.0 else 0.0) * w.sigma[0]
+        r_2 -= w.drag[1] * d_n + (d_n if w.scale == 1.0 else 0.0) * w.sigma[1]
+    return r_1, r_2, d_n, 0.0, 0.0, f_21, f_22, d_rim, q_1, q_2, q_3, 0.0, balance
 
 
 @kernel
 def slider_jacobian(p: Props, w: Work) -> None:
     """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
     for a in range(2):
-        r = direction(p, w, 1.0 - a, 0.0 + a, w.still, w.still)
+        r = by_turn(p, w, 1.0 - a, 0.0 + a)
         for k in range(w.rates.shape[0]):
             w.turns[a, k] = r[k]
         w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
 
 
 @kernel
-def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> None:
-    """Set column `col` of the condensed 6 x 6 stiffness: g and tau by centre and spin."""
+def column(p: Props, w: Work, col: int, rates: Rates, d_1: float, d_2: float, d_3: float) -> None:
+    """Set column `col` of the condensed stiffness from what a shift `d`, or a spin, changes.
+
+    The axis follows: it stays in equilibrium; that of one piece stays the line of the centres.
+    """
+    r, inv = w.rates, w.inverse
+    e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])  # (4.1)
+    e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
     if p.fused:
-        rise = follow_height(p, w, 0.0, 0.0, d)
-        e_1 = -(w.t[0, 0] * d[0] + w.t[0, 1] * d[1] + w.t[0, 2] * rise) / w.l
-        e_2 = -(w.t[1, 0] * d[0] + w.t[1, 1] * d[1] + w.t[1, 2] * rise) / w.l
-        rates = direction(p, w, e_1, e_2, d, v)
-        for k in range(w.rates.shape[0]):
-            w.rates[k] = rates[k]
-        w.rates[3], w.rates[4] = -rates[0] / w.l, -rates[1] / w.l
-    else:
-        rates = direction(p, w, 0.0, 0.0, d, v)
-        e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])  # (4.1)
-        e_2 = -(inv[2] * rates[0] + inv[3] * rates[1])
-        for k in range(w.rates.shape[0]):
-            w.rates[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
-        if w.spins > 0.0:
-            share = -w.rates[SPIN_BALANCE] / w.spun[SPIN_BALANCE]
-            e_1, e_2 = e_1 + share * w.spun_turn[0], e_2 + share * w.spun_turn[1]
-            for k in range(12):
-                w.rates[k] += share * w.spun[k]
-    d_n, g_d1, g_d2 = w.rates[2], w.rates[3], w.rates[4]
+        e_1, e_2 = -d_1 / w.l, -d_2 / w.l
+    for k in range(r.shape[0]):
+        r[k] = rates[k] + e_1 * w.turns[0, k] + e_2 * w.turns[1, k]
+    if p.fused:
+        r[3], r[4] = -r[0] / w.l, -r[1] / w.l
+    elif w.spins > 0.0:
+        share = -r[SPIN_BALANCE] / w.spun[SPIN_BALANCE]
+        e_1, e_2 = e_1 + share * w.spun_turn[0], e_2 + share * w.spun_turn[1]
+        for k in range(12):
+            r[k] += share * w.spun[k]
+    d_n, g_d1, g_d2, f_1, f_2, d_rim, spin = r[2], r[3], r[4], r[5], r[6], r[7], r[11]
     d_pos = d_n if w.n_true >= 0.0 else 0.0
-    f_1, f_2, d_rim, spin = w.rates[5], w.rates[6], w.rates[7], w.rates[11]
-    n_0, n_1, n_2 = w.n[0], w.n[1], w.n[2]
-    t = w.t
-    d_0 = t[0, 0] * e_1 + t[1, 0] * e_2
-    d_1 = t[0, 1] * e_1 + t[1, 1] * e_2
-    d_2 = t[0, 2] * e_1 + t[1, 2] * e_2
     if not p.fused and w.scale < 1.0:  # the forces fade with the axial force
         g_d1 = w.scale * g_d1 + d_pos * w.phi_s[0]
         g_d2 = w.scale * g_d2 + d_pos * w.phi_s[1]
@@ -226,46 +298,43 @@ def column(p: Props, w: Work, inv: Floats, col: int, d: Floats, v: Floats) -> No
         f_2 = w.scale * f_2 + d_pos * w.phi[1, 1]
         d_rim = w.scale * d_rim + d_pos / w.n_hat * w.rim[1]
         if w.n_true < 0.0:
-            pull_1, pull_2 = tension_rates(w, e_1, e_2, spin, d)
+            pull_1, pull_2 = tension_rates(w, e_1, e_2, spin, d_1, d_2, d_3)
             g_d1, g_d2 = g_d1 + pull_1, g_d2 + pull_2
-    s_1, s_2 = w.f_s[0], w.f_s[1]
-    twist_1, twist_2, along = g_d1 - spin * s_2, g_d2 + spin * s_1, -(s_1 * e_1 + s_2 * e_2)
-    k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
-    x_1, x_2, x_3 = f_1 - spin * k_2, f_2 + spin * k_1, -(k_1 * e_1 + k_2 * e_2)
-    rim = w.rim_scale * w.rim[1]
-    m = w.sums  # the top plate's force on the slider and its rate
-    for a in range(3):
-        d_axis = d_0 if a == 0 else (d_1 if a == 1 else d_2)
-        w.k6[a, col] = t[0, a] * twist_1 + t[1, a] * twist_2 + (along - d_n) * w.n[a]
-        w.k6[a, col] -= w.n_true * d_axis
-        m[a] = t[0, a] * x_1 + t[1, a] * x_2 + x_3 * w.n[a]
-        m[a] -= d_rim * w.r_top[a] + rim * w.rates[8 + a]
-    p_0 = t[0, 0] * k_1 + t[1, 0] * k_2 - rim * w.r_top[0]
-    p_1 = t[0, 1] * k_1 + t[1, 1] * k_2 - rim * w.r_top[1]
-    p_2 = t[0, 2] * k_1 + t[1, 2] * k_2 - rim * w.r_top[2]
+    s_1, s_2, k6 = w.f_s[0], w.f_s[1], w.k6
+    k6[0, col] = g_d1 - spin * s_2 - w.n_true * e_1
+    k6[1, col] = g_d2 + spin * s_1 - w.n_true * e_2
+    k6[2, col] = -(s_1 * e_1 + s_2 * e_2) - d_n
+    # the top plate's force on the slider, and its rate
+    p_1, p_2, p_3 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1], 0.0
+    x_1, x_2 = f_1 - spin * p_2, f_2 + spin * p_1
+    if w.rim[1] > 0.0:
+        t, n, top, rim = w.t, w.n, w.r_top, w.rim_scale * w.rim[1]
+        y_1, y_2 = d_rim * top[0] + rim * r[8], d_rim * top[1] + rim * r[9]
+        y_3 = d_rim * top[2] + rim * r[10]
+        x_1 -= t[0, 0] * y_1 + t[0, 1] * y_2 + t[0, 2] * y_3
+        x_2 -= t[1, 0] * y_1 + t[1, 1] * y_2 + t[1, 2] * y_3
+        p_1 -= rim * (t[0, 0] * top[0] + t[0, 1] * top[1] + t[0, 2] * top[2])
+        p_2 -= rim * (t[1, 0] * top[0] + t[1, 1] * top[1] + t[1, 2] * top[2])
+        p_3 -= rim * (n[0] * top[0] + n[1] * top[1] + n[2] * top[2])
     lever = p.radius[1]
-    w.k6[3, col] = lever * (d_1 * p_2 - d_2 * p_1 + n_1 * m[2] - n_2 * m[1])
-    w.k6[4, col] = lever * (d_2 * p_0 - d_0 * p_2 + n_2 * m[0] - n_0 * m[2])
-    w.k6[5, col] = lever * (d_0 * p_1 - d_1 * p_0 + n_0 * m[1] - n_1 * m[0])
-    w.dn6[col] = d_pos
-    if p.fixed_load > 0.0:
-        w.k6[2, col] = w.stiff_vertical if col == 2 else 0.0
+    k6[3, col] = lever * (e_2 * p_3 - x_2)
+    k6[4, col] = lever * (x_1 - e_1 * p_3)
+    k6[5, col] = lever * (e_1 * p_2 - e_2 * p_1)
+    k6[6, col] = d_pos
 
 
 @kernel
 def condense(p: Props, w: Work) -> None:
-    """Set the condensed 6 x 6 stiffness in axes of the bottom plate."""
-    inv = w.inverse
+    """Set the condensed stiffness in the slider's own axes, and the derivative of N as last row."""
+    inv, j = w.inverse, w.jacobian
+    slider_jacobian(p, w)
     if not p.fused:
-        slider_jacobian(p, w)
-        j = w.jacobian
         det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
         inv[0], inv[1] = j[1, 1] / det, -j[0, 1] / det
         inv[2], inv[3] = -j[1, 0] / det, j[0, 0] / det
         if w.spins > 0.0:
             rates_by_spin(p, w)
     for a in range(3):
-        w.along[a] = 1.0
-        column(p, w, inv, a, w.along, w.still)
-        column(p, w, inv, 3 + a, w.still, w.along)
-        w.along[a] = 0.0
+        d_1, d_2, d_3 = 1.0 if a == 0 else 0.0, 1.0 if a == 1 else 0.0, 1.0 if a == 2 else 0.0
+        column(p, w, a, by_shift(p, w, d_1, d_2, d_3), d_1, d_2, d_3)
+        column(p, w, 3 + a, by_plate(p, w, d_1, d_2, d_3), 0.0, 0.0, 0.0)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.pendulum.solve import solve_axis
+from lir_element.kernels.pendulum.solve import solve_axis, start_search
 from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin
 from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders, spin_with_axis
 from lir_element.kernels.pendulum.string import (
@@ -43,11 +43,13 @@ SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     """Set the nodes' forces from the evaluated string, surfaces and rims."""
     k_1, k_2 = w.n_pos * w.phi[1, 0], w.n_pos * w.phi[1, 1]
-    rim = w.rim_scale * w.rim[1]
+    rim = p.radius[1] * w.rim_scale * w.rim[1]
     t, n, q = w.t, w.n, w.q_i
     for a in range(3):
         w.g[a] = -w.n_true * n[a] + t[0, a] * w.f_s[0] + t[1, a] * w.f_s[1]  # (2.2)
-        w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2 - rim * w.r_top[a])
+        w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2)
+        if rim > 0.0:
+            w.sums[a] -= rim * w.r_top[a]
     if p.fixed_load > 0.0:
         w.g[2] = -w.vertical
     m = w.sums
@@ -159,10 +161,10 @@ def limit_status(p: Props, new: State) -> int:
 @kernel
 def is_finite(x: Floats) -> bool:
     """Return whether all entries are finite."""
-    finite = True
+    total = 0.0
     for k in range(x.shape[0]):
-        finite = finite and math.isfinite(x[k])
-    return finite
+        total += 0.0 * x[k]  # no number, as soon as one is not finite
+    return total == 0.0
 
 
 @kernel
@@ -244,10 +246,10 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     """
     if not math.isfinite(time):
         return _NOT_FINITE
-    for k in range(12):
-        if not (math.isfinite(u[k]) and math.isfinite(v[k])):
-            return _NOT_FINITE
+    if not (is_finite(u) and is_finite(v)):
+        return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
+    start_search(p, old, w)
     start_spin(p, old, w)
     spin_by(p, old, w, first_spin(old, w.dt))
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
