@@ -18,7 +18,7 @@ from lir_element.kernels.pendulum.solve import (
     solve_axis,
 )
 from lir_element.kernels.pendulum.spin import rates_by_spin, spin_against, spin_balance, spin_by
-from lir_element.kernels.pendulum.string import aim_slip, evaluate, set_axis, turn_axis
+from lir_element.kernels.pendulum.string import aim_on, evaluate, set_axis, turn_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.layout import SPIN_BALANCE
 
@@ -34,7 +34,6 @@ _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a
 _FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
 _MOST_JOINT = 12  # iterations for axis and spin together
 _FROM_FIRST = 0.05  # rad from the spin that goes on: further, the search is bounded (a choice)
-_SLIPPING = 0.998  # of the square of the hysteretic variable: the interface slips
 _SMALLEST_STEP = 1e-15  # rad, round-off
 _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last one (a choice)
 
@@ -87,19 +86,6 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
 
 
 @kernel
-def aim_on(old: State, w: Work) -> None:
-    """Set the axis that goes on slipping as in the last step, if it slipped."""
-    z, ahead = old.interface_hysteresis, 0.0
-    if z[0] * z[0] + z[1] * z[1] > _SLIPPING and old.step > 0.0:
-        ahead = w.dt / old.step
-    aim_slip(
-        w,
-        old.slip[0] + ahead * old.slip_increment[0],
-        old.slip[1] + ahead * old.slip_increment[1],
-    )
-
-
-@kernel
 def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
     """Return Newton's step of axis and spin together: two turns and a spin; zeros where none is."""
     w.spins = 1.0
@@ -130,7 +116,7 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
     first = first_spin(old, w.dt)
     if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
         return -1
-    aim_on(old, w)
+    aim_on(p, old, w)
     evaluate(p, old, w)
     mu = old.friction_coefficient
     enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])

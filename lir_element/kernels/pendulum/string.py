@@ -132,6 +132,23 @@ def aim_slip(w: Work, s_1: float, s_2: float) -> None:
 
 
 @kernel
+def aim_on(p: Props, old: State, w: Work) -> None:
+    """Set the axis that goes on slipping as in the last step, elastically or not.
+
+    The exact axis where the interface is fused; the slip that was where there is no last step.
+    """
+    if p.fused or w.dt == 0.0 or old.step == 0.0:
+        aim_axis(p, old, w, 1.0)
+        return
+    ahead = w.dt / old.step
+    aim_slip(
+        w,
+        old.slip[0] + ahead * old.slip_increment[0],
+        old.slip[1] + ahead * old.slip_increment[1],
+    )
+
+
+@kernel
 def static_speeds(p: Props, w: Work, v: Floats) -> None:
     """Set the sliding speeds of a trial at the committed time from the nodes' velocities."""
     rate = w.sums

@@ -16,6 +16,7 @@ from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin
 from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders, spin_with_axis
 from lir_element.kernels.pendulum.string import (
     aim_axis,
+    aim_on,
     evaluate,
     place_plates,
     set_axis,
@@ -227,7 +228,7 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
 def solve_in_turns(p: Props, old: State, w: Work) -> int:
     """Find the axis for a spin, and the spin around it; return the iterations, or -1."""
     spin_by(p, old, w, first_spin(old, w.dt))
-    aim_axis(p, old, w, 1.0)
+    aim_on(p, old, w)
     count = solve_axis(p, old, w)
     if count < 0:
         spin_by(p, old, w, 0.0)
