@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@kernel
+@inlined
 def coefficients(square: float) -> tuple[float, float, float]:
     """Return sin(x)/x, (1 - cos(x))/x^2 and (x - sin(x))/x^3 of x^2 = `square`."""
     if square < 2.5e-3:  # series: the next terms lie below round-off
@@ -40,20 +40,35 @@ def add_cross(k: Floats, row: int, col: int, x: float, y: float, z: float, facto
 
 
 @kernel
-def rotate(x: float, y: float, z: float, q: Floats, spin: Floats) -> None:
-    """Fill `q` (3, 3) with the matrix of the rotation vector and `spin` (3, 3) with d(spin)."""
-    s, c, d = coefficients(x * x + y * y + z * z)
+def turn_matrix(x: float, y: float, z: float, q: Floats) -> None:
+    """Fill `q` (3, 3) with the matrix of the rotation vector."""
+    s, c, _ = coefficients(x * x + y * y + z * z)
     xx, yy, zz = x * x, y * y, z * z
-    xy, yz, zx = x * y, y * z, z * x
+    xy, yz, zx = c * x * y, c * y * z, c * z * x
     q[0, 0] = 1.0 - c * (yy + zz)
     q[1, 1] = 1.0 - c * (zz + xx)
     q[2, 2] = 1.0 - c * (xx + yy)
-    q[0, 1], q[1, 0] = c * xy - s * z, c * xy + s * z
-    q[1, 2], q[2, 1] = c * yz - s * x, c * yz + s * x
-    q[2, 0], q[0, 2] = c * zx - s * y, c * zx + s * y
+    q[0, 1], q[1, 0] = xy - s * z, xy + s * z
+    q[1, 2], q[2, 1] = yz - s * x, yz + s * x
+    q[2, 0], q[0, 2] = zx - s * y, zx + s * y
+
+
+@kernel
+def spin_matrix(x: float, y: float, z: float, spin: Floats) -> None:
+    """Fill `spin` (3, 3) with the spin by the rates of the rotation vector."""
+    _, c, d = coefficients(x * x + y * y + z * z)
+    xx, yy, zz = x * x, y * y, z * z
+    xy, yz, zx = d * x * y, d * y * z, d * z * x
     spin[0, 0] = 1.0 - d * (yy + zz)
     spin[1, 1] = 1.0 - d * (zz + xx)
     spin[2, 2] = 1.0 - d * (xx + yy)
-    spin[0, 1], spin[1, 0] = d * xy - c * z, d * xy + c * z
-    spin[1, 2], spin[2, 1] = d * yz - c * x, d * yz + c * x
-    spin[2, 0], spin[0, 2] = d * zx - c * y, d * zx + c * y
+    spin[0, 1], spin[1, 0] = xy - c * z, xy + c * z
+    spin[1, 2], spin[2, 1] = yz - c * x, yz + c * x
+    spin[2, 0], spin[0, 2] = zx - c * y, zx + c * y
+
+
+@kernel
+def rotate(x: float, y: float, z: float, q: Floats, spin: Floats) -> None:
+    """Fill `q` (3, 3) with the matrix of the rotation vector and `spin` (3, 3) with d(spin)."""
+    turn_matrix(x, y, z, q)
+    spin_matrix(x, y, z, spin)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
 from lir_element.kernels.pendulum.tangent import condense
-from lir_element.kernels.rotation import add_cross
+from lir_element.kernels.rotation import add_cross, spin_matrix
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, Work
@@ -106,6 +106,9 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
 
     Unsymmetric. Rows: node i, node j; each forces, then moments.
     """
+    x, y = w.turned[0], w.turned[1]
+    spin_matrix(x[0], x[1], x[2], w.spin_i)
+    spin_matrix(y[0], y[1], y[2], w.spin_j)
     condense(p, w)
     set_frames(p, w)
     set_rows(p, w)

@@ -39,6 +39,7 @@ _SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle
 def start_search(p: Props, old: State, w: Work) -> None:
     """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
+    w.first_speed[0], w.first_speed[1] = math.inf, math.inf
     stiff = 0.0
     for k in range(2):
         z = old.hysteresis[k]
@@ -54,19 +55,19 @@ def start_search(p: Props, old: State, w: Work) -> None:
 
 
 @kernel
-def residual_size(w: Work) -> float:
-    """Return the residual of the slider's equilibrium over axial force and length."""
-    return math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2) / (w.n_hat * w.l)
+def residual_square(w: Work) -> float:
+    """Return the square of the residual of the slider's equilibrium."""
+    return w.residual[0] ** 2 + w.residual[1] ** 2
 
 
 @kernel
-def small_residual(p: Props, w: Work) -> float:
-    """Return the relative residual to reach: that of round-off in lengths under stiff laws."""
+def square_to_reach(p: Props, w: Work) -> float:
+    """Return the square of the residual to reach: that of round-off in lengths under stiff laws."""
     stiff = w.l * w.law_stiffness[1] + w.law_stiffness[0]
-    if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
-        rim = p.radius[0] ** 2 * w.stiff_rim[0] + p.radius[1] ** 2 * w.stiff_rim[1]
-        stiff += rim / (w.n_hat * w.l)
-    return _TOLERANCE + _ROUND_OFF * stiff
+    enough = (_TOLERANCE + _ROUND_OFF * stiff) * w.n_hat * w.l
+    for k in range(2):
+        enough += _ROUND_OFF * p.radius[k] ** 2 * w.stiff_rim[k]
+    return enough * enough
 
 
 @kernel
@@ -74,11 +75,12 @@ def mark_start(w: Work) -> None:
     """Keep the current axis as the start of a search; on a rim, keep its parallel circle too."""
     for a in range(3):
         w.start[0, a], w.start[1, a], w.start[2, a] = w.n[a], w.t[0, a], w.t[1, a]
-    on_rim = w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0
-    radius = math.sqrt(w.n[0] ** 2 + w.n[1] ** 2)
-    w.start_circle[2] = radius if on_rim and radius > _SMALLEST_CIRCLE else 0.0
-    if w.start_circle[2] > 0.0:
-        w.start_circle[0], w.start_circle[1] = w.n[0] / radius, w.n[1] / radius
+    w.start_circle[2] = 0.0
+    if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
+        radius = w.n_hor[0]
+        if radius > _SMALLEST_CIRCLE:
+            w.start_circle[0], w.start_circle[1] = w.n[0] / radius, w.n[1] / radius
+            w.start_circle[2] = radius
 
 
 @kernel
@@ -106,38 +108,39 @@ def move(p: Props, old: State, w: Work, e_1: float, e_2: float) -> None:
 
 
 @kernel
-def newton_turn(p: Props, old: State, w: Work) -> float:
-    """Turn the axis along Newton's direction; return the new relative residual, -1 if no gain."""
-    size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
+def newton_turn(p: Props, old: State, w: Work) -> bool:
+    """Turn the axis along Newton's direction; return whether the residual falls."""
+    size = residual_square(w)
     slider_jacobian(p, w)
     j = w.jacobian
     det = j[0, 0] * j[1, 1] - j[0, 1] * j[1, 0]
     floor = w.n_hat * w.l * w.l  # of the restoring term, which must not rule
     if not (j[0, 0] + j[1, 1] > floor and det > _SINGULAR * floor * floor):
-        return -1.0
-    e_1 = -(j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1]) / det
-    e_2 = -(j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0]) / det
-    turn = math.sqrt(e_1 * e_1 + e_2 * e_2)
-    if turn > _LARGEST_TURN:
+        return False
+    inv = -1.0 / det
+    e_1 = inv * (j[1, 1] * w.residual[0] - j[0, 1] * w.residual[1])
+    e_2 = inv * (j[0, 0] * w.residual[1] - j[1, 0] * w.residual[0])
+    square = e_1 * e_1 + e_2 * e_2
+    if square > _LARGEST_TURN**2:
+        turn = math.sqrt(square)
         e_1, e_2 = e_1 * _LARGEST_TURN / turn, e_2 * _LARGEST_TURN / turn
     mark_start(w)
     for _ in range(_TRIES):
         move(p, old, w, e_1, e_2)
-        relative = residual_size(w)
-        new = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
-        if new <= _GAIN * size or relative < small_residual(p, w):
-            return relative
+        new = residual_square(w)
+        if new <= _GAIN**2 * size or new < square_to_reach(p, w):
+            return True
         e_1, e_2 = _SHORTER * e_1, _SHORTER * e_2
     move(p, old, w, 0.0, 0.0)
-    return -1.0
+    return False
 
 
 @kernel
-def steepest_turn(p: Props, old: State, w: Work) -> float:
+def steepest_turn(p: Props, old: State, w: Work) -> bool:
     """Turn the axis against the residual until its part along that direction vanishes.
 
     The safeguard where everything slides and Newton sees no stiffness: expand, then bisect
-    (Illinois). Returns the new relative residual, -1 if there is no zero within the largest turn.
+    (Illinois). Returns whether there is a zero within the largest turn.
     """
     size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
     d_1, d_2 = -w.residual[0] / size, -w.residual[1] / size
@@ -151,7 +154,7 @@ def steepest_turn(p: Props, old: State, w: Work) -> float:
         low, f_low = high, f_high
         if high >= _LARGEST_SEARCH:
             move(p, old, w, 0.0, 0.0)
-            return -1.0
+            return False
         high = min(_FURTHER * high, _LARGEST_SEARCH)
         move(p, old, w, high * d_1, high * d_2)
         f_high = w.residual[0] * d_1 + w.residual[1] * d_2
@@ -165,7 +168,7 @@ def steepest_turn(p: Props, old: State, w: Work) -> float:
             low, f_low, f_high = middle, f, 0.5 * f_high
         else:
             high, f_high, f_low = middle, f, 0.5 * f_low
-    return residual_size(w)
+    return True
 
 
 @kernel
@@ -174,19 +177,15 @@ def solve_axis(p: Props, old: State, w: Work) -> int:
     evaluate(p, old, w)
     if p.fused:
         return 0
-    size = residual_size(w)
     steepest = 0
     for count in range(_MAX_ITERATIONS):
-        enough = small_residual(p, w)
+        size, enough = residual_square(w), square_to_reach(p, w)
         if size < enough:
             return count
-        new = newton_turn(p, old, w)
-        if new < 0.0:
-            if size < _NEARLY * enough:
+        if not newton_turn(p, old, w):
+            if size < _NEARLY**2 * enough:
                 return count
             steepest += 1
-            new = steepest_turn(p, old, w)
-            if new < 0.0 or steepest > _MAX_STEEPEST:
+            if not steepest_turn(p, old, w) or steepest > _MAX_STEEPEST:
                 return -1
-        size = new
     return -1

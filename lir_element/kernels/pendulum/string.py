@@ -26,9 +26,8 @@ from typing import TYPE_CHECKING
 from lir_element._jit import inlined, kernel
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
-from lir_element.kernels.rotation import rotate
+from lir_element.kernels.rotation import turn_matrix
 from lir_element.kernels.slip import (
-    friction_coefficient,
     friction_step,
     kelvin_voigt,
     speed_at_end,
@@ -37,36 +36,36 @@ from lir_element.kernels.slip import (
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
 
+_NEAR = 1e-3  # of an exponent: the next term of the series lies below round-off
 _UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
 
 @kernel
 def place_plates(p: Props, w: Work, u: Floats) -> None:
     """Set rotations and the line of centres from the nodes' displacements `u` (12,)."""
-    rotate(u[3], u[4], u[5], w.q_i, w.spin_i)
-    rotate(u[9], u[10], u[11], w.q_j, w.spin_j)
+    turn_matrix(u[3], u[4], u[5], w.q_i)
+    turn_matrix(u[9], u[10], u[11], w.q_j)
+    for k in range(3):
+        w.turned[0, k], w.turned[1, k] = u[3 + k], u[9 + k]
     w.c_global[0] = u[6] - u[0] - p.lever[1] * w.q_j[0, 2] - p.lever[0] * w.q_i[0, 2]
     w.c_global[1] = u[7] - u[1] - p.lever[1] * w.q_j[1, 2] - p.lever[0] * w.q_i[1, 2]
     w.c_global[2] = (u[8] - u[2] - p.length) + (
         p.lever[1] * (1.0 - w.q_j[2, 2]) + p.lever[0] * (1.0 - w.q_i[2, 2])
     )
     for a in range(3):
-        w.c[a] = 0.0
-        for k in range(3):
-            w.c[a] += w.q_i[k, a] * w.c_global[k]
-            w.a[a, k] = 0.0
+        x, y, z = w.q_i[0, a], w.q_i[1, a], w.q_i[2, a]
+        w.c[a] = x * w.c_global[0] + y * w.c_global[1] + z * w.c_global[2]
         for b in range(3):
-            for k in range(3):
-                w.a[a, b] += w.q_i[k, a] * w.q_j[k, b]
+            w.a[a, b] = x * w.q_j[0, b] + y * w.q_j[1, b] + z * w.q_j[2, b]
     fix_length(p, w)
 
 
 @kernel
 def set_axis(w: Work, x: float, y: float, z: float) -> None:
     """Set the axis n (normalised), the basis t, the string length and the slip."""
-    inv = 1.0 / math.sqrt(x * x + y * y + z * z)
+    size = math.sqrt(x * x + y * y + z * z)
+    inv, k = 1.0 / size, size / (size + z)
     x, y, z = x * inv, y * inv, z * inv
-    k = 1.0 / (1.0 + z)
     w.lean = k
     w.n[0], w.n[1], w.n[2] = x, y, z
     w.t[0, 0], w.t[0, 1], w.t[0, 2] = 1.0 - k * x * x, -k * x * y, -x  # (1.2)
@@ -185,6 +184,20 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
     w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
+@kernel
+def falling(w: Work, k: int, drop: float, rate: float) -> float:
+    """Return what the speed of surface `k` leaves of the friction's drop (3.1).
+
+    The exponential is taken where a trial looks first; nearby a few terms of its series do.
+    """
+    x = rate * (w.first_speed[k] - w.speed[k])
+    if abs(x) < _NEAR:
+        return w.first_decay[k] * (1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0)))))
+    w.first_speed[k] = w.speed[k]
+    w.first_decay[k] = drop * math.exp(-rate * w.speed[k])
+    return w.first_decay[k]
+
+
 @inlined
 def surface(p: Props, old: State, w: Work, k: int) -> None:
     """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
@@ -207,9 +220,10 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     w.speed[k], by_slip = w.static_speed[k], 0.0
     if w.dt > 0.0:
         w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, w.share)
-    mu, slope = friction_coefficient(
-        p.friction_max[k], p.friction_drop[k], p.friction_rate[k], w.speed[k]
-    )
+    mu, slope = p.friction_max[k], 0.0
+    if p.friction_drop[k] != 0.0:
+        decay = falling(w, k, p.friction_drop[k], p.friction_rate[k])
+        mu, slope = mu - decay, p.friction_rate[k] * decay
     w.mu[k] = mu
     mu, slope = w.left[k] * mu, w.left[k] * slope
     by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2

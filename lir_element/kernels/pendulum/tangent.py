@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._jit import inlined, kernel
 from lir_element.kernels.pendulum.axial import held_rate, held_rate_fused, tension_rates
 from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE
@@ -23,7 +23,7 @@ Rates = tuple[
 ]
 
 
-@kernel
+@inlined
 def friction_rate(
     w: Work, k: int, d_hat: float, d_pos: float, dw_1: float, dw_2: float
 ) -> tuple[float, float]:
@@ -100,7 +100,7 @@ def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float)
     return m_1 * f[1] - m_2 * f[0] + w.n_hat * (arm[0] * q_2 - arm[1] * q_1)
 
 
-@kernel
+@inlined
 def string_rates(
     p: Props, w: Work, d_s1: float, d_s2: float, d_l: float, d_n: float, tilt: float
 ) -> tuple[float, float, float, float]:
@@ -144,9 +144,9 @@ def balance_rate(
     return balance - drag_rate(w, 1, w_21, w_22, m_1, m_2)
 
 
-@kernel
-def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
-    """Return the derivatives by a turn of the slider's axis.
+@inlined
+def by_turn(p: Props, w: Work, a: int) -> Rates:
+    """Return the derivatives by a turn of the slider's axis towards t_1 (0) or t_2 (1).
 
     Of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin of the basis, balance. Where the
     interface is fused its force is left out: it follows from the residual. The balance is that of
@@ -154,22 +154,27 @@ def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
     """
     k = w.lean
     s_1, s_2 = w.sigma[0], w.sigma[1]
-    spin = k * (w.n[1] * e_1 - w.n[0] * e_2)
-    tilt = w.n[0] * e_1 + w.n[1] * e_2  # -d(n_z)
-    d_s1, d_s2 = w.l * e_1 + spin * s_2, w.l * e_2 - spin * s_1  # (1.5)
-    d_l = -s_1 * e_1 - s_2 * e_2
+    spin = k * w.n[1] if a == 0 else -k * w.n[0]
+    tilt = w.n[a]  # -d(n_z)
+    d_s1, d_s2 = spin * s_2, -spin * s_1  # (1.5)
+    d_l = -w.sigma[a]
+    w_11, w_12 = spin * w.old[0, 1], -spin * w.old[0, 0]
+    w_21, w_22 = spin * w.old[1, 1], -spin * w.old[1, 0]
+    if a == 0:
+        d_s1, w_11, w_21 = d_s1 + w.l, w_11 - w.old[0, 2], w_21 - w.old[1, 2]
+    else:
+        d_s2, w_12, w_22 = d_s2 + w.l, w_12 - w.old[0, 2], w_22 - w.old[1, 2]
+    w_11, w_12, w_21, w_22 = (
+        p.radius[0] * w_11, p.radius[0] * w_12, p.radius[1] * w_21, p.radius[1] * w_22,
+    )  # fmt: skip
     if p.fixed_load > 0.0:  # the height follows, so that the length stays
         d_s1, d_s2 = d_s1 + w.t[0, 2] * d_l / w.n[2], d_s2 + w.t[1, 2] * d_l / w.n[2]
         d_l = 0.0
     d_n = w.stiff_n * d_l
     if p.fixed_load > 0.0 and not p.fused:
-        d_n = held_rate(w, e_1, e_2, d_s1, d_s2)
+        d_n = held_rate(w, 1.0 - a, 0.0 + a, d_s1, d_s2)
     d_pos = d_n if w.n_true >= 0.0 else 0.0
     d_hat = d_n if w.scale == 1.0 else 0.0
-    w_11 = p.radius[0] * (-w.old[0, 2] * e_1 + spin * w.old[0, 1])
-    w_12 = p.radius[0] * (-w.old[0, 2] * e_2 - spin * w.old[0, 0])
-    w_21 = p.radius[1] * (-w.old[1, 2] * e_1 + spin * w.old[1, 1])
-    w_22 = p.radius[1] * (-w.old[1, 2] * e_2 - spin * w.old[1, 0])
     f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, w_11, w_12)
     f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, w_21, w_22)
     if p.fused and w.scale < 1.0:  # true forces at once: there is no other equilibrium to keep
@@ -181,11 +186,11 @@ def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
     p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
     if w.stiff_rim[0] > 0.0 or w.stiff_rim[1] > 0.0:
         p_11, p_12, p_21, p_22, d_rim, q_1, q_2, q_3 = rim_rates(
-            p, w, e_1, e_2, w.still, spin, tilt
+            p, w, 1.0 - a, 0.0 + a, w.still, spin, tilt
         )
         r_1, r_2 = r_1 + p_11 + p_21, r_2 + p_12 + p_22
     if p.fixed_load > 0.0 and p.fused:
-        d_n = held_rate_fused(w, e_1, e_2, r_1, r_2)
+        d_n = held_rate_fused(w, 1.0 - a, 0.0 + a, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n
         r_1, r_2 = r_1 - w.drag[0] * d_n, r_2 - w.drag[1] * d_n
     x_1, x_2, g_d1, g_d2 = string_rates(p, w, d_s1, d_s2, d_l, d_n, tilt)
@@ -193,8 +198,12 @@ def by_turn(p: Props, w: Work, e_1: float, e_2: float) -> Rates:
     if not p.fused:
         g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
     chi = k * (s_2 * g_1 - s_1 * g_2)
-    r_1 += x_1 + chi * (e_2 - k * w.n[1] * tilt)
-    r_2 += x_2 - chi * (e_1 - k * w.n[0] * tilt)
+    turned = chi * k * tilt
+    r_1, r_2 = r_1 + x_1 - turned * w.n[1], r_2 + x_2 + turned * w.n[0]
+    if a == 0:
+        r_2 -= chi
+    else:
+        r_1 += chi
     balance = 0.0
     if w.spins > 0.0:
         balance = balance_rate(
@@ -211,13 +220,15 @@ def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
     d_n = w.stiff_n * d_l
     if p.fixed_load > 0.0 and not p.fused:
         d_n = held_rate(w, 0.0, 0.0, d_1, d_2)
-    d_pos = d_n if w.n_true >= 0.0 else 0.0
-    d_hat = d_n if w.scale == 1.0 else 0.0
-    f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, 0.0, 0.0)
-    f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, 0.0, 0.0)
-    if p.fused and w.scale < 1.0:
-        f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
-        f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
+    f_11, f_12, f_21, f_22 = 0.0, 0.0, 0.0, 0.0
+    if d_n != 0.0:
+        d_pos = d_n if w.n_true >= 0.0 else 0.0
+        d_hat = d_n if w.scale == 1.0 else 0.0
+        f_11, f_12 = friction_rate(w, 0, d_hat, d_pos, 0.0, 0.0)
+        f_21, f_22 = friction_rate(w, 1, d_hat, d_pos, 0.0, 0.0)
+        if p.fused and w.scale < 1.0:
+            f_11, f_12 = w.scale * f_11 + w.phi[0, 0] * d_pos, w.scale * f_12 + w.phi[0, 1] * d_pos
+            f_21, f_22 = w.scale * f_21 + w.phi[1, 0] * d_pos, w.scale * f_22 + w.phi[1, 1] * d_pos
     r_1, r_2, g_d1, g_d2 = string_rates(p, w, d_1, d_2, d_l, d_n, 0.0)
     r_1 -= p.radius[0] * f_11 + p.radius[1] * f_21
     r_2 -= p.radius[0] * f_12 + p.radius[1] * f_22
@@ -262,11 +273,11 @@ def by_plate(p: Props, w: Work, v_1: float, v_2: float, v_3: float) -> Rates:
 @kernel
 def slider_jacobian(p: Props, w: Work) -> None:
     """Set the derivatives of everything by a turn of the slider's axis: rows of `w.turns`."""
-    for a in range(2):
-        r = by_turn(p, w, 1.0 - a, 0.0 + a)
-        for k in range(w.rates.shape[0]):
-            w.turns[a, k] = r[k]
-        w.jacobian[0, a], w.jacobian[1, a] = r[0], r[1]
+    x, y, turns = by_turn(p, w, 0), by_turn(p, w, 1), w.turns
+    for k in range(w.rates.shape[0]):
+        turns[0, k], turns[1, k] = x[k], y[k]
+    w.jacobian[0, 0], w.jacobian[1, 0] = x[0], x[1]
+    w.jacobian[0, 1], w.jacobian[1, 1] = y[0], y[1]
 
 
 @kernel

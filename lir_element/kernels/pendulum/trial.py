@@ -152,7 +152,7 @@ def limit_status(p: Props, new: State) -> int:
 
     The slip counts once the sliders are pressed together: lifted off, they carry nothing.
     """
-    if new.axial_force > 0.0 and math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > p.slip_capacity:
+    if new.axial_force > 0.0 and new.slip[0] ** 2 + new.slip[1] ** 2 > p.slip_capacity**2:
         return _SLIP_EXCEEDED
     if max(new.rim_closure[0], new.rim_closure[1]) > p.rim_overrun:
         return _RIM_OVERRUN
@@ -186,8 +186,8 @@ def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
         return False
     held = last_slip(p, new)
     if count < 0:
-        return math.sqrt(old.slip[0] ** 2 + old.slip[1] ** 2) > _NEAR_END * held
-    return math.sqrt(new.slip[0] ** 2 + new.slip[1] ** 2) > _BEYOND_END * held
+        return old.slip[0] ** 2 + old.slip[1] ** 2 > (_NEAR_END * held) ** 2
+    return new.slip[0] ** 2 + new.slip[1] ** 2 > (_BEYOND_END * held) ** 2
 
 
 @kernel

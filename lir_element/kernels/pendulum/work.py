@@ -195,7 +195,9 @@ def accumulate(p: Props, old: State, new: State) -> None:
         new.work_interface = old.work_interface + taken(old, new, 2, works[2])
     new.work_elastic = old.work_elastic + gain
     new.interface_travel = old.interface_travel + math.sqrt(d[0] * d[0] + d[1] * d[1])
-    new.largest_slip = max(old.largest_slip, math.sqrt(s[0] * s[0] + s[1] * s[1]))
+    square = s[0] * s[0] + s[1] * s[1]
+    if square > old.largest_slip * old.largest_slip:
+        new.largest_slip = math.sqrt(square)
     work = 0.5 * (shortening_work(old, old, new) + shortening_work(new, old, new))
     if p.fixed_load > 0.0:  # the load of the string rises; the spring beside it
         work += p.fixed_load * (new.centres[2] - old.centres[2])
