@@ -263,8 +263,9 @@ def sliding_on(
 ) -> tuple[float, float, float]:
     """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
 
-    `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed. What unloads z has none; neither has what a changing axial
-    force takes from z or asks to be filled, so that it does not switch the friction.
+    `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed.
+    What unloads z has none; neither has what a changing axial force takes from z or asks to be
+    filled, so that it does not switch the friction.
     """
     b_1, b_2 = old_1 + d_1, old_2 + d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)

@@ -185,7 +185,7 @@ def add_twist(k: Floats, stiffness: float) -> None:
 
 @kernel
 def apply_spin(spin: Floats, k: Floats, first: int) -> None:
-    """Turn columns `first`.. of `k` from derivatives by spin into derivatives by the rotation vector."""
+    """Turn columns `first`.. of `k` from derivatives by spin into those by the rotation vector."""
     for row in range(k.shape[0]):
         x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]
         for b in range(3):

@@ -13,9 +13,9 @@ from lir_element._jit import kernel
 from lir_element.kernels.pendulum.solve import (
     mark_start,
     move,
-    residual_size,
-    small_residual,
+    residual_square,
     solve_axis,
+    square_to_reach,
 )
 from lir_element.kernels.pendulum.spin import rates_by_spin, spin_against, spin_balance, spin_by
 from lir_element.kernels.pendulum.string import aim_on, evaluate, set_axis, turn_axis
@@ -86,6 +86,12 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
 
 
 @kernel
+def lacking(p: Props, w: Work, balance: float) -> float:
+    """Return what the equilibrium of axis and spin lacks, over axial force and length."""
+    return max(math.sqrt(residual_square(w)) / (w.n_hat * w.l), abs(balance) / p.slider_radius)
+
+
+@kernel
 def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
     """Return Newton's step of axis and spin together: two turns and a spin; zeros where none is."""
     w.spins = 1.0
@@ -100,9 +106,9 @@ def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
     slope = w.spun[SPIN_BALANCE]
     if not slope < 0.0:
         return 0.0, 0.0, 0.0
-    lacking = w.n_hat * balance + w.turns[0, SPIN_BALANCE] * e_1 + w.turns[1, SPIN_BALANCE] * e_2
+    rest = w.n_hat * balance + w.turns[0, SPIN_BALANCE] * e_1 + w.turns[1, SPIN_BALANCE] * e_2
     most = largest_step(p, w)
-    step = min(max(-lacking / slope, -most), most)
+    step = min(max(-rest / slope, -most), most)
     return e_1 + w.spun_turn[0] * step, e_2 + w.spun_turn[1] * step, step
 
 
@@ -121,11 +127,11 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
     mu = old.friction_coefficient
     enough = _TOLERANCE * p.slider_radius * (mu[0] + mu[1])
     balance = spin_balance(p, old, w)
-    lacks = max(residual_size(w), abs(balance) / p.slider_radius)
+    lacks = lacking(p, w, balance)
     for count in range(_MOST_JOINT):
         if not w.n_true > p.axial_floor or max(w.rim[0], w.rim[1]) == 0.0:
             return -1
-        if abs(balance) <= enough and residual_size(w) < small_residual(p, w):
+        if abs(balance) <= enough and residual_square(w) < square_to_reach(p, w):
             w.spins = 1.0 if w.spin != 0.0 else 0.0
             return count
         e_1, e_2, step = joint_step(p, w, balance)
@@ -136,7 +142,7 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
         spin_by(p, old, w, spin)
         move(p, old, w, e_1, e_2)
         balance = spin_balance(p, old, w)
-        before, lacks = lacks, max(residual_size(w), abs(balance) / p.slider_radius)
+        before, lacks = lacks, lacking(p, w, balance)
         if not lacks < before:
             return -1
     return -1
