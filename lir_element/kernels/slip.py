@@ -43,9 +43,8 @@ def kept_share(push_old: float, push: float, floor: float) -> tuple[float, float
         return 1.0, 0.0
     if before > _FALL * after:
         return math.sqrt(_FALL), 0.0
-    inv = 1.0 / after
-    kept = math.sqrt(before * inv)  # (3.5)
-    return kept, -0.5 * kept * inv if push > floor else 0.0
+    kept = math.sqrt(before / after)  # (3.5)
+    return kept, -0.5 * kept / after if push > floor else 0.0
 
 
 @kernel
@@ -263,8 +262,9 @@ def sliding_on(
 ) -> tuple[float, float, float]:
     """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
 
-    `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed. What unloads z has none; neither has what a changing axial
-    force takes from z or asks to be filled, so that it does not switch the friction.
+    `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed.
+    What unloads z has none; neither has what a changing axial force takes from z or asks to be
+    filled, so that it does not switch the friction.
     """
     b_1, b_2 = old_1 + d_1, old_2 + d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
@@ -339,9 +339,8 @@ def kelvin_voigt(
     slope = stiffness
     force = stiffness * gap
     if dt > 0.0:
-        viscous = damping / dt
-        force += viscous * (gap - closure_old)  # (3.8)
-        slope += viscous
+        force += damping * (gap - closure_old) / dt  # (3.8)
+        slope += damping / dt
     if force < 0.0:
         return 0.0, 0.0, gap
     return force, slope, gap

@@ -124,39 +124,34 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
     b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
     b_z = p.lever[0] * w.q_i[2, 2] + w.c_global[2]
+    m = w.tangent  # of known shape, so that its columns go together
     for col in range(12):
         d_x, d_y, d_z = rows[0, col], rows[1, col], rows[2, col]
         t_x, t_y, t_z = rows[3, col], rows[4, col], rows[5, col]
-        k[0, col], k[1, col], k[2, col] = -d_x, -d_y, -d_z
-        k[6, col], k[7, col], k[8, col] = d_x, d_y, d_z
-        k[3, col] = -(b_y * d_z - b_z * d_y) - t_x
-        k[4, col] = -(b_z * d_x - b_x * d_z) - t_y
-        k[5, col] = -(b_x * d_y - b_y * d_x) - t_z - turn * rows[6, col]
-        k[9, col] = -(a_y * d_z - a_z * d_y) + t_x
-        k[10, col] = -(a_z * d_x - a_x * d_z) + t_y
-        k[11, col] = -(a_x * d_y - a_y * d_x) + t_z + turn * rows[6, col]  # torsional friction
+        twist = turn * rows[6, col]  # torsional friction
+        m[0, col], m[1, col], m[2, col] = -d_x, -d_y, -d_z
+        m[6, col], m[7, col], m[8, col] = d_x, d_y, d_z
+        m[3, col] = -(b_y * d_z - b_z * d_y) - t_x
+        m[4, col] = -(b_z * d_x - b_x * d_z) - t_y
+        m[5, col] = -(b_x * d_y - b_y * d_x) - t_z - twist
+        m[9, col] = -(a_y * d_z - a_z * d_y) + t_x
+        m[10, col] = -(a_z * d_x - a_x * d_z) + t_y
+        m[11, col] = -(a_x * d_y - a_y * d_x) + t_z + twist
+    for row in range(12):
+        for col in range(12):
+            k[row, col] = m[row, col]
     # levers move: m_i = -(a_i e_i + c) x g - tau, whose arm shifts by u_j - u_i + a_j e_j x phi_j
     add_cross(k, 3, 6, g_x, g_y, g_z, 1.0)
     add_cross(k, 3, 0, g_x, g_y, g_z, -1.0)
     # ... and m_j = -a_j e_j x g + tau, whose arm turns: (phi x arm) x g = arm (phi.g) - phi (arm.g)
     dot = a_x * g_x + a_y * g_y + a_z * g_z
+    arm = (a_x, a_y, a_z)
     for b in range(3):
         along = g_x * q_j[0, b] + g_y * q_j[1, b] + g_z * q_j[2, b]
-        x, y, z = (
-            a_x * along - dot * q_j[0, b],
-            a_y * along - dot * q_j[1, b],
-            a_z * along - dot * q_j[2, b],
-        )
-        k[9, 9 + b], k[10, 9 + b], k[11, 9 + b] = (
-            k[9, 9 + b] - x,
-            k[10, 9 + b] - y,
-            k[11, 9 + b] - z,
-        )
-        k[3, 9 + b], k[4, 9 + b], k[5, 9 + b] = (
-            k[3, 9 + b] + x,
-            k[4, 9 + b] + y,
-            k[5, 9 + b] + z,
-        )
+        for a in range(3):
+            value = arm[a] * along - dot * q_j[a, b]
+            k[9 + a, 9 + b] -= value
+            k[3 + a, 9 + b] += value
     add_twist(k, w.torque_stiffness)
 
 
@@ -185,7 +180,7 @@ def add_twist(k: Floats, stiffness: float) -> None:
 
 @kernel
 def apply_spin(spin: Floats, k: Floats, first: int) -> None:
-    """Turn columns `first`.. of `k` from derivatives by spin into derivatives by the rotation vector."""
+    """Turn columns `first`.. from derivatives by spin into derivatives by the rotation vector."""
     for row in range(k.shape[0]):
         x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]
         for b in range(3):

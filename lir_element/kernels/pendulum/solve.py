@@ -43,7 +43,10 @@ def start_search(p: Props, old: State, w: Work) -> None:
     stiff = 0.0
     for k in range(2):
         z = old.hysteresis[k]
-        w.z_size[k], w.per_yield[k] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.yield_displacement[k]
+        w.z_size[k], w.per_yield[k] = (
+            math.sqrt(z[0] ** 2 + z[1] ** 2),
+            1.0 / p.yield_displacement[k],
+        )
         by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
         stiff += p.radius[k] * (p.friction_max[k] * w.per_yield[k] + by_speed)
     z = old.interface_hysteresis

@@ -104,7 +104,7 @@ def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
         back = 2.0 * p.interface_yield * (1.0 - kept) / (1.0 + kept)
         s_1 += back * old.interface_hysteresis[0]
         s_2 += back * old.interface_hysteresis[1]
-    d_1, d_2 = s_1 - c[0], s_2 - c[1]  # the axis leans this way (1.9)
+    d_1, d_2 = s_1 - c[0], s_2 - c[1]  # the axis leans this way
     square = d_1 * d_1 + d_2 * d_2
     if square < _UPRIGHT:
         set_axis(w, 0.0, 0.0, 1.0)
@@ -120,7 +120,7 @@ def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
         rest = c[0] * c[0] + c[1] * c[1] + height * height - slip
         length = math.sqrt(max(rest, 0.0))
     lean = on_slip * height - on_centre * length
-    set_axis(w, d_1 * lean, d_2 * lean, on_slip * on_centre + square * length * height)
+    set_axis(w, d_1 * lean, d_2 * lean, on_slip * on_centre + square * length * height)  # (4.2)
 
 
 @kernel
