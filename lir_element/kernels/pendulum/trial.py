@@ -243,8 +243,8 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
         static_speeds(p, w, v)
     place_plates(p, w, u)
-    size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
-    if not -w.c[2] > SMALLEST_COSINE * size:
+    square = w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2
+    if not (w.c[2] < 0.0 and w.c[2] ** 2 > SMALLEST_COSINE**2 * square):
         return _SPHERE_EXCEEDED
     for a in range(3):
         w.old_top[a] = (
