@@ -207,8 +207,6 @@ WORK_FIELDS = (
     Field("still", "m, rad", "", "no shift of a centre, no spin", _W_VECTOR),
     Field("along", "rad", "", "spin of the top plate, axes of the bottom plate", _W_VECTOR),
     Field("sums", "", "", "spare", _W_VECTOR),
-    Field("spare_u", "", "", "displacements of a caller", (12,)),
-    Field("spare_v", "", "", "velocities of a caller", (12,)),
 )
 
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
 
 _NEAR = 1e-3  # of an exponent: the next term of the series lies below round-off
+_FAR = 0.99  # of the square of the way to a rim: short of it there is none, round-off or not
 _UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
 
@@ -253,9 +254,16 @@ def rims(p: Props, old: State, w: Work) -> None:
     away = p.fused and p.length - w.l > height
     y_1 = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
     y_2 = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
-    w.n_hor[0] = math.sqrt(w.n[0] * w.n[0] + w.n[1] * w.n[1])  # (1.8)
-    w.n_hor[1] = math.sqrt(y_1 * y_1 + y_2 * y_2)
+    bottom, top = w.n[0] * w.n[0] + w.n[1] * w.n[1], y_1 * y_1 + y_2 * y_2
     w.push[0], w.push[1] = 0.0, 0.0
+    if (
+        p.radius[0] * p.radius[0] * bottom < _FAR * p.rim_displacement[0] * p.rim_displacement[0]
+        and p.radius[1] * p.radius[1] * top < _FAR * p.rim_displacement[1] * p.rim_displacement[1]
+    ):
+        for k in range(2):
+            w.rim[k], w.stiff_rim[k], w.rim_closure[k] = 0.0, 0.0, 0.0
+        return
+    w.n_hor[0], w.n_hor[1] = math.sqrt(bottom), math.sqrt(top)  # (1.8)
     for k in range(2):
         w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
             -math.inf if away else p.radius[k] * w.n_hor[k] - p.rim_displacement[k],
