@@ -105,7 +105,7 @@ STATE_FIELDS = (
 )
 
 SPIN_BALANCE = 12
-"""Where what `direction` returns has the sum of the moments that spin the sliders."""
+"""Where what `by_turn` returns has the sum of the moments that spin the sliders."""
 
 _W_VECTOR, _W_MATRIX, _W_PAIR = (3,), (3, 3), (2,)
 WORK_FIELDS = (
@@ -173,7 +173,7 @@ WORK_FIELDS = (
     Field("couple", "m", "M / N", "couple of the rims that spins the sliders, over N"),
     Field("torque_spin", "m", "", "torque of the surfaces against the spin, over N"),
     Field("torque_rate", "m", "", "its derivative by the spin"),
-    Field("spun", "", "", "what `direction` returns, for a unit of spin", (13,)),
+    Field("spun", "", "", "what `by_turn` returns, for a unit of spin", (13,)),
     Field("spun_turn", "-", "", "turn of the axis for a unit of spin", _W_PAIR),
     Field("slip_step", "m", "", "sliding of the interface in the step", _W_PAIR),
     Field("phi_sn", "1/N", "", "its derivative by the axial force", _W_PAIR),
@@ -192,13 +192,14 @@ WORK_FIELDS = (
     Field("k6", "N/m, N, N m", "", "derivative of g, tau, N by centre and spin, own axes", (7, 6)),
     Field("half", "N/m, N, N m", "", "the same with g and tau in global axes", (7, 6)),
     Field("d_rows", "", "", "derivative of g, tau, N by the nodes' displacements", (7, 12)),
+    Field("tangent", "", "", "derivative of the nodes' forces by their displacements", (12, 12)),
     Field("axes", "-", "", "the slider's axes t_1, t_2, n seen globally, as columns", _W_MATRIX),
     Field("axes_force", "-", "", "the same for the force on the centre", _W_MATRIX),
     Field("axes_shift", "-", "", "the same for the shift of the centre", _W_MATRIX),
     Field("torque", "N m", "T", "torsional friction moment"),
     Field("torque_stiffness", "N m", "", "its derivative by the twist"),
     Field("torque_axial", "m", "", "its derivative by the axial force"),
-    Field("turns", "", "", "what `direction` returns, for the two turns of the axis", (2, 13)),
+    Field("turns", "", "", "what `by_turn` returns, for the two turns of the axis", (2, 13)),
     Field("rates", "", "", "the same in one direction", (13,)),
     Field("start", "-", "", "axis and basis at which a search begins", _W_MATRIX),
     Field("start_circle", "-", "", "unit radial direction and radius of its parallel", _W_VECTOR),
@@ -206,8 +207,6 @@ WORK_FIELDS = (
     Field("still", "m, rad", "", "no shift of a centre, no spin", _W_VECTOR),
     Field("along", "rad", "", "spin of the top plate, axes of the bottom plate", _W_VECTOR),
     Field("sums", "", "", "spare", _W_VECTOR),
-    Field("spare_u", "", "", "displacements of a caller", (12,)),
-    Field("spare_v", "", "", "velocities of a caller", (12,)),
 )
 
 

@@ -43,9 +43,8 @@ def kept_share(push_old: float, push: float, floor: float) -> tuple[float, float
         return 1.0, 0.0
     if before > _FALL * after:
         return math.sqrt(_FALL), 0.0
-    inv = 1.0 / after
-    kept = math.sqrt(before * inv)  # (3.5)
-    return kept, -0.5 * kept * inv if push > floor else 0.0
+    kept = math.sqrt(before / after)  # (3.5)
+    return kept, -0.5 * kept / after if push > floor else 0.0
 
 
 @kernel
@@ -55,8 +54,14 @@ def stored(mu: float, push: float, u_y: float, z_1: float, z_2: float) -> float:
 
 
 @kernel
-def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, float]:
-    """Return rho of ``rho + kappa rho^eta = size`` and d(rho)/d(size) by Newton's method."""
+def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, float, float]:
+    """Return rho of ``rho + kappa rho^eta = size``, d(rho)/d(size), and rho^eta.
+
+    In closed form for eta = 2, else by Newton's method.
+    """
+    if exponent == 2.0:
+        rho = 2.0 * size / (1.0 + math.sqrt(1.0 + 4.0 * kappa * size))
+        return rho, 1.0 / (1.0 + 2.0 * kappa * rho), rho * rho
     rho = min(size, 1.0)
     for _ in range(60):
         power = rho ** (exponent - 1.0)
@@ -65,7 +70,8 @@ def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, 
         rho -= change
         if abs(change) < 1e-15:
             break
-    return rho, 1.0 / (1.0 + kappa * exponent * rho ** (exponent - 1.0))
+    power = rho ** (exponent - 1.0)
+    return rho, 1.0 / (1.0 + kappa * exponent * power), rho * power
 
 
 @inlined
@@ -118,9 +124,8 @@ def returned(
     if size <= 1.0 and kappa <= 0.0:
         return b_1, b_2, inv, 0.0, 0.0, inv, 0.0, 0.0, 0.0
     if bouc_wen and size < 1.0 + kappa and kappa > 0.0:
-        rho, by_size = bouc_wen_radius(size, kappa, exponent)
+        rho, by_size, power = bouc_wen_radius(size, kappa, exponent)
         across = (d_2 * e_1 - d_1 * e_2) / size  # turn of the direction, times dw
-        power = rho**exponent
         grad_1 = by_size * (e_1 - power * (e_1 - e_2 * across))
         grad_2 = by_size * (e_2 - power * (e_2 + e_1 * across))
         hoop *= rho
@@ -158,9 +163,9 @@ def bouc_wen_rate(
         return c_1, c_2, 0.0
     rho, radial = 1.0, 0.0
     if size < 1.0 + kappa and kappa > 0.0:
-        rho, by_size = bouc_wen_radius(size, kappa, exponent)
+        rho, by_size, power = bouc_wen_radius(size, kappa, exponent)
         by_kappa = w_1 * d_1 + w_2 * d_2 + e_1 * by_d_1 + e_2 * by_d_2
-        radial = by_size * (along - rho**exponent * by_kappa)
+        radial = by_size * (along - power * by_kappa)
     return radial * e_1 + rho * w_1, radial * e_2 + rho * w_2, along - radial
 
 
@@ -340,9 +345,8 @@ def kelvin_voigt(
     slope = stiffness
     force = stiffness * gap
     if dt > 0.0:
-        viscous = damping / dt
-        force += viscous * (gap - closure_old)  # (3.8)
-        slope += viscous
+        force += damping * (gap - closure_old) / dt  # (3.8)
+        slope += damping / dt
     if force < 0.0:
         return 0.0, 0.0, gap
     return force, slope, gap

@@ -41,9 +41,13 @@ def set_frames(p: Props, w: Work) -> None:
 
 
 @kernel
-def set_rows(p: Props, w: Work) -> None:
-    """Set the derivatives of g, tau and N (global axes) by the nodes' displacements: `d_rows`."""
-    k, half, rows = w.k6, w.half, w.d_rows
+def set_rows(p: Props, w: Work, force: Floats) -> None:
+    """Set the derivatives of g, tau and N (global axes) by the nodes' displacements: `d_rows`.
+
+    shift = u_j - u_i + (a_i e_i + c) x phi_i + a_j e_j x phi_j, spin = phi_j - phi_i. Both g and
+    tau turn with the bottom plate. Spins phi are those of rotation vectors.
+    """
+    k, half, x, y = w.k6, w.half, w.axes_shift, w.axes
     for a in range(3):
         f, m = w.axes_force[a], w.axes[a]
         for c in range(6):
@@ -51,53 +55,42 @@ def set_rows(p: Props, w: Work) -> None:
             half[3 + a, c] = m[0] * k[3, c] + m[1] * k[4, c] + m[2] * k[5, c]
     for c in range(6):
         half[6, c] = k[6, c]
-    x, y = w.axes_shift, w.axes
+    a_x, a_y, a_z = p.lever[1] * w.q_j[0, 2], p.lever[1] * w.q_j[1, 2], p.lever[1] * w.q_j[2, 2]
+    b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
+    b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
+    b_z = p.lever[0] * w.q_i[2, 2] + w.c_global[2]
     for a in range(7):
-        r = half[a]
-        spread(
-            rows[a],
-            x[0, 0] * r[0] + x[0, 1] * r[1] + x[0, 2] * r[2],
-            x[1, 0] * r[0] + x[1, 1] * r[1] + x[1, 2] * r[2],
-            x[2, 0] * r[0] + x[2, 1] * r[1] + x[2, 2] * r[2],
-            w, p.lever[0], p.lever[1],
-            y[0, 0] * r[3] + y[0, 1] * r[4] + y[0, 2] * r[5],
-            y[1, 0] * r[3] + y[1, 1] * r[4] + y[1, 2] * r[5],
-            y[2, 0] * r[3] + y[2, 1] * r[4] + y[2, 2] * r[5],
-        )  # fmt: skip
-
-
-@kernel
-def spread(
-    row: Floats,
-    x: float,
-    y: float,
-    z: float,
-    w: Work,
-    lever_i: float,
-    lever_j: float,
-    s_x: float,
-    s_y: float,
-    s_z: float,
-) -> None:
-    """Fill the 12 entries of `row`: derivative by (shift of centre x, y, z; spin s) in B form.
-
-    shift = u_j - u_i + (a_i e_i + c) x phi_i + a_j e_j x phi_j, spin = phi_j - phi_i.
-    """
-    row[0], row[1], row[2] = -x, -y, -z
-    row[6], row[7], row[8] = x, y, z
-    a = lever_j * w.q_j[0, 2]
-    b = lever_j * w.q_j[1, 2]
-    c = lever_j * w.q_j[2, 2]
-    # x . (e x phi) = phi . (x x e)
-    row[9] = y * c - z * b + s_x
-    row[10] = z * a - x * c + s_y
-    row[11] = x * b - y * a + s_z
-    a = lever_i * w.q_i[0, 2] + w.c_global[0]
-    b = lever_i * w.q_i[1, 2] + w.c_global[1]
-    c = lever_i * w.q_i[2, 2] + w.c_global[2]
-    row[3] = y * c - z * b - s_x
-    row[4] = z * a - x * c - s_y
-    row[5] = x * b - y * a - s_z
+        r, row = half[a], w.d_rows[a]
+        d_x = x[0, 0] * r[0] + x[0, 1] * r[1] + x[0, 2] * r[2]
+        d_y = x[1, 0] * r[0] + x[1, 1] * r[1] + x[1, 2] * r[2]
+        d_z = x[2, 0] * r[0] + x[2, 1] * r[1] + x[2, 2] * r[2]
+        if w.stiff_vertical != 0.0 and a < 3:  # the vertical spring beside a fixed load
+            lift = w.stiff_vertical * w.q_i[a, 2]
+            d_x, d_y = d_x + lift * w.q_i[0, 2], d_y + lift * w.q_i[1, 2]
+            d_z += lift * w.q_i[2, 2]
+        s_x = y[0, 0] * r[3] + y[0, 1] * r[4] + y[0, 2] * r[5]
+        s_y = y[1, 0] * r[3] + y[1, 1] * r[4] + y[1, 2] * r[5]
+        s_z = y[2, 0] * r[3] + y[2, 1] * r[4] + y[2, 2] * r[5]
+        row[0], row[1], row[2] = -d_x, -d_y, -d_z
+        row[6], row[7], row[8] = d_x, d_y, d_z
+        # d . (e x phi) = phi . (d x e)
+        i_x, j_x = d_y * b_z - d_z * b_y - s_x, d_y * a_z - d_z * a_y + s_x
+        i_y, j_y = d_z * b_x - d_x * b_z - s_y, d_z * a_x - d_x * a_z + s_y
+        i_z, j_z = d_x * b_y - d_y * b_x - s_z, d_x * a_y - d_y * a_x + s_z
+        if a < 6:  # phi x g, phi x tau
+            g_x, g_y, g_z = force[6], force[7], force[8]
+            if a >= 3:
+                g_x, g_y, g_z = w.tau[0], w.tau[1], w.tau[2]
+            if a in (0, 3):
+                i_y, i_z = i_y + g_z, i_z - g_y
+            elif a in (1, 4):
+                i_x, i_z = i_x - g_z, i_z + g_x
+            else:
+                i_x, i_y = i_x + g_y, i_y - g_x
+        for b in range(3):
+            s, t = w.spin_i, w.spin_j
+            row[3 + b] = i_x * s[0, b] + i_y * s[1, b] + i_z * s[2, b]
+            row[9 + b] = j_x * t[0, b] + j_y * t[1, b] + j_z * t[2, b]
 
 
 @kernel
@@ -111,67 +104,42 @@ def fill_tangent(p: Props, w: Work, force: Floats, k: Floats) -> None:
     spin_matrix(y[0], y[1], y[2], w.spin_j)
     condense(p, w)
     set_frames(p, w)
-    set_rows(p, w)
+    set_rows(p, w, force)
     g_x, g_y, g_z = force[6], force[7], force[8]
     rows, q_j, turn = w.d_rows, w.spin_j, w.torque_axial
-    if p.fixed_load > 0.0:
-        add_vertical(p, w)
-    add_cross(rows, 0, 3, g_x, g_y, g_z, -1.0)  # g and tau turn with the bottom plate: phi x g
-    add_cross(rows, 3, 3, w.tau[0], w.tau[1], w.tau[2], -1.0)
-    apply_spin(w.spin_i, rows, 3)
-    apply_spin(q_j, rows, 9)
     a_x, a_y, a_z = p.lever[1] * w.q_j[0, 2], p.lever[1] * w.q_j[1, 2], p.lever[1] * w.q_j[2, 2]
     b_x = p.lever[0] * w.q_i[0, 2] + w.c_global[0]
     b_y = p.lever[0] * w.q_i[1, 2] + w.c_global[1]
     b_z = p.lever[0] * w.q_i[2, 2] + w.c_global[2]
+    m = w.tangent  # of known shape, so that its columns go together
     for col in range(12):
         d_x, d_y, d_z = rows[0, col], rows[1, col], rows[2, col]
         t_x, t_y, t_z = rows[3, col], rows[4, col], rows[5, col]
-        k[0, col], k[1, col], k[2, col] = -d_x, -d_y, -d_z
-        k[6, col], k[7, col], k[8, col] = d_x, d_y, d_z
-        k[3, col] = -(b_y * d_z - b_z * d_y) - t_x
-        k[4, col] = -(b_z * d_x - b_x * d_z) - t_y
-        k[5, col] = -(b_x * d_y - b_y * d_x) - t_z - turn * rows[6, col]
-        k[9, col] = -(a_y * d_z - a_z * d_y) + t_x
-        k[10, col] = -(a_z * d_x - a_x * d_z) + t_y
-        k[11, col] = -(a_x * d_y - a_y * d_x) + t_z + turn * rows[6, col]  # torsional friction
+        twist = turn * rows[6, col]  # torsional friction
+        m[0, col], m[1, col], m[2, col] = -d_x, -d_y, -d_z
+        m[6, col], m[7, col], m[8, col] = d_x, d_y, d_z
+        m[3, col] = -(b_y * d_z - b_z * d_y) - t_x
+        m[4, col] = -(b_z * d_x - b_x * d_z) - t_y
+        m[5, col] = -(b_x * d_y - b_y * d_x) - t_z - twist
+        m[9, col] = -(a_y * d_z - a_z * d_y) + t_x
+        m[10, col] = -(a_z * d_x - a_x * d_z) + t_y
+        m[11, col] = -(a_x * d_y - a_y * d_x) + t_z + twist
+    for row in range(12):
+        for col in range(12):
+            k[row, col] = m[row, col]
     # levers move: m_i = -(a_i e_i + c) x g - tau, whose arm shifts by u_j - u_i + a_j e_j x phi_j
     add_cross(k, 3, 6, g_x, g_y, g_z, 1.0)
     add_cross(k, 3, 0, g_x, g_y, g_z, -1.0)
     # ... and m_j = -a_j e_j x g + tau, whose arm turns: (phi x arm) x g = arm (phi.g) - phi (arm.g)
     dot = a_x * g_x + a_y * g_y + a_z * g_z
+    arm = (a_x, a_y, a_z)
     for b in range(3):
         along = g_x * q_j[0, b] + g_y * q_j[1, b] + g_z * q_j[2, b]
-        x, y, z = (
-            a_x * along - dot * q_j[0, b],
-            a_y * along - dot * q_j[1, b],
-            a_z * along - dot * q_j[2, b],
-        )
-        k[9, 9 + b], k[10, 9 + b], k[11, 9 + b] = (
-            k[9, 9 + b] - x,
-            k[10, 9 + b] - y,
-            k[11, 9 + b] - z,
-        )
-        k[3, 9 + b], k[4, 9 + b], k[5, 9 + b] = (
-            k[3, 9 + b] + x,
-            k[4, 9 + b] + y,
-            k[5, 9 + b] + z,
-        )
+        for a in range(3):
+            value = arm[a] * along - dot * q_j[a, b]
+            k[9 + a, 9 + b] -= value
+            k[3 + a, 9 + b] += value
     add_twist(k, w.torque_stiffness)
-
-
-@kernel
-def add_vertical(p: Props, w: Work) -> None:
-    """Add the vertical spring beside a fixed load to the rows of the force on the centre."""
-    q = w.q_i
-    for a in range(3):
-        value = w.stiff_vertical * q[a, 2]
-        spread(
-            w.spare_u, value * q[0, 2], value * q[1, 2], value * q[2, 2], w,
-            p.lever[0], p.lever[1], 0.0, 0.0, 0.0,
-        )  # fmt: skip
-        for c in range(12):
-            w.d_rows[a, c] += w.spare_u[c]
 
 
 @kernel
@@ -185,7 +153,7 @@ def add_twist(k: Floats, stiffness: float) -> None:
 
 @kernel
 def apply_spin(spin: Floats, k: Floats, first: int) -> None:
-    """Turn columns `first`.. of `k` from derivatives by spin into those by the rotation vector."""
+    """Turn columns `first`.. from derivatives by spin into derivatives by the rotation vector."""
     for row in range(k.shape[0]):
         x, y, z = k[row, first], k[row, first + 1], k[row, first + 2]
         for b in range(3):

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
 
 _NEAR = 1e-3  # of an exponent: the next term of the series lies below round-off
+_FAR = 0.99  # of the square of the way to a rim: short of it there is none, round-off or not
 _UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
 
@@ -111,7 +112,7 @@ def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
 def aim_slip(w: Work, s_1: float, s_2: float) -> None:
     """Set the axis at which the slip is (s_1, s_2)."""
     c = w.c
-    d_1, d_2 = s_1 - c[0], s_2 - c[1]  # the axis leans this way (1.9)
+    d_1, d_2 = s_1 - c[0], s_2 - c[1]  # the axis leans this way
     square = d_1 * d_1 + d_2 * d_2
     if square < _UPRIGHT:
         set_axis(w, 0.0, 0.0, 1.0)
@@ -127,7 +128,7 @@ def aim_slip(w: Work, s_1: float, s_2: float) -> None:
         rest = c[0] * c[0] + c[1] * c[1] + height * height - slip
         length = math.sqrt(max(rest, 0.0))
     lean = on_slip * height - on_centre * length
-    set_axis(w, d_1 * lean, d_2 * lean, on_slip * on_centre + square * length * height)
+    set_axis(w, d_1 * lean, d_2 * lean, on_slip * on_centre + square * length * height)  # (4.2)
 
 
 @kernel
@@ -277,9 +278,16 @@ def rims(p: Props, old: State, w: Work) -> None:
     away = p.fused and p.length - w.l > height
     y_1 = w.a[0, 0] * w.n[0] + w.a[1, 0] * w.n[1] + w.a[2, 0] * w.n[2]
     y_2 = w.a[0, 1] * w.n[0] + w.a[1, 1] * w.n[1] + w.a[2, 1] * w.n[2]
-    w.n_hor[0] = math.sqrt(w.n[0] * w.n[0] + w.n[1] * w.n[1])  # (1.8)
-    w.n_hor[1] = math.sqrt(y_1 * y_1 + y_2 * y_2)
+    bottom, top = w.n[0] * w.n[0] + w.n[1] * w.n[1], y_1 * y_1 + y_2 * y_2
     w.push[0], w.push[1] = 0.0, 0.0
+    if (
+        p.radius[0] * p.radius[0] * bottom < _FAR * p.rim_displacement[0] * p.rim_displacement[0]
+        and p.radius[1] * p.radius[1] * top < _FAR * p.rim_displacement[1] * p.rim_displacement[1]
+    ):
+        for k in range(2):
+            w.rim[k], w.stiff_rim[k], w.rim_closure[k] = 0.0, 0.0, 0.0
+        return
+    w.n_hor[0], w.n_hor[1] = math.sqrt(bottom), math.sqrt(top)  # (1.8)
     for k in range(2):
         w.rim[k], w.stiff_rim[k], w.rim_closure[k] = kelvin_voigt(
             -math.inf if away else p.radius[k] * w.n_hor[k] - p.rim_displacement[k],

@@ -156,8 +156,8 @@ def by_turn(p: Props, w: Work, a: int) -> Rates:
     s_1, s_2 = w.sigma[0], w.sigma[1]
     spin = k * w.n[1] if a == 0 else -k * w.n[0]
     tilt = w.n[a]  # -d(n_z)
-    d_s1, d_s2 = spin * s_2, -spin * s_1  # (1.5)
-    d_l = -w.sigma[a]
+    d_s1, d_s2 = spin * s_2, -spin * s_1  # (1.4)
+    d_l = -w.sigma[a]  # (1.5)
     w_11, w_12 = spin * w.old[0, 1], -spin * w.old[0, 0]
     w_21, w_22 = spin * w.old[1, 1], -spin * w.old[1, 0]
     if a == 0:
@@ -213,9 +213,9 @@ def by_turn(p: Props, w: Work, a: int) -> Rates:
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
 
 
-@kernel
+@inlined
 def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
-    """Return the same by a shift of the top sphere's centre along the slider's own axes (1.4)."""
+    """Return the same by a shift of the top sphere's centre along the slider's own axes."""
     d_l = -d_3
     d_n = w.stiff_n * d_l
     if p.fixed_load > 0.0 and not p.fused:
@@ -241,7 +241,7 @@ def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, 0.0, 0.0, 0.0, 0.0, 0.0, balance
 
 
-@kernel
+@inlined
 def by_plate(p: Props, w: Work, v_1: float, v_2: float, v_3: float) -> Rates:
     """Return the same by a spin of the top plate about the slider's own axes."""
     m = w.old[1]
@@ -280,7 +280,7 @@ def slider_jacobian(p: Props, w: Work) -> None:
     w.jacobian[0, 1], w.jacobian[1, 1] = y[0], y[1]
 
 
-@kernel
+@inlined
 def column(p: Props, w: Work, col: int, rates: Rates, d_1: float, d_2: float, d_3: float) -> None:
     """Set column `col` of the condensed stiffness from what a shift `d`, or a spin, changes.
 

@@ -123,6 +123,9 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.slip_total[a] = 0.0
         for b in range(3):
             new.slip_total[a] += q[a, b] * (t[0, b] * w.sigma[0] + t[1, b] * w.sigma[1])
+    n, m = new.axis, new.axis_top
+    new.eccentricity[0] = p.radius[0] * math.sqrt(n[0] * n[0] + n[1] * n[1])
+    new.eccentricity[1] = p.radius[1] * math.sqrt(m[0] * m[0] + m[1] * m[1])
     keep_works(old, new)
     keep_spin(p, old, w, new)
     new.string = w.l
@@ -137,7 +140,6 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.friction_coefficient[k] = w.mu[k]
         new.sliding_speed[k] = w.speed[k]
         new.slid[k] = w.slid[k]
-        new.eccentricity[k] = p.radius[k] * w.n_hor[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
         for a in range(2):
@@ -258,8 +260,8 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
         static_speeds(p, w, v)
     place_plates(p, w, u)
-    size = math.sqrt(w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2)
-    if not -w.c[2] > SMALLEST_COSINE * size:
+    square = w.c[0] ** 2 + w.c[1] ** 2 + w.c[2] ** 2
+    if not (w.c[2] < 0.0 and w.c[2] ** 2 > SMALLEST_COSINE**2 * square):
         return _SPHERE_EXCEEDED
     for a in range(3):
         w.old_top[a] = (
