@@ -1085,5 +1085,6 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     compiled, python = results
     scale = np.abs(compiled).max(axis=0)
     assert np.abs(compiled[:90]).max() > 1e4
-    # Round-off: contracted multiply-adds and libm, amplified by the contact's stiffness.
-    assert_allclose(python / scale, compiled / scale, rtol=0.0, atol=1e-12)
+    # Round-off: contracted multiply-adds and libm, amplified by the contact's stiffness, and
+    # searches that end at 1e-12.
+    assert_allclose(python / scale, compiled / scale, rtol=0.0, atol=3e-12)
