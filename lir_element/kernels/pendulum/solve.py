@@ -39,7 +39,7 @@ _SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle
 def start_search(p: Props, old: State, w: Work) -> None:
     """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
-    w.first_speed[0], w.first_speed[1] = math.inf, math.inf
+    w.first_decay[0], w.first_decay[1] = 0.0, 0.0
     stiff = 0.0
     for k in range(2):
         z = old.hysteresis[k]

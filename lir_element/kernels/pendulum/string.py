@@ -192,7 +192,7 @@ def falling(w: Work, k: int, drop: float, rate: float) -> float:
     The exponential is taken where a trial looks first; nearby a few terms of its series do.
     """
     x = rate * (w.first_speed[k] - w.speed[k])
-    if abs(x) < _NEAR:
+    if w.first_decay[k] != 0.0 and abs(x) < _NEAR:
         return w.first_decay[k] * (1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0)))))
     w.first_speed[k] = w.speed[k]
     w.first_decay[k] = drop * math.exp(-rate * w.speed[k])

@@ -166,8 +166,8 @@ def is_finite(x: Floats) -> bool:
     """Return whether all entries are finite."""
     total = 0.0
     for k in range(x.shape[0]):
-        total += 0.0 * x[k]  # no number, as soon as one is not finite
-    return total == 0.0
+        total += abs(x[k])
+    return math.isfinite(total)
 
 
 @kernel
