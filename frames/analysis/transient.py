@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from time import perf_counter
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 import numpy as np
 from scipy import linalg
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
     from frames.analysis.recording import Recording
     from frames.analysis.static import GravityState
+    from frames.kernel_data import Output
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
@@ -141,31 +142,18 @@ def time_history(
         KeyboardInterrupt before the first step.
     """
     check_analysis(model, motion)
-    _check_options(level, method, integrator, on_failure, features)
+    check_options(level, method, integrator, on_failure, features)
     wanted = recording_of(recording, record_every)
-    if tolerance is not None:
-        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
-    require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
-    length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
-    steps = number_of_steps(length, dt, base)
+    options = options_of(
+        motion, duration, dt, method=method, integrator=integrator,
+        spectral_radius=spectral_radius, tolerance=tolerance, recording=wanted, progress=progress,
+    )  # fmt: skip
     if level == "rigid_body":
         data, outcome = rigid_time_history(
-            model, motion, length, dt, integrator=integrator, tolerance=tolerance,
+            model, motion, options.duration, dt, integrator=integrator, tolerance=tolerance,
             recording=wanted, progress=progress,
         )  # fmt: skip
         return _told(report(data, *outcome, on_failure=on_failure))
-    options = Options(
-        duration=length,
-        base=float(base),
-        steps=steps,
-        tolerance=tolerance if dt is None else math.inf,
-        method=method,
-        integrator=integrator or "newmark",
-        spectral_radius=float(spectral_radius),
-        recording=wanted,
-        progress=progress,
-    )
     outcomes: list[Outcome] = []
     recorders: list[Recorder] = []
 
@@ -196,6 +184,21 @@ def _told(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
+class StepWriter(Protocol):
+    """Where a run writes its steps, such as a `Recorder`."""
+
+    out: Output
+    first: int
+    seconds: float
+
+    def begin(self) -> None:
+        """Record the state at rest."""
+
+    def room(self, done: int) -> int:
+        """Return the last base step that there is room for."""
+        ...
+
+
 class Options(NamedTuple):
     """What every run of an analysis has in common."""
 
@@ -210,6 +213,38 @@ class Options(NamedTuple):
     progress: Callable[[float], None] | None
 
 
+def options_of(
+    motion: GroundMotion,
+    duration: float | None,
+    dt: float | None,
+    *,
+    method: str,
+    integrator: str | None,
+    spectral_radius: float,
+    tolerance: float | None,
+    recording: Recording,
+    progress: Callable[[float], None] | None,
+) -> Options:
+    """Return the options of a run under a motion, checked: arguments as of `time_history`."""
+    if tolerance is not None:
+        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
+    require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
+    length = motion.duration if duration is None else require_positive("duration", duration, "s")
+    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
+    steps = number_of_steps(length, dt, base)
+    return Options(
+        duration=length,
+        base=float(base),
+        steps=steps,
+        tolerance=tolerance if dt is None else math.inf,
+        method=method,
+        integrator=integrator or "newmark",
+        spectral_radius=float(spectral_radius),
+        recording=recording,
+        progress=progress,
+    )
+
+
 def _run(
     model: FrameContents,
     motion: GroundMotion,
@@ -222,13 +257,13 @@ def _run(
     if not features.second_direction:
         coupling = plane_coupling(model)
     state = gravity(model, features, level)
-    settings = _settings(state, options)
+    settings = settings_of(state, options)
     tolerance = settings.error_tolerance
     shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
     ground = Ground(*seen_by_steps(shaking, settings.dt))
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
-    _start(state, ground)
-    code, seconds = _march(state, settings, ground, recorder, options)
+    begin(state, ground)
+    code, seconds = march(state, settings, ground, recorder, options)
     status, detail = ended(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
     data = recorder.data(int(clock["done"]))
@@ -260,13 +295,14 @@ def _run(
     return data, Outcome(status, float(clock["time"]), where, detail), recorder
 
 
-def _check_options(
+def check_options(
     level: object,
     method: str,
     integrator: str | None,
     on_failure: str,
     features: object,
 ) -> None:
+    """Refuse options that are not known, or do not go together."""
     choices: list[tuple[str, object, tuple[str | None, ...]]] = [
         ("method", method, METHODS),
         ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
@@ -303,7 +339,8 @@ def _check_features(features: Features, level: object) -> None:
         raise ValueError(msg)
 
 
-def _settings(state: GravityState, options: Options) -> Setup:
+def settings_of(state: GravityState, options: Options) -> Setup:
+    """Return the constants of the time integration."""
     alpha_m, alpha_f = 0.0, 0.0
     radius = options.spectral_radius
     if options.integrator == "generalised-alpha":
@@ -331,8 +368,8 @@ def _settings(state: GravityState, options: Options) -> Setup:
     )
 
 
-def _start(state: GravityState, ground: Ground) -> None:
-    # Accelerations at rest: the ground's first value acts on what has mass.
+def begin(state: GravityState, ground: Ground) -> None:
+    """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
     mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.diag(basis.mass_e)]])
@@ -349,10 +386,10 @@ def _start(state: GravityState, ground: Ground) -> None:
     run.carried[:] /= state.system.gravity
 
 
-def _march(
-    state: GravityState, settings: Setup, ground: Ground, recorder: Recorder, options: Options
+def march(
+    state: GravityState, settings: Setup, ground: Ground, recorder: StepWriter, options: Options
 ) -> tuple[RunStatus, float]:
-    # Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; returns its seconds too.
+    """Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; return its seconds too."""
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
     ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)

@@ -55,9 +55,13 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         drifts, forces and accelerations in plan are sizes of vectors. What a run that stopped
         before its end would have left is NaN.
     """
+    return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+
+
+def peaks_of(data: xr.Dataset) -> list[Peak]:
+    """Return the rows of `peaks`."""
     parts = _of_bearings, _of_uplift, _of_structure, _of_yielding, _of_run
-    rows = [row for part in parts for row in part(data)]
-    return pd.DataFrame(rows, columns=Peak._fields).set_index("quantity")
+    return [row for part in parts for row in part(data)]
 
 
 def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:

@@ -83,6 +83,12 @@ def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:
     return Extreme(np.take_along_axis(history, at[None], axis=0)[0], time[at])
 
 
+def later(old: Extreme, new: Extreme) -> Extreme:
+    """Return the larger of both, the older where they are equal; what is not a number stays so."""
+    more = (new.values > old.values) | (np.isnan(new.values) & ~np.isnan(old.values))
+    return Extreme(np.where(more, new.values, old.values), np.where(more, new.at, old.at))
+
+
 def total(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
     if REACHED + name in data.variables:
