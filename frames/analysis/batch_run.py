@@ -11,8 +11,8 @@ import numpy as np
 from frames.analysis.outcome import culprit, ended, judged
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import Recording
-from frames.analysis.reduction import reduced
-from frames.analysis.stacking import NUMBERS, Layout, Row, layout_of, reached_row
+from frames.analysis.reduction import judgeable_of
+from frames.analysis.stacking import NUMBERS, Layout, Row, reached_row
 from frames.analysis.transient import begin, march, settings_of
 from frames.analysis.workspace import PeakRecorder, Structure, Workspace, set_up
 from frames.kernel_data import ENERGY_TERMS, Ground
@@ -41,12 +41,6 @@ class Kept(NamedTuple):
 
     recording: Recording
     histories: bool
-
-
-class _Shared(NamedTuple):
-    # A structure, or why there is no equilibrium, and the layout of what its runs reach.
-    structure: Structure | AnalysisError
-    layout: list[Layout]  # empty before its first run
 
 
 class _Ended(NamedTuple):
@@ -88,7 +82,7 @@ class Runner:
         self.motions, self.options = motions, options
         self.features, self.kept = features, kept
         self._models, self._level = models, level
-        self._shared: dict[str, _Shared] = {}
+        self._shared: dict[str, Structure | AnalysisError] = {}
         self._left = {name: 0 for name in models}
         for case in cases:
             self._left[case.model] += 1
@@ -98,8 +92,8 @@ class Runner:
         """Return what one thread runs with; `is_stopped` says whether to leave off."""
         return Worker(self, is_stopped)
 
-    def structure(self, name: str) -> _Shared:
-        """Return a structure, set up by the first who asks; one after the other."""
+    def structure(self, name: str) -> Structure | AnalysisError:
+        """Return a structure, set up by the first who asks, or why it has no equilibrium."""
         with self._lock:
             if name not in self._shared:
                 self._shared[name] = self._set_up(name)
@@ -112,11 +106,11 @@ class Runner:
             if not self._left[name]:
                 self._shared.pop(name, None)
 
-    def _set_up(self, name: str) -> _Shared:
+    def _set_up(self, name: str) -> Structure | AnalysisError:
         try:
-            return _Shared(set_up(self._models[name], self.features, self._level), [])
+            return set_up(self._models[name], self.features, self._level)
         except AnalysisError as failure:
-            return _Shared(failure, [])
+            return failure
 
 
 class Worker:
@@ -138,16 +132,14 @@ class Worker:
     def row(self, place: int) -> Row | None:
         """Run a case; None where it was stopped."""
         case = self._runner.cases[place]
-        shared = self._runner.structure(case.model)
-        row = self._row(place, shared)
+        structure = self._runner.structure(case.model)
+        if isinstance(structure, AnalysisError):
+            row: Row | None = _without_rest(place, structure)
+        else:
+            run = self._run(case, self._own(structure))
+            row = None if run is None else _row_of(place, run, structure.layout)
         self._runner.done(case.model)
         return row
-
-    def _row(self, place: int, shared: _Shared) -> Row | None:
-        if isinstance(shared.structure, AnalysisError):
-            return _without_rest(place, shared.structure)
-        run = self._run(self._runner.cases[place], self._own(shared.structure))
-        return None if run is None else _row_of(place, run, shared.layout)
 
     def _own(self, structure: Structure) -> Workspace:
         if self._workspace is None or self._workspace.structure is not structure:
@@ -195,7 +187,7 @@ class Worker:
             structure.template.attrs, integrator=options.integrator, seconds_loop=seconds
         )
         energy = recorder.out.energy[done - recorder.first].copy()
-        whole, data = data, reduced(data, Recording(every=None)) if "time" in data.dims else data
+        whole, data = data, judgeable_of(data) if "time" in data.dims else data
         data.attrs["audit"] = audit_report(data)
         name = state.system.bearings[int(counts["bearing"])][0]
         where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
@@ -237,11 +229,9 @@ def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
     return recorded[names].drop_attrs(deep=False)
 
 
-def _row_of(place: int, run: _Ended, known: list[Layout]) -> Row:
-    # A run as numbers; `known` gets the layout of the structure's first run.
+def _row_of(place: int, run: _Ended, layout: Layout) -> Row:
+    # A run as numbers.
     attrs = run.data.attrs
-    if not known:
-        known.append(layout_of(run.data))
     return Row(
         place=place,
         status=attrs["status"],
@@ -253,8 +243,8 @@ def _row_of(place: int, run: _Ended, known: list[Layout]) -> Row:
         peaks=tuple(peaks_of(run.data)),
         numbers={name: float(attrs.get(name, math.nan)) for name in NUMBERS},
         energy=run.energy,
-        reached=reached_row(run.data, known[0]),
-        layout=known[0],
+        reached=reached_row(run.data, layout),
+        layout=layout,
         histories=run.histories,
     )
 

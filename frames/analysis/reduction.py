@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from frames.analysis.recording import Recording
 from frames.results.envelopes import EXTREMES
 from frames.results.kept import REACHED
 from frames.results.reached import (
@@ -23,7 +24,6 @@ from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray
-    from frames.analysis.recording import Recording
 
     Columns = dict[str, Any]
 
@@ -100,6 +100,33 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
     if "drift" in found.reached:
         coordinates["storey"] = data["level"].to_numpy()[1:]
     return data.assign_coords(coordinates).assign(variables)
+
+
+def with_other_findings(data: xr.Dataset, found: Findings, peak: FloatArray) -> xr.Dataset:
+    """Return what `with_findings` gave of one run with the numbers of another one.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a run of the same structure.
+    found : Findings
+        What the other run reached.
+    peak : ndarray, (3,)
+        Peak velocities of its motion [m/s].
+
+    Returns
+    -------
+    xarray.Dataset
+        As `with_findings` makes it, in a tenth of the time.
+    """
+    known = data.variables
+    values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
+    for name, most in found.reached.items():
+        values[REACHED + name], values[f"{REACHED}{name}_at"] = most
+    values |= {REACHED + name: value for name, value in found.totals.items()}
+    values |= {f"{REACHED}{name}_left": value for name, value in found.left.items()}
+    values |= {UNTIL: np.array(found.until), "peak_ground_velocity": peak}
+    return data.copy(data=values)
 
 
 class Reduction:
@@ -290,6 +317,24 @@ def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
     reduction = Reduction(recording)
     reduction.take(data, 0, final=True)
     return reduction.recorded(reduction.judgeable().assign_attrs(data.attrs))
+
+
+def judgeable_of(data: xr.Dataset) -> xr.Dataset:
+    """Return what the audit reads of a result that holds all steps, without its histories.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, complete.
+
+    Returns
+    -------
+    xarray.Dataset
+        What it reached, and all that has no time; its attributes.
+    """
+    reduction = Reduction(Recording(every=None))
+    reduction.take(data, 0, final=True)
+    return reduction.judgeable().assign_attrs(data.attrs)
 
 
 def _measured(

@@ -8,7 +8,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 import numpy as np
-from scipy import linalg
 
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
@@ -372,9 +371,7 @@ def begin(state: GravityState, ground: Ground) -> None:
     """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
-    mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.diag(basis.mass_e)]])
-    right = -np.concatenate([basis.inertia_b, basis.inertia_e]) @ first
-    acceleration = linalg.pinvh(mass) @ right if first.any() else np.zeros(len(right))
+    acceleration = basis.shaken @ first if first.any() else np.zeros(len(run.b) + len(run.e))
     n_b = len(run.b)
     run.a_b[:], run.a_e[:] = acceleration[:n_b], acceleration[n_b:]
     for record_of in (run.clock, run.counts, run.energy):

@@ -10,9 +10,10 @@ import numpy as np
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.gauging import Gauge, Places, can_gauge, devices_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
-from frames.analysis.reduction import Findings, with_findings
+from frames.analysis.reduction import Findings, judgeable_of, with_other_findings
 from frames.analysis.scene import plane_coupling
 from frames.analysis.size import bytes_of_step
+from frames.analysis.stacking import Layout, layout_of
 from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Run, output_arrays, run_arrays
 from frames.kernels.integration import record
@@ -46,7 +47,8 @@ class Structure(NamedTuple):
     model: FrameContents
     state: GravityState
     template: xr.Dataset
-    """All of a result that has no time."""
+    """What the audit reads of a run, of the state at rest alone."""
+    layout: Layout
     gauges: tuple[Devices, Shape] | None
     """None where what is reached has to be read off Datasets."""
 
@@ -79,18 +81,19 @@ def set_up(model: FrameContents, features: Features, level: str | Mapping[str, s
     record(state.run, state.contacts, state.parts, out, 0)
     still = Ground(np.zeros((2, 3)), 1.0)
     first = build_dataset(model, state, still, np.zeros(3), out, states, bodies, 1)
-    template = first.drop_dims("time")
     left_out = ", ".join(features.left_out) or "none"
-    template.attrs = {
-        "features_left_out": left_out,
+    first = first.assign_attrs(features_left_out=left_out)
+    template = judgeable_of(first)
+    template.attrs |= {
         "plane_coupling": coupling,
         "level": level if isinstance(level, str) else str(dict(level)),
     }
+    structure = Structure(model, state, template, layout_of(template), None)
     if not can_gauge(state):
-        return Structure(model, state, template, None)
+        return structure
     level_node = template["level_node"].to_numpy()
     places = Places(level_node, template["level_height"].to_numpy(), lines_of(template))
-    return Structure(model, state, template, (devices_of(state), shape_of(state, places)))
+    return structure._replace(gauges=(devices_of(state), shape_of(state, places)))
 
 
 class Workspace:
@@ -192,10 +195,8 @@ class PeakRecorder:
     def data(self, done: int) -> xr.Dataset:
         """Return what the audit reads of the run."""
         found = self.findings(done)
-        data = with_findings(self._structure.template, found)
         peak = peak_velocity(self._motion, found.until)
-        data["peak_ground_velocity"] = data["peak_ground_velocity"].variable.copy(data=peak)
-        return data
+        return with_other_findings(self._structure.template, found, peak)
 
     def _take(self, done: int) -> None:
         first, last = self._taken - self.first, done + 1 - self.first
