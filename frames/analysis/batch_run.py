@@ -201,7 +201,7 @@ class Worker:
         data.attrs |= {"status": status.name.lower(), "message": message}
         data.attrs |= {name: int(counts[name]) for name in ("steps", "halvings")}
         histories = None
-        if isinstance(recorder, _Recorder):
+        if self._runner.kept.histories and isinstance(recorder, _Recorder):
             recorded = whole if "time" in whole.dims else recorder.recorded(data)
             histories = _histories(recorded, structure.template)
         return _Ended(status, data, energy, histories)
