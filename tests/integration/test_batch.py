@@ -1,6 +1,6 @@
 """Many histories at once are the single ones: the same numbers, for any number of workers."""
 
-import pickle
+import pickle  # of what this test has made  # noqa: S403
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -106,7 +106,8 @@ def test_rows_are_the_single_runs(
 ) -> None:
     models, data = grid
     cases = [(m, g, s) for m in models for g in motions for s in SCALES]
-    assert list(zip(*(data[c].to_numpy() for c in ("model", "motion", "scale")))) == cases
+    rows = zip(*(data[c].to_numpy() for c in ("model", "motion", "scale")), strict=True)
+    assert list(rows) == cases
     assert data.attrs["status"] == "ok"
     for k, (model, motion, scale) in enumerate(cases):
         one = quietly(
