@@ -133,7 +133,7 @@ class Gauge:
         Of the structure; without a shape what is above the bearings is left aside.
     """
 
-    def __init__(self, devices: Devices, shape: Shape | None) -> None:
+    def __init__(self, devices: Devices, shape: Shape | None = None) -> None:
         own = ("x", "u", "x_rate", "a")  # scratch of this one alone
         self._devices = devices
         self._shape = shape and shape._replace(**{k: getattr(shape, k).copy() for k in own})

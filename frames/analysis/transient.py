@@ -286,11 +286,13 @@ def _run(
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
-    data.attrs["audit"] = audit_report(data)
+    seen = recorder.judgeable(data)
+    seen.attrs = data.attrs | {"audit": audit_report(seen.assign_attrs(data.attrs))}
     name = state.system.bearings[int(counts["bearing"])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
-        status, detail = judged(data)
+        status, detail = judged(seen)
+    data.attrs = seen.attrs
     return data, Outcome(status, float(clock["time"]), where, detail), recorder
 
 
