@@ -5,6 +5,8 @@ from frames._errors import ModelError as ModelError
 from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
 from frames._errors import MotionWarning as MotionWarning
+from frames.analysis.batch import time_histories as time_histories
+from frames.analysis.cases import BatchProgress as BatchProgress
 from frames.analysis.model_check import ModelCheck as ModelCheck
 from frames.analysis.modes import Modes as Modes
 from frames.analysis.modes import modes as modes
@@ -56,6 +58,7 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 __all__ = [
     "AnalysisInterrupted",
     "AuditWarning",
+    "BatchProgress",
     "Bilinear",
     "BoucWen",
     "Features",
@@ -103,6 +106,7 @@ __all__ = [
     "storey_forces",
     "summary",
     "support_reactions",
+    "time_histories",
     "time_history",
     "uplift_gap",
     "write_tables",

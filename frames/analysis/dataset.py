@@ -20,9 +20,12 @@ from lir_element.results.dataset import (
     labelled,
     some_bodies,
 )
+from lir_element.results.deferred import deferred
 from lir_element.results.eccentricity import interface_eccentricity
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from frames._types import FloatArray, IntArray
     from frames.analysis.static import GravityState
     from frames.assembly.assemble import System
@@ -41,6 +44,8 @@ def build_dataset(
     states: Records,
     bodies: Records,
     count: int,
+    *,
+    kept: bool = False,
 ) -> xr.Dataset:
     """Put the first `count` recorded steps into a Dataset (docs/results.md).
 
@@ -58,38 +63,34 @@ def build_dataset(
         What was recorded.
     count : int
         Number of recorded steps.
+    kept : bool
+        Whether what was recorded stays as it is: states are not copied then, and what takes long
+        is formed when it is first looked at.
 
     Returns
     -------
     xarray.Dataset
         Without attributes.
     """
-    system, basis = state.system, state.basis
-    q = expand(basis, out.b[:count], out.e[:count])
-    if state.parts is not None:
-        q -= out.beyond[:count] @ state.part_shift.T
-    # what lags without mass has a velocity, but no acceleration of use
-    a = expand(basis, out.a_b[:count], basis.mass_e * out.a_e[:count], offset=False)
-    shape = (count, len(system.node_names), 6)
-    displacement = np.asarray(system.transform @ q.T).T.reshape(shape)
-    acceleration = np.asarray(system.transform @ a.T).T.reshape(shape).copy()
-    ground = ground_at(shaking, out.time[:count])
-    acceleration[..., :3] += ground[:, None, :]
-    velocity = _bearing_velocity(state, out.v_b[:count])
-    variables = bearing_variables("time", states[:count], velocity)
+    system = state.system
+    motion = _Motion(state, shaking, out, states, count)
+
+    def of(form: Callable[[], FloatArray], *shape: int) -> Any:
+        return deferred((count, *shape), form) if kept else form()
+
+    nodes, bearings = len(system.node_names), len(system.bearings)
+    velocity = of(motion.bearing_velocity, bearings, 3)
+    variables = bearing_variables("time", states[:count], velocity, kept=kept)
     if state.contacts is not None:
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     node = ("time", "node", "dof")
-    grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
-    forces = states["force"][:count, grounded, 6:9].sum(axis=1)
-    forces += _other_reactions(state, displacement, out.beyond[:count])
     variables |= _device_variables(system)
     more, names = part_variables(system.parts, frame, out, count)
     variables |= more
     variables |= {
         "interface_eccentricity": labelled(
             ("time", "bearing"),
-            interface_eccentricity(state.model.props, states[:count]),
+            of(motion.eccentricity, bearings),
             "m",
             "offset of the resultant between the sliders from their axes, the larger; 0 lifted",
         ),
@@ -100,20 +101,31 @@ def build_dataset(
             ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
         ),
         "node_displacement": labelled(
-            node, displacement, "m, rad", "displacement relative to the ground"
+            node,
+            of(motion.displacement, nodes, 6),
+            "m, rad",
+            "displacement relative to the ground",
         ),
         "node_acceleration": labelled(
-            node, acceleration, "m/s2, rad/s2", "total acceleration, ground included"
+            node,
+            of(motion.acceleration, nodes, 6),
+            "m/s2, rad/s2",
+            "total acceleration, ground included",
         ),
-        "ground_acceleration": labelled(("time", "axis"), ground, "m/s2", "ground acceleration"),
+        "ground_acceleration": labelled(
+            ("time", "axis"), motion.ground, "m/s2", "ground acceleration"
+        ),
         "base_shear": labelled(
             ("time", "axis"),
-            forces,
+            of(motion.base_shear, 3),
             "N",
             "resisting force of the ground: bearings on it, and other supports",
         ),
         "energy": labelled(
-            ("time", "term"), out.energy[:count].copy(), "J", "energy since gravity"
+            ("time", "term"),
+            out.energy[:count] if kept else out.energy[:count].copy(),
+            "J",
+            "energy since gravity",
         ),
         "weight": labelled(
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
@@ -141,6 +153,54 @@ def build_dataset(
         **bearing_coordinates([name for name, _, _, _ in system.bearings]),
     }
     return xr.Dataset(variables, coordinates)
+
+
+class _Motion:
+    """What the structure did, from what was recorded: formed where it is asked for."""
+
+    def __init__(
+        self, state: GravityState, shaking: Ground, out: Output, states: Records, count: int
+    ) -> None:
+        self._state, self._out, self._states, self._count = state, out, states, count
+        self._shape = (count, len(state.system.node_names), 6)
+        self.ground = ground_at(shaking, out.time[:count])
+
+    def displacement(self) -> FloatArray:
+        return self._of_nodes(self._moves())
+
+    def _moves(self) -> FloatArray:
+        # Of the free degrees of freedom.
+        state, out, count = self._state, self._out, self._count
+        q = expand(state.basis, out.b[:count], out.e[:count])
+        if state.parts is not None:
+            q -= out.beyond[:count] @ state.part_shift.T
+        return q
+
+    def acceleration(self) -> FloatArray:
+        # what lags without mass has a velocity, but no acceleration of use
+        basis, out, count = self._state.basis, self._out, self._count
+        rates = basis.mass_e * out.a_e[:count]
+        found = self._of_nodes(expand(basis, out.a_b[:count], rates, offset=False))
+        found[..., :3] += self.ground[:, None, :]
+        return found
+
+    def bearing_velocity(self) -> FloatArray:
+        return _bearing_velocity(self._state, self._out.v_b[: self._count])
+
+    def eccentricity(self) -> FloatArray:
+        return interface_eccentricity(self._state.model.props, self._states[: self._count])
+
+    def base_shear(self) -> FloatArray:
+        system = self._state.system
+        grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
+        forces = self._states["force"][: self._count, grounded, 6:9].sum(axis=1)
+        beyond = self._out.beyond[: self._count]
+        found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
+        return found
+
+    def _of_nodes(self, q: FloatArray) -> FloatArray:
+        found = np.asarray(self._state.system.transform @ q.T).T.reshape(self._shape)
+        return np.ascontiguousarray(found)
 
 
 def ground_at(ground: Ground, time: FloatArray) -> FloatArray:
@@ -181,19 +241,16 @@ def _fixed_dofs(system: System) -> IntArray:
     return np.flatnonzero(np.diff(system.transform.indptr) == 0)
 
 
-def _other_reactions(
-    state: GravityState, displacement: FloatArray, beyond: FloatArray
-) -> FloatArray:
+def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> FloatArray:
     # What supports of the structure itself resist (members on the ground), signed as bearing forces
     # are: positive with positive displacement of the structure.
     system = state.system
     fixed = _fixed_dofs(system)
     fixed = fixed[fixed % 6 < 3]
-    flat = displacement.reshape(len(displacement), -1)
     stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
-    forces = system.node_load[fixed] - np.asarray(stiffness[fixed] @ flat.T).T
+    forces = system.node_load[fixed] - np.asarray((stiffness[fixed] @ system.transform) @ q.T).T
     forces -= np.asarray(system.parts.node_rows[:, fixed].T @ beyond.T).T
-    total = np.zeros((len(displacement), 3))
+    total = np.zeros((len(q), 3))
     for axis in range(3):
         total[:, axis] = forces[:, fixed % 6 == axis].sum(axis=1)
     return total

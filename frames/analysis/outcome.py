@@ -58,7 +58,7 @@ def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
         float(largest(data, name).values)
         for name in ("energy_gap", "energy_numerical", "energy_input")
     )
-    least = LEAST_INPUT * float(data["weight"]) * float(data["length"].min())
+    least = LEAST_INPUT * float(data.variables["weight"]) * float(data.variables["length"].min())
     scale = max(given, abs(least))
     gap, numerical = gap / scale, numerical / scale
     data.attrs |= {"energy_error": gap, "numerical_share": numerical}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from frames.analysis.recording import Recording
 from frames.results.envelopes import EXTREMES
 from frames.results.kept import REACHED
 from frames.results.reached import (
@@ -15,6 +16,7 @@ from frames.results.reached import (
     TOTALS,
     Extreme,
     extreme_of,
+    later,
     rims_met,
     storeys_of_lines,
 )
@@ -22,9 +24,11 @@ from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray
-    from frames.analysis.recording import Recording
 
     Columns = dict[str, Any]
+
+UNTIL = f"{REACHED}until"
+"""Variable that holds the time of the last base step of a run."""
 
 _SAME_TIME = 1e-9  # s: times that differ by less are one
 
@@ -47,6 +51,82 @@ class _State(NamedTuple):
     totals: dict[str, FloatArray]
     extremes: dict[str, tuple[Extreme, Extreme]]  # of -values: the smallest
     tail: xr.Dataset | None  # the last piece's last step and all that has no time
+
+
+class Findings(NamedTuple):
+    """What a run reached, by quantity."""
+
+    reached: dict[str, Extreme]
+    totals: dict[str, FloatArray]
+    left: dict[str, FloatArray]
+    """Of those of `LEFT`, at the last step."""
+    until: float
+    """Time of that step [s]."""
+
+
+def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
+    """Return a result without histories with what its run reached, as the audit reads it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        All of a result that has no time.
+    found : Findings
+        What was reached.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same with the variables ``reached_...`` (docs/results.md).
+    """
+    variables: dict[str, xr.Variable] = {}
+    for name, most in found.reached.items():
+        dims, unit, meaning, _ = QUANTITIES[name]
+        text = meaning if meaning.startswith("1:") else f"largest {meaning}"
+        variables[REACHED + name] = labelled(dims, most.values, unit, text)
+        variables[f"{REACHED}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
+    for name, value in found.totals.items():
+        dims, unit, meaning, _ = TOTALS[name]
+        variables[REACHED + name] = labelled(dims, value, unit, meaning)
+    for name, value in found.left.items():
+        dims, unit, meaning, _ = QUANTITIES[name]
+        variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, f"{meaning}, left")
+    variables[UNTIL] = labelled((), found.until, "s", "time of the last base step")
+    coordinates: dict[str, Any] = {}
+    if "line_drift" in found.reached:
+        lines, storeys = storeys_of_lines(data)
+        variables[f"{REACHED}line_storey"] = xr.Variable(("line",), storeys)
+        coordinates["line"] = lines
+    if "drift" in found.reached:
+        coordinates["storey"] = data["level"].to_numpy()[1:]
+    return data.assign_coords(coordinates).assign(variables)
+
+
+def with_other_findings(data: xr.Dataset, found: Findings, peak: FloatArray) -> xr.Dataset:
+    """Return what `with_findings` gave of one run with the numbers of another one.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a run of the same structure.
+    found : Findings
+        What the other run reached.
+    peak : ndarray, (3,)
+        Peak velocities of its motion [m/s].
+
+    Returns
+    -------
+    xarray.Dataset
+        As `with_findings` makes it, in a tenth of the time.
+    """
+    known = data.variables
+    values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
+    for name, most in found.reached.items():
+        values[REACHED + name], values[f"{REACHED}{name}_at"] = most
+    values |= {REACHED + name: value for name, value in found.totals.items()}
+    values |= {f"{REACHED}{name}_left": value for name, value in found.left.items()}
+    values |= {UNTIL: np.array(found.until), "peak_ground_velocity": peak}
+    return data.copy(data=values)
 
 
 class Reduction:
@@ -100,29 +180,11 @@ class Reduction:
     def judgeable(self) -> xr.Dataset:
         """Return what the audit reads of a run that was taken up to its end: no histories."""
         state = self._state
-        data = _without_time(_tail(state))
-        variables: dict[str, xr.Variable] = {}
-        for name, found in state.reached.items():
-            dims, unit, meaning, _ = QUANTITIES[name]
-            text = meaning if meaning.startswith("1:") else f"largest {meaning}"
-            variables[REACHED + name] = labelled(dims, found.values, unit, text)
-            variables[f"{REACHED}{name}_at"] = labelled(dims, found.at, "s", f"time of: {text}")
-        for name, value in state.totals.items():
-            dims, unit, meaning, _ = TOTALS[name]
-            variables[REACHED + name] = labelled(dims, value, unit, meaning)
-        for name in (name for name in LEFT if name in state.reached):
-            dims, unit, meaning, of = QUANTITIES[name]
-            at_end = of(_tail(state))[-1]
-            variables[f"{REACHED}{name}_left"] = labelled(dims, at_end, unit, f"{meaning}, left")
-        end = float(_tail(state)["time"][-1])
-        variables[f"{REACHED}until"] = labelled((), end, "s", "time of the last base step")
-        if "line_drift" in state.reached:
-            lines, storeys = storeys_of_lines(data)
-            variables[f"{REACHED}line_storey"] = xr.Variable(("line",), storeys)
-            data = data.assign_coords(line=lines)
-        if "drift" in state.reached:
-            data = data.assign_coords(storey=data["level"].to_numpy()[1:])
-        return data.assign(variables)
+        tail = _tail(state)
+        at_end = {name: QUANTITIES[name].of(tail)[-1] for name in LEFT if name in state.reached}
+        end = float(tail["time"][-1])
+        found = Findings(state.reached, state.totals, at_end, end)
+        return with_findings(_without_time(tail), found)
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result: what `judgeable` gave, judged, with what is recorded besides.
@@ -206,7 +268,7 @@ class Reduction:
                 continue
             both = [extreme_of(sign * values[fresh], time[fresh]) for sign in (1.0, -1.0)]
             if name in old:
-                both = [_later(a, b) for a, b in zip(old[name], both, strict=True)]
+                both = [later(a, b) for a, b in zip(old[name], both, strict=True)]
             found[name] = (both[0], both[1])
         return found
 
@@ -257,6 +319,24 @@ def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
     return reduction.recorded(reduction.judgeable().assign_attrs(data.attrs))
 
 
+def judgeable_of(data: xr.Dataset) -> xr.Dataset:
+    """Return what the audit reads of a result that holds all steps, without its histories.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, complete.
+
+    Returns
+    -------
+    xarray.Dataset
+        What it reached, and all that has no time; its attributes.
+    """
+    reduction = Reduction(Recording(every=None))
+    reduction.take(data, 0, final=True)
+    return reduction.judgeable().assign_attrs(data.attrs)
+
+
 def _measured(
     piece: xr.Dataset, begin: int, end: int, state: _State
 ) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
@@ -267,7 +347,7 @@ def _measured(
     reached, totals = {}, {}
     for name in _present(piece):
         now = extreme_of(QUANTITIES[name].of(piece)[begin:end], time)
-        reached[name] = _later(state.reached[name], now) if name in state.reached else now
+        reached[name] = later(state.reached[name], now) if name in state.reached else now
     for name, total in TOTALS.items():
         now_total = total.of(piece, begin, end)
         totals[name] = state.totals[name] + now_total if name in state.totals else now_total
@@ -288,12 +368,6 @@ def _present(piece: xr.Dataset) -> list[str]:
         if part not in piece.dims:
             lacking |= {name for name, each in QUANTITIES.items() if part in each.dims}
     return [name for name in QUANTITIES if name not in lacking]
-
-
-def _later(old: Extreme, new: Extreme) -> Extreme:
-    # The larger of both, the older where they are equal; what is not a number stays so.
-    more = (new.values > old.values) | (np.isnan(new.values) & ~np.isnan(old.values))
-    return Extreme(np.where(more, new.values, old.values), np.where(more, new.at, old.at))
 
 
 def _regular(step: IntArray, every: int | None) -> BoolArray:

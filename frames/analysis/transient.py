@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import warnings
 from time import perf_counter
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 import numpy as np
-from scipy import linalg
 
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
 
     from frames.analysis.recording import Recording
     from frames.analysis.static import GravityState
+    from frames.kernel_data import Output
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
@@ -143,31 +143,18 @@ def time_history(
         KeyboardInterrupt before the first step.
     """
     check_analysis(model, motion)
-    _check_options(level, method, integrator, on_failure, features)
+    check_options(level, method, integrator, on_failure, features)
     wanted = recording_of(recording, record_every)
-    if tolerance is not None:
-        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
-    require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
-    length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
-    steps = number_of_steps(length, dt, base)
+    options = options_of(
+        motion, duration, dt, method=method, integrator=integrator,
+        spectral_radius=spectral_radius, tolerance=tolerance, recording=wanted, progress=progress,
+    )  # fmt: skip
     if level == "rigid_body":
         data, outcome = rigid_time_history(
-            model, motion, length, dt, integrator=integrator, tolerance=tolerance,
+            model, motion, options.duration, dt, integrator=integrator, tolerance=tolerance,
             recording=wanted, progress=progress,
         )  # fmt: skip
         return _told(report(data, *outcome, on_failure=on_failure))
-    options = Options(
-        duration=length,
-        base=float(base),
-        steps=steps,
-        tolerance=tolerance if dt is None else math.inf,
-        method=method,
-        integrator=integrator or "newmark",
-        spectral_radius=float(spectral_radius),
-        recording=wanted,
-        progress=progress,
-    )
     outcomes: list[Outcome] = []
     recorders: list[Recorder] = []
 
@@ -198,6 +185,21 @@ def _told(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
+class StepWriter(Protocol):
+    """Where a run writes its steps, such as a `Recorder`."""
+
+    out: Output
+    first: int
+    seconds: float
+
+    def begin(self) -> None:
+        """Record the state at rest."""
+
+    def room(self, done: int) -> int:
+        """Return the last base step that there is room for."""
+        ...
+
+
 class Options(NamedTuple):
     """What every run of an analysis has in common."""
 
@@ -212,6 +214,38 @@ class Options(NamedTuple):
     progress: Callable[[float], None] | None
 
 
+def options_of(
+    motion: GroundMotion,
+    duration: float | None,
+    dt: float | None,
+    *,
+    method: str,
+    integrator: str | None,
+    spectral_radius: float,
+    tolerance: float | None,
+    recording: Recording,
+    progress: Callable[[float], None] | None,
+) -> Options:
+    """Return the options of a run under a motion, checked: arguments as of `time_history`."""
+    if tolerance is not None:
+        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
+    require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
+    length = motion.duration if duration is None else require_positive("duration", duration, "s")
+    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
+    steps = number_of_steps(length, dt, base)
+    return Options(
+        duration=length,
+        base=float(base),
+        steps=steps,
+        tolerance=tolerance if dt is None else math.inf,
+        method=method,
+        integrator=integrator or "newmark",
+        spectral_radius=float(spectral_radius),
+        recording=recording,
+        progress=progress,
+    )
+
+
 def _run(
     model: FrameContents,
     motion: GroundMotion,
@@ -224,13 +258,13 @@ def _run(
     if not features.second_direction:
         coupling = plane_coupling(model)
     state = gravity(model, features, level)
-    settings = _settings(state, options)
+    settings = settings_of(state, options)
     tolerance = settings.error_tolerance
     shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
     ground = Ground(*seen_by_steps(shaking, settings.dt))
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
-    _start(state, ground)
-    code, seconds = _march(state, settings, ground, recorder, options)
+    begin(state, ground)
+    code, seconds = march(state, settings, ground, recorder, options)
     status, detail = ended(state, code)
     clock, counts = state.run.clock[0], state.run.counts[0]
     data = recorder.data(int(clock["done"]))
@@ -254,21 +288,24 @@ def _run(
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
-    data.attrs["audit"] = audit_report(data)
+    seen = recorder.judgeable(data)
+    seen.attrs = data.attrs | {"audit": audit_report(seen.assign_attrs(data.attrs))}
     name = state.system.bearings[int(counts["bearing"])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
-        status, detail = judged(data)
+        status, detail = judged(seen)
+    data.attrs = seen.attrs
     return data, Outcome(status, float(clock["time"]), where, detail), recorder
 
 
-def _check_options(
+def check_options(
     level: object,
     method: str,
     integrator: str | None,
     on_failure: str,
     features: object,
 ) -> None:
+    """Refuse options that are not known, or do not go together."""
     choices: list[tuple[str, object, tuple[str | None, ...]]] = [
         ("method", method, METHODS),
         ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
@@ -305,7 +342,8 @@ def _check_features(features: Features, level: object) -> None:
         raise ValueError(msg)
 
 
-def _settings(state: GravityState, options: Options) -> Setup:
+def settings_of(state: GravityState, options: Options) -> Setup:
+    """Return the constants of the time integration."""
     alpha_m, alpha_f = 0.0, 0.0
     radius = options.spectral_radius
     if options.integrator == "generalised-alpha":
@@ -341,13 +379,11 @@ def _tangent_worth(bearings: int, unknowns: int) -> float:
     return max(new / kept - 1.0, 0.0) / _SERVES
 
 
-def _start(state: GravityState, ground: Ground) -> None:
-    # Accelerations at rest: the ground's first value acts on what has mass.
+def begin(state: GravityState, ground: Ground) -> None:
+    """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
-    mass = np.block([[basis.mass_b, basis.mass_be], [basis.mass_be.T, np.diag(basis.mass_e)]])
-    right = -np.concatenate([basis.inertia_b, basis.inertia_e]) @ first
-    acceleration = linalg.pinvh(mass) @ right if first.any() else np.zeros(len(right))
+    acceleration = basis.shaken @ first if first.any() else np.zeros(len(run.b) + len(run.e))
     n_b = len(run.b)
     run.a_b[:], run.a_e[:] = acceleration[:n_b], acceleration[n_b:]
     for record_of in (run.clock, run.counts, run.energy):
@@ -359,10 +395,10 @@ def _start(state: GravityState, ground: Ground) -> None:
     run.carried[:] /= state.system.gravity
 
 
-def _march(
-    state: GravityState, settings: Setup, ground: Ground, recorder: Recorder, options: Options
+def march(
+    state: GravityState, settings: Setup, ground: Ground, recorder: StepWriter, options: Options
 ) -> tuple[RunStatus, float]:
-    # Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; returns its seconds too.
+    """Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; return its seconds too."""
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
     ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)

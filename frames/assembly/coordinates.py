@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import linalg
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
@@ -62,6 +64,12 @@ class Basis:
     load_e: FloatArray
     inertia_b: FloatArray
     inertia_e: FloatArray
+
+    @cached_property
+    def shaken(self) -> FloatArray:
+        """Accelerations of b and eta at rest under a unit of ground acceleration, (n, 3) [-]."""
+        mass = np.block([[self.mass_b, self.mass_be], [self.mass_be.T, np.diag(self.mass_e)]])
+        return np.asarray(-linalg.pinvh(mass) @ np.concatenate([self.inertia_b, self.inertia_e]))
 
     def shift(self, loads: FloatArray) -> FloatArray:
         """Return how loads (n_free, ...) displace what has no mass while b and eta rest."""

@@ -183,7 +183,7 @@ def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def _rims(data: xr.Dataset, out: bool) -> Finding:
-    limit = data["rim_displacement"].to_numpy()
+    limit = data.variables["rim_displacement"].to_numpy()
     share = float((largest(data, "sliding").values / limit).max())
     met = largest(data, "rims_met")
     mattered = share >= (_reached(data, "rims") if out else 1.0)
@@ -196,7 +196,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:
-    if np.isinf(data["interface_friction"].to_numpy()).all():
+    if np.isinf(data.variables["interface_friction"].to_numpy()).all():
         return _finding("interface", out, False, 0.0, "the sliders are in one piece")
     share = float(largest(data, "interface_share").values.max())
     if out or share < FULL_SLIP:
@@ -226,7 +226,7 @@ def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
-    if not data["friction_drop"].to_numpy().any():
+    if not data.variables["friction_drop"].to_numpy().any():
         text = "no friction depends on speed"
         return _finding("velocity_dependence", out, False, 0.0, text)
     work = float(total(data, "sliding_work"))
@@ -286,14 +286,18 @@ def _full_contact(data: xr.Dataset) -> Finding:
 
 def _slip_stability(data: xr.Dataset) -> Finding:
     # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
-    friction = data["interface_friction"]
-    held = data["length"] * friction - (data["friction_max"] * data["radius"]).sum("surface")
+    friction = data.variables["interface_friction"].to_numpy()
+    rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
+    held = data.variables["length"].to_numpy() * friction
+    held -= (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
     slip = largest(data, "slip").values
-    shares = slip / np.maximum(held.to_numpy(), 1e-12)
-    overlaps = slip / data["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+    shares = slip / np.maximum(held, 1e-12)
+    overlaps = (
+        slip / data.variables["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+    )
     worst, last = int(np.argmax(shares)), int(np.argmax(overlaps))
     share = float(shares[worst])
-    names, parts = data["bearing"].to_numpy(), []
+    names, parts = data.variables["bearing"].to_numpy(), []
     if share > HOLDS:
         limit = 1e3 * max(float(held[worst]), 0.0)
         parts.append(
@@ -309,7 +313,7 @@ def _slip_stability(data: xr.Dataset) -> Finding:
             "the capacity"
         )
     text = "; ".join(parts) or f"the slip reached {_share(share)} of what holds without rims"
-    if np.isinf(friction.to_numpy()).all():
+    if np.isinf(friction).all():
         text = "the sliders are in one piece"
     finding = _finding("slip_stability", False, bool(parts), share, text)
     return replace(finding, doubtful=bool(parts))

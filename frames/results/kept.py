@@ -38,7 +38,8 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
     """
     if REACHED + name not in data.variables:
         return None
-    return data[REACHED + name].to_numpy(), data[f"{REACHED}{name}_at"].to_numpy()
+    values, at = (data.variables[REACHED + key].to_numpy() for key in (name, f"{name}_at"))
+    return values, at
 
 
 def noted(data: xr.Dataset) -> dict[str, str]:

@@ -241,8 +241,11 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
 
 def lateral_capacity(data: xr.Dataset) -> FloatArray:
     """Return the bearings' displacements at the first rim contact, plates parallel [m]."""
-    reach = (data["rim_displacement"] / data["radius"]).min("surface")
-    return np.asarray((data["length"] * reach).to_numpy())
+    rim, radius = (
+        data.variables[name].transpose("bearing", "surface").to_numpy()
+        for name in ("rim_displacement", "radius")
+    )
+    return np.asarray(data.variables["length"].to_numpy() * (rim / radius).min(axis=1))
 
 
 def centre_shift(data: xr.Dataset) -> FloatArray:

@@ -55,9 +55,13 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         drifts, forces and accelerations in plan are sizes of vectors. What a run that stopped
         before its end would have left is NaN.
     """
+    return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+
+
+def peaks_of(data: xr.Dataset) -> list[Peak]:
+    """Return the rows of `peaks`."""
     parts = _of_bearings, _of_uplift, _of_structure, _of_yielding, _of_run
-    rows = [row for part in parts for row in part(data)]
-    return pd.DataFrame(rows, columns=Peak._fields).set_index("quantity")
+    return [row for part in parts for row in part(data)]
 
 
 def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
@@ -103,10 +107,10 @@ def _peak(quantity: str, unit: str, found: Extreme, names: Any = ()) -> Peak:
 
 
 def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
-    names, end = data["bearing"].to_numpy(), computed_until(data)
+    names, end = data.variables["bearing"].to_numpy(), computed_until(data)
     u, slip = largest(data, "displacement"), largest(data, "slip")
     over = Extreme(u.values / lateral_capacity(data), u.at)
-    overlap = Extreme(slip.values / data["slip_capacity"].to_numpy(), slip.at)
+    overlap = Extreme(slip.values / data.variables["slip_capacity"].to_numpy(), slip.at)
     left_over = {name: float(remaining(data, name).max()) for name in ("displacement", "slip")}
     yield _peak("bearing displacement", "m", u, names)
     yield _peak("bearing displacement over capacity", "1", over, names)
@@ -122,7 +126,7 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
 
 
 def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:
-    names = data["bearing"].to_numpy()
+    names = data.variables["bearing"].to_numpy()
     yield Peak("uplifts, all bearings", float(total(data, "uplifts")), "1")
     lasts = total(data, "time_lifted")
     worst = int(np.argmax(lasts))
@@ -134,15 +138,15 @@ def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:
 def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
     shear = largest(data, "base_shear")
     yield _peak("base shear", "N", shear)
-    over = Extreme(shear.values / float(data["weight"]), shear.at)
+    over = Extreme(shear.values / float(data.variables["weight"].to_numpy()), shear.at)
     yield _peak("base shear over weight", "1", over)
     if data.sizes["level"] > 0:
-        levels = data["level"].to_numpy()
+        levels = data.variables["level"].to_numpy()
         plan, vertical = (largest(data, f"floor_{way}") for way in ("plan", "vertical"))
         yield _peak("floor acceleration in plan, mean", "m/s2", plan, levels)
         yield _peak("floor acceleration, vertical, mean", "m/s2", vertical, levels)
-        on = data["level_node"].to_numpy() >= 0
-        nodes = data["node"].to_numpy()[on]
+        on = data.variables["level_node"].to_numpy() >= 0
+        nodes = data.variables["node"].to_numpy()[on]
         for text, name in ((" in plan", "node_plan"), (", vertical", "node_vertical")):
             if not on.any():  # none of them was recorded
                 continue
@@ -154,7 +158,7 @@ def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
 
 
 def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
-    storeys = [str(name) for name in data["level"].to_numpy()[1:]]
+    storeys = [str(name) for name in data.variables["level"].to_numpy()[1:]]
     mean = largest(data, "drift")
     yield _peak("storey drift, mean", "1", mean, storeys)
     names, storey_of = storeys_of_lines(data)
@@ -172,12 +176,12 @@ def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
 
 def _of_yielding(data: xr.Dataset) -> Iterator[Peak]:
     # Of links and hinges, where a structure has them.
-    links = data["link"].to_numpy() if "link" in data.dims else np.array([], dtype=str)
+    links = data.variables["link"].to_numpy() if "link" in data.dims else np.array([], dtype=str)
     yields = can_yield(data) if len(links) else np.array([], dtype=bool)
     if yields.any():
         yield _peak("link ductility", "1", _chosen(data, "link_ductility", yields), links[yields])
     if "hinge" in data.dims:
-        hinges = data["hinge"].to_numpy()
+        hinges = data.variables["hinge"].to_numpy()
         yield _peak("plastic rotation of hinges", "rad", largest(data, "hinge_rotation"), hinges)
     if yields.any() or "hinge" in data.dims:
         work, given = (float(largest(data, f"energy_{of}").values) for of in ("yielding", "input"))
@@ -195,7 +199,7 @@ def _chosen(data: xr.Dataset, name: str, which: BoolArray) -> Extreme:
 
 def _walls(data: xr.Dataset) -> BoolArray:
     # Stops have no deformation at yield, as dampers, but they never pull.
-    unlimited = np.isnan(data["link_yield_deformation"].to_numpy())
+    unlimited = np.isnan(data.variables["link_yield_deformation"].to_numpy())
     return np.asarray(unlimited & (largest(data, "link_reversal").values <= 0.0))
 
 

@@ -83,17 +83,23 @@ def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:
     return Extreme(np.take_along_axis(history, at[None], axis=0)[0], time[at])
 
 
+def later(old: Extreme, new: Extreme) -> Extreme:
+    """Return the larger of both, the older where they are equal; what is not a number stays so."""
+    more = (new.values > old.values) | (np.isnan(new.values) & ~np.isnan(old.values))
+    return Extreme(np.where(more, new.values, old.values), np.where(more, new.at, old.at))
+
+
 def total(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
     if REACHED + name in data.variables:
-        return data[REACHED + name].to_numpy()
+        return data.variables[REACHED + name].to_numpy()
     return TOTALS[name].of(data, 0, data.sizes["time"])
 
 
 def left(data: xr.Dataset, name: str) -> FloatArray:
     """Return a quantity of `LEFT` at the last step of the run."""
     if f"{REACHED}{name}_left" in data.variables:
-        return data[f"{REACHED}{name}_left"].to_numpy()
+        return data.variables[f"{REACHED}{name}_left"].to_numpy()
     return np.asarray(QUANTITIES[name].of(data)[-1])
 
 
@@ -105,14 +111,16 @@ def remaining(data: xr.Dataset, name: str) -> FloatArray:
 def computed_until(data: xr.Dataset) -> float:
     """Return the time of the last base step of a run [s]."""
     name = "until"
-    return float(data[REACHED + name]) if REACHED + name in data else float(data["time"][-1])
+    kept = data.variables.get(REACHED + name)
+    return float(data["time"][-1]) if kept is None else float(kept)
 
 
 def storeys_of_lines(data: xr.Dataset) -> tuple[list[str], list[str]]:
     """Return the names of the lines of nodes over one another, and of the storey of each."""
     if f"{REACHED}line_storey" in data.variables:
-        storeys = [str(name) for name in data[f"{REACHED}line_storey"].to_numpy()]
-        return [str(name) for name in data["line"].to_numpy()], storeys
+        both = (data.variables[key].to_numpy() for key in ("line", f"{REACHED}line_storey"))
+        lines, storeys = ([str(name) for name in each] for each in both)
+        return lines, storeys
     _, upper, level = lines_of(data)
     names, levels = data["node"].to_numpy(), data["level"].to_numpy()
     return [str(names[k]) for k in upper], [str(levels[k]) for k in level]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -190,6 +191,10 @@ class LIRBearing(Specification):
 
     def to_record(self) -> Records:
         """Return the kernels' properties, a record array of shape (1,)."""
+        return self._record.copy()
+
+    @cached_property
+    def _record(self) -> Records:
         record = np.full(1, np.nan, dtype=[(f.name, "f8", f.shape) for f in PROPS_FIELDS])
         radii, laws, options = self.radii, self.frictions, self.resolved()
         thickness = as_pair("plate_thickness", self.plate_thickness)

@@ -18,6 +18,7 @@ from lir_element.errors import (
     failure_message,
 )
 from lir_element.layout import PROPS_BY_NAME
+from lir_element.results.deferred import deferred
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,7 +45,9 @@ def labelled(dims: tuple[str, ...], values: Any, units: str, long_name: str) -> 
     return xr.Variable(dims, values, {"units": units, "long_name": long_name})
 
 
-def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str, xr.Variable]:
+def bearing_variables(
+    step: str, states: Records, velocity: Any, *, kept: bool = False
+) -> dict[str, xr.Variable]:
     """Return the variables of the contract from states (n_steps, n_bearings).
 
     Parameters
@@ -53,14 +56,23 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         Name of the first dimension, 'time' or 'step'.
     states : records, shape (n_steps, n_bearings)
         Committed states.
-    velocity : ndarray, shape (n_steps, n_bearings, 3)
+    velocity : ndarray or `deferred`, shape (n_steps, n_bearings, 3)
         Velocity of node j relative to node i [m/s].
+    kept : bool
+        Whether the states stay as they are: they are not copied then.
 
     Returns
     -------
     dict
         Variables by name.
     """
+
+    def own(field: Floats) -> Floats:
+        return field if kept else field.copy()
+
+    def moments() -> Floats:
+        return np.stack([f[..., 3:6], f[..., 9:12]], axis=-2)
+
     u, f = states["displacement"], states["force"]
     each = (step, "bearing")
     vector, surface = (*each, "axis"), (*each, "surface")
@@ -72,31 +84,31 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
         "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
         "bearing_force": labelled(
             vector,
-            f[..., 6:9].copy(),
+            own(f[..., 6:9]),
             "N",
             "resisting force on node j, positive with positive displacement",
         ),
         "bearing_moment": labelled(
             (*each, "end", "axis"),
-            np.stack([f[..., 3:6], f[..., 9:12]], axis=-2),
+            deferred((*states.shape, 2, 3), moments) if kept else moments(),
             "N m",
             "resisting moment on node i and on node j",
         ),
         "axial_force": labelled(
-            each, states["axial_force"].copy(), "N", "axial force, compression positive"
+            each, own(states["axial_force"]), "N", "axial force, compression positive"
         ),
         "slider_displacement": labelled(
             (*surface, "axis"),
-            states["slider_displacement"].copy(),
+            own(states["slider_displacement"]),
             "m",
             "sliding on each concave surface",
         ),
         "interface_slip": labelled(
-            vector, states["slip_total"].copy(), "m", "top slider relative to bottom slider"
+            vector, own(states["slip_total"]), "m", "top slider relative to bottom slider"
         ),
         "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
         "slider_spin": labelled(
-            each, states["spin"].copy(), "rad", "spin of the sliders about their axis, mean of both"
+            each, own(states["spin"]), "rad", "spin of the sliders about their axis, mean of both"
         ),
         "interface_force": labelled(
             each,
@@ -104,40 +116,40 @@ def bearing_variables(step: str, states: Records, velocity: Floats) -> dict[str,
             "N",
             "force that the interface passes in its plane",
         ),
-        "rim_force": labelled(surface, states["rim_force"].copy(), "N", "radial force of each rim"),
+        "rim_force": labelled(surface, own(states["rim_force"]), "N", "radial force of each rim"),
         "rim_closure": labelled(
-            surface, states["rim_closure"].copy(), "m", "deformation of each rim"
+            surface, own(states["rim_closure"]), "m", "deformation of each rim"
         ),
         "friction_coefficient": labelled(
             surface,
-            states["friction_coefficient"].copy(),
+            own(states["friction_coefficient"]),
             "1",
             "friction coefficient of each surface",
         ),
         "sliding_speed": labelled(
-            surface, states["sliding_speed"].copy(), "m/s", "sliding speed on each surface"
+            surface, own(states["sliding_speed"]), "m/s", "sliding speed on each surface"
         ),
         "torsional_moment": labelled(
-            each, states["torque"].copy(), "N m", "friction moment about the vertical axis"
+            each, own(states["torque"]), "N m", "friction moment about the vertical axis"
         ),
         "work_low_friction": labelled(
-            surface, states["work_friction"].copy(), "J", "dissipated by low friction, each surface"
+            surface, own(states["work_friction"]), "J", "dissipated by low friction, each surface"
         ),
         "work_high_friction": labelled(
-            each, states["work_interface"].copy(), "J", "dissipated by the high-friction interface"
+            each, own(states["work_interface"]), "J", "dissipated by the high-friction interface"
         ),
         "work_friction_elastic": labelled(
             each,
-            states["work_elastic"].copy(),
+            own(states["work_elastic"]),
             "J",
             "stored in the elastic sliding before slip, all friction",
         ),
         "work_rims": labelled(each, states["work_rim"].sum(axis=-1), "J", "work done on the rims"),
         "work_contact": labelled(
-            each, states["work_contact"].copy(), "J", "work done on the axial contact"
+            each, own(states["work_contact"]), "J", "work done on the axial contact"
         ),
         "work_sliders": labelled(
-            each, states["work_sliders"].copy(), "J", "taken up by the sliders' own mass"
+            each, own(states["work_sliders"]), "J", "taken up by the sliders' own mass"
         ),
     }
 

@@ -1,0 +1,268 @@
+"""One run among many: in arrays that its thread uses again and again, to a row of numbers."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames.analysis.outcome import culprit, ended, judged
+from frames.analysis.recorder import Recorder
+from frames.analysis.recording import Recording
+from frames.analysis.reduction import judgeable_of
+from frames.analysis.stacking import NUMBERS, Layout, Row, reached_row
+from frames.analysis.transient import begin, march, settings_of
+from frames.analysis.workspace import PeakRecorder, Structure, Workspace, set_up
+from frames.kernel_data import ENERGY_TERMS, Ground
+from frames.motion.shaking import seen_by_steps
+from frames.results.auditing import audit_report, doubts_of
+from frames.results.kept import REACHED
+from frames.results.peaks import peaks_of
+from lir_element.errors import AnalysisError, RunStatus, failure_message
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.analysis.cases import Case
+    from frames.analysis.static import GravityState
+    from frames.analysis.transient import Options
+    from frames.model.contents import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+    from lir_element.device.features import Features
+
+
+class Kept(NamedTuple):
+    """What is kept of each run besides what it reached."""
+
+    recording: Recording
+    histories: bool
+
+
+class _Ended(NamedTuple):
+    # A run: how it ended, what the audit reads, energy at the end, what is recorded besides.
+    status: RunStatus
+    data: xr.Dataset
+    energy: FloatArray
+    histories: xr.Dataset | None
+
+
+class Runner:
+    """The runs of `time_histories`, and the structures that they share.
+
+    Parameters
+    ----------
+    models, motions, options : mapping
+        Structures, motions, and the options of the runs under each motion, by name.
+    cases : sequence of Case
+        The runs.
+    features : Features
+        What is modelled.
+    level : str or mapping
+        Levels of the bearings.
+    kept : Kept
+        What is kept of each run.
+    """
+
+    def __init__(
+        self,
+        models: Mapping[str, FrameContents],
+        motions: Mapping[str, GroundMotion],
+        options: Mapping[str, Options],
+        cases: Sequence[Case],
+        features: Features,
+        level: str | Mapping[str, str],
+        kept: Kept,
+    ) -> None:
+        self.cases = cases
+        self.motions, self.options = motions, options
+        self.features, self.kept = features, kept
+        self._models, self._level = models, level
+        self._shared: dict[str, Structure | AnalysisError] = {}
+        self._left = {name: 0 for name in models}
+        for case in cases:
+            self._left[case.model] += 1
+        self._lock = threading.Lock()
+
+    def worker(self, is_stopped: Callable[[], bool]) -> Worker:
+        """Return what one thread runs with; `is_stopped` says whether to leave off."""
+        return Worker(self, is_stopped)
+
+    def structure(self, name: str) -> Structure | AnalysisError:
+        """Return a structure, set up by the first who asks, or why it has no equilibrium."""
+        with self._lock:
+            if name not in self._shared:
+                self._shared[name] = self._set_up(name)
+            return self._shared[name]
+
+    def done(self, name: str) -> None:
+        """Let go of a structure when its last run is done."""
+        with self._lock:
+            self._left[name] -= 1
+            if not self._left[name]:
+                self._shared.pop(name, None)
+
+    def _set_up(self, name: str) -> Structure | AnalysisError:
+        try:
+            return set_up(self._models[name], self.features, self._level)
+        except AnalysisError as failure:
+            return failure
+
+
+class Worker:
+    """One thread's runs.
+
+    Parameters
+    ----------
+    runner : Runner
+        What is run.
+    is_stopped : callable
+        Whether to leave off.
+    """
+
+    def __init__(self, runner: Runner, is_stopped: Callable[[], bool]) -> None:
+        self._runner, self._is_stopped = runner, is_stopped
+        self._workspace: Workspace | None = None
+        self._recorder: PeakRecorder | None = None
+
+    def row(self, place: int) -> Row | None:
+        """Run a case; None where it was stopped."""
+        case = self._runner.cases[place]
+        structure = self._runner.structure(case.model)
+        if isinstance(structure, AnalysisError):
+            row: Row | None = _without_rest(place, structure)
+        else:
+            run = self._run(case, self._own(structure))
+            row = None if run is None else _row_of(place, run, structure.layout)
+        self._runner.done(case.model)
+        return row
+
+    def _own(self, structure: Structure) -> Workspace:
+        if self._workspace is None or self._workspace.structure is not structure:
+            self._workspace, self._recorder = Workspace(structure), None
+        return self._workspace
+
+    def _run(self, case: Case, workspace: Workspace) -> _Ended | None:
+        runner, state, structure = self._runner, workspace.reset(), workspace.structure
+        options = runner.options[case.motion]
+        motion = runner.motions[case.motion].scaled(case.scale)
+        shaking = motion
+        if not runner.features.second_direction:
+            shaking = motion.scaled([1.0, 0.0, 1.0])
+        settings = settings_of(state, options)
+        ground = Ground(*seen_by_steps(shaking, settings.dt))
+        recorder: PeakRecorder | _Recorder
+        if structure.gauges is None or runner.kept.histories:
+            recorder = _Recorder(
+                structure.model, motion, state, ground, options.steps, options.recording
+            )
+            recorder.is_stopped = self._is_stopped
+        else:
+            recorder = self._recorder or PeakRecorder(workspace, self._is_stopped)
+            recorder.renew(motion, ground)
+            self._recorder = recorder
+        begin(state, ground)
+        code, seconds = march(state, settings, ground, recorder, options)
+        if code is RunStatus.INTERRUPTED:
+            return None
+        return self._judged(recorder, state, ended(state, code), structure, options, seconds)
+
+    def _judged(
+        self,
+        recorder: PeakRecorder | _Recorder,
+        state: GravityState,
+        end: tuple[RunStatus, str],
+        structure: Structure,
+        options: Options,
+        seconds: float,
+    ) -> _Ended:
+        # What became of a run, as `time_history` judges it.
+        (status, detail), clock, counts = end, state.run.clock[0], state.run.counts[0]
+        done, time = int(clock["done"]), float(clock["time"])
+        data = recorder.data(done).assign_attrs(
+            structure.template.attrs, integrator=options.integrator, seconds_loop=seconds
+        )
+        energy = recorder.out.energy[done - recorder.first].copy()
+        whole, data = data, judgeable_of(data) if "time" in data.dims else data
+        data.attrs["audit"] = audit_report(data)
+        name = state.system.bearings[int(counts["bearing"])][0]
+        where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
+        if status is RunStatus.OK:
+            status, detail = judged(data)
+        message = "completed" + (f": {detail}" if detail else "")
+        if status is not RunStatus.OK:
+            message = failure_message(status, time, where, detail)
+            if status is not RunStatus.INACCURATE:
+                data.attrs |= {"failed_at": time, "failed_where": where}
+        data.attrs |= {"status": status.name.lower(), "message": message}
+        data.attrs |= {name: int(counts[name]) for name in ("steps", "halvings")}
+        histories = None
+        if self._runner.kept.histories and isinstance(recorder, _Recorder):
+            recorded = whole if "time" in whole.dims else recorder.recorded(data)
+            histories = _histories(recorded, structure.template)
+        return _Ended(status, data, energy, histories)
+
+
+class _Recorder(Recorder):
+    # One that leaves off when it is told to.
+
+    is_stopped: Callable[[], bool]
+
+    def room(self, done: int) -> int:
+        if self.is_stopped():
+            raise KeyboardInterrupt
+        return super().room(done)
+
+
+def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
+    # What is recorded of a run besides what it reached, and what its structure has anyway.
+    known = {*template.data_vars, "nodes_of_level"}
+    names = [
+        name
+        for name in recorded.data_vars
+        if name not in known and not str(name).startswith(REACHED)
+    ]
+    return recorded[names].drop_attrs(deep=False)
+
+
+def _row_of(place: int, run: _Ended, layout: Layout) -> Row:
+    # A run as numbers.
+    attrs = run.data.attrs
+    return Row(
+        place=place,
+        status=attrs["status"],
+        message=attrs["message"],
+        failed_at=float(attrs.get("failed_at", math.nan)),
+        failed_where=str(attrs.get("failed_where", "")),
+        audit=attrs["audit"],
+        doubts="; ".join(doubts_of(run.data)),
+        peaks=tuple(peaks_of(run.data)),
+        numbers={name: float(attrs.get(name, math.nan)) for name in NUMBERS},
+        energy=run.energy,
+        reached=reached_row(run.data, layout),
+        layout=layout,
+        histories=run.histories,
+    )
+
+
+def _without_rest(place: int, failure: AnalysisError) -> Row:
+    # A run of a structure that has no equilibrium to start from.
+    return Row(
+        place=place,
+        status=failure.status.name.lower(),
+        message=str(failure),
+        failed_at=0.0,
+        failed_where=failure.where,
+        audit="",
+        doubts="",
+        peaks=(),
+        numbers={},
+        energy=np.full(len(ENERGY_TERMS), np.nan),
+        reached=np.zeros(0),
+        layout=None,
+        histories=None,
+    )

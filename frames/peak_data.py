@@ -1,0 +1,68 @@
+"""Bundles of arrays with which largest values are kept while a run goes on (kernels/peaking.py)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Array = npt.NDArray[Any]
+
+
+class Devices(NamedTuple):
+    """What the peaks of bearings are formed with."""
+
+    records: Array  # (n_bearings,) PROPS, everything modelled
+    height: Array  # (n_bearings,) of the interface over the vertex of the bottom cap [m]
+    radius: Array  # (n_bearings,) of the bottom surface as the run models it [m]
+    floor: Array  # (n_bearings,) axial force below which there is no eccentricity [N]
+    static: Array  # (n_bearings,) axial force under permanent loads [N]
+    on_ground: Array  # (n_bearings,) 1 where node i is fixed
+
+
+class Shape(NamedTuple):
+    """What the peaks of the structure are formed with: rows over free degrees of freedom.
+
+    With ``x = (b, eta, beyond)`` those that are needed are ``moves.T @ x + rest`` and, of
+    accelerations, ``rates.T @ x``; rows are sparse.
+    """
+
+    moves: Array  # (n_x, n_u)
+    rest: Array  # (n_u,)
+    rates: Array  # (n_x, n_a)
+    mass_e: Array  # (n_e,) 0 of what lags without mass: it has no acceleration of use
+    u_start: Array  # rows over displacements: pairs of drifts, then of lines, then three of shear
+    u_place: Array
+    u_value: Array
+    shear: Array  # (3, m + 1) base shear of other supports: of forces beyond, constant
+    a_start: Array  # rows over accelerations: three a node, then three a level
+    a_place: Array
+    a_value: Array
+    sizes: Array  # (4,) nodes, levels, storeys, lines
+    x: Array  # scratch: (AT_ONCE, n_x), (AT_ONCE, n_u), (AT_ONCE, n_x), (AT_ONCE, n_a)
+    u: Array
+    x_rate: Array
+    a: Array
+
+
+class Reached(NamedTuple):
+    """Largest values so far and their times; changed in place."""
+
+    bearing: Array  # (n_bearings, columns)
+    bearing_at: Array
+    axis: Array  # (3,) displacement along each axis
+    axis_at: Array
+    node: Array  # (n_nodes, 2) accelerations in plan, vertical
+    node_at: Array
+    level: Array  # (n_levels, 2)
+    level_at: Array
+    storey: Array  # (n_storeys,)
+    storey_at: Array
+    line: Array  # (n_lines,)
+    line_at: Array
+    whole: Array  # (5,) base shear, terms of the energy
+    whole_at: Array
+    total: Array  # (3,) sliding work, what it is lower by, uplifts
+    lifted: Array  # (n_bearings, 2) time lifted off [s]; 1 where lifted off at the last step
+    last: Array  # (2,) time of the last step taken up, and their number
