@@ -44,10 +44,7 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
     n_b, n_e = model.mass_be.shape
     for a in range(n_b):
         for c in range(n_b):
-            out[a, c] = (
-                c_m * model.mass_b[a, c]
-                + (c_k * model.stiffness_b[a, c])
-            )
+            out[a, c] = c_m * model.mass_b[a, c] + (c_k * model.stiffness_b[a, c])
             if model.damping_b.shape[0] > 0:
                 out[a, c] += c_c * model.damping_b[a, c]
     if model.damping_ee.shape[0] > 0:

@@ -236,7 +236,9 @@ def solve_gravity(
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
     run.clock[0].kept = 0
-    code = newton(model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations, 0.0)
+    code = newton(
+        model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations, 0.0
+    )
     run.clock[0].kept = 0
     if code != _OK:
         return code
