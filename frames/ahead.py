@@ -30,7 +30,7 @@ _BEARING = LIRBearing(
     slider_radius=0.1,
     capacity=0.2,
     friction=CoulombFriction(0.05),
-    interface_friction=0.1,
+    interface_friction=0.12,
 )
 _MASS = 1e5  # kg
 
