@@ -287,8 +287,8 @@ def write() -> str:
         "",
         "## Start",
         "",
-        "Seconds of CPU of a new process until the first result: with an empty kernel cache (compiling), "
-        "with a filled one, and for the imports alone.",
+        "Seconds of CPU of a new process until the first result: with an empty kernel cache "
+        "(compiling), with a filled one, and for the imports alone.",
         "",
         "| first | cold | cached | imports |",
         "|---|---|---|---|",
