@@ -4,6 +4,7 @@ numba's own cache does not notice an edit in a *callee* of another file, and whe
 be written it takes another one, which the hash of the sources does not name. Here a kernel is kept
 under the hash of all sources that it may depend on, behind a checksum. Whatever goes wrong (no
 folder, no space, a damaged file, sources edited since) means compiling in memory, with one warning.
+What is not kept there may have come with the wheel (`_shipped`).
 """
 
 from __future__ import annotations
@@ -16,13 +17,18 @@ import sys
 import uuid
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import llvmlite
 import numba
 from numba.core.caching import NullCache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
+
+from lir_element import _shipped
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
             "parts_layout.py", "bundles/*.py", "opensees/block/*.py")  # fmt: skip
@@ -35,6 +41,9 @@ _DIGEST = hashlib.sha256().digest_size
 _UNREADABLE = (pickle.PickleError, AttributeError, EOFError, ImportError, LookupError, TypeError,
                ValueError)  # fmt: skip
 _said: set[str] = set()
+
+taken: set[Path] = set()
+"""Files that this process took kernels from."""
 
 
 def compiled_sources(folder: Path) -> list[Path]:
@@ -161,33 +170,44 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         folder = self._sources.folder()
         return None if folder is None else str(folder)
 
-    def _key(self, signature: Any, codegen: Any) -> tuple[Any, ...]:
-        return (self._name, signature, codegen.magic_tuple(), VERSIONS)
+    def _key(self, signature: Any, processor: Any) -> tuple[Any, ...]:
+        return (self._name, signature, processor, VERSIONS)
 
-    def _path(self, key: tuple[Any, ...]) -> Path | None:
-        folder = self._sources.folder()
+    def _path(self, key: tuple[Any, ...], folder: Path | None) -> Path | None:
         code = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
         return None if folder is None else folder / f"{self._name}-{code}.kernel"
+
+    def _places(self, signature: Any, codegen: Any) -> Iterator[tuple[tuple[Any, ...], Path]]:
+        # Keys and files that may hold the kernel, the best first.
+        processor = codegen.magic_tuple()
+        for target, folder in (
+            (processor, self._sources.folder()),
+            (_shipped.shipped_for(processor), _shipped.FOLDER / self._sources.hash),
+        ):
+            key = self._key(signature, target)
+            path = None if target is None else self._path(key, folder)
+            if path is not None:
+                yield key, path
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the compiled kernel for a signature, or None if it has to be compiled."""
         target_context.refresh()
-        key = self._key(sig, target_context.codegen())
-        path = self._path(key)
-        if path is None or not self._sources.unchanged():
+        if not self._sources.unchanged():
             return None
-        try:
-            content = path.read_bytes()
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except OSError as error:
-            _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
-            return None
-        reduced = self._opened(key, content)
-        if reduced is None:
+        for key, path in self._places(sig, target_context.codegen()):
+            try:
+                content = path.read_bytes()
+            except (FileNotFoundError, NotADirectoryError):
+                continue
+            except OSError as error:
+                _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
+                continue
+            reduced = self._opened(key, content)
+            if reduced is not None:
+                taken.add(path)
+                return CompileResult._rebuild(target_context, *reduced)
             _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
-            return None
-        return CompileResult._rebuild(target_context, *reduced)
+        return None
 
     @staticmethod
     def _opened(key: tuple[Any, ...], content: bytes) -> Any:
@@ -205,6 +225,6 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         lasting = not data.library.has_dynamic_globals and not data.lifted
         if "again" in _said or not lasting or not self._sources.unchanged():
             return
-        key = self._key(sig, data.codegen)
+        key = self._key(sig, data.codegen.magic_tuple())
         content = dumps((key, data._reduce()))
-        keep(self._path(key), hashlib.sha256(content).digest() + content)
+        keep(self._path(key, self._sources.folder()), hashlib.sha256(content).digest() + content)

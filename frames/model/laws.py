@@ -11,8 +11,6 @@ import math
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from scipy.optimize import brentq
-
 from frames._errors import ModelError
 from lir_element.door import require_between, require_non_negative, require_positive, require_type
 
@@ -277,6 +275,8 @@ class Stop:
             turn = math.pi - math.atan2(2.0 * ratio * w, 1.0 - 2.0 * ratio * ratio)
             return math.exp(-ratio / w * turn) - e
 
+        from scipy.optimize import brentq  # imported by those few who ask for it
+
         ratio = brentq(left, 0.0, 1.0 - 1e-9, xtol=1e-12) if e < 1.0 else 0.0
         return 2.0 * float(ratio) * math.sqrt(k * m)
 
@@ -324,6 +324,8 @@ class HertzStop:
 
         if e > 1.0 - 1e-6:
             return 0.0
+        from scipy.optimize import brentq
+
         return float(brentq(open_loop, 1e-3 * (1.0 - e), (1.0 - 1e-12) / e, xtol=1e-14))
 
 

@@ -26,7 +26,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from scipy.signal import lfilter
 
 from frames._errors import MotionError
 from lir_element.door import require_between
@@ -158,6 +157,8 @@ def _peak_displacement(
     phi_2 = (phi_1 - 1.0) / z
     new, old = step * phi_2, step * (phi_1 - phi_2)
     at_rest = np.array([-new * acceleration[0]])  # q = 0 at the first sample
+    from scipy.signal import lfilter  # half of the time that `import frames` took
+
     q, _ = lfilter([new, old], [1.0, -np.exp(z)], acceleration, zi=at_rest)
     after = np.arange(1, POINTS_PER_PERIOD + 1) * (period / POINTS_PER_PERIOD)
     free = q[-1] * np.exp(pole * after)

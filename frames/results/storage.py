@@ -10,9 +10,7 @@ import uuid
 from collections.abc import Hashable, Mapping
 from pathlib import Path
 
-import h5netcdf
 import xarray as xr
-from xarray.backends import H5NetCDFStore
 
 
 def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
@@ -55,6 +53,9 @@ def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
     OSError
         If the file cannot be written; the message names it.
     """
+    import h5netcdf  # with HDF5 in its train
+    from xarray.backends import H5NetCDFStore
+
     whole = io.BytesIO()
     with h5netcdf.File(whole, "w") as file:
         for name, data in results.items():

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from scipy.spatial.transform import Rotation
 
 from lir_element.errors import (
     AnalysisError,
@@ -171,6 +170,8 @@ def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str
     dict
         Variables by name; dimension 'body' is bottom_slider, top_slider, top_plate.
     """
+    from scipy.spatial.transform import Rotation  # as long to import as numba, for this level
+
     dims = (step, "bearing", "body", "axis")
     turns = Rotation.from_quat(bodies["turn"][..., :2, :].reshape(-1, 4), scalar_first=True)
     rotation = np.zeros((*displacement.shape[:2], 3, 3))

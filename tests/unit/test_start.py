@@ -1,0 +1,113 @@
+"""The first start: what importing loads, what a wheel's kernels save, what is compiled ahead."""
+
+import os
+import platform
+import subprocess  # what a new process does  # noqa: S404
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numba.core import event
+
+from frames import GroundMotion, ahead, lumped_mass, moment_frame, time_history
+from lir_element import LIRBearing, VelocityFriction, _cache, _shipped
+from lir_element._jit import kernels_of
+
+COMPILES = pytest.mark.skipif(
+    os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
+)
+KERNEL = """
+import math
+@kernel
+def law(x):
+    return math.exp(x) * (2.0 * x + 1.0 / 3.0)
+"""
+COMPILE = (
+    "import sys; sys.path.insert(0, {tests!r}); from test_start import law_of; "
+    "from pathlib import Path; print(law_of(Path({folder!r}))(0.7).hex())"
+)
+HEAVY = ("scipy.signal", "scipy.stats", "scipy.optimize", "scipy.spatial", "matplotlib", "h5py")
+
+
+def law_of(folder: Path):
+    names = {"kernel": kernels_of(_cache.Sources(folder)), "__name__": "package"}
+    exec(compile(KERNEL, str(folder / "law.py"), "exec"), names)  # noqa: S102
+    return names["law"]
+
+
+def test_imports_leave_out_what_most_runs_do_without() -> None:
+    code = f"import frames, sys; print([name for name in {HEAVY} if name in sys.modules])"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    assert out.stdout.strip() == "[]"
+
+
+@COMPILES
+@pytest.mark.skipif(_shipped.baseline(platform.machine()) is None, reason="none are shipped")
+def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package, wheel = tmp_path / "package", tmp_path / "wheel"
+    (package / "kernels").mkdir(parents=True)
+    (package / "kernels" / "law.py").write_text(KERNEL, encoding="utf-8")
+    environment = {
+        **os.environ,
+        "LIR_CACHE_DIR": str(wheel),
+        "NUMBA_CPU_NAME": str(_shipped.baseline(platform.machine())),
+        "NUMBA_CPU_FEATURES": "",
+    }
+    code = COMPILE.format(tests=str(Path(__file__).parent), folder=str(package))
+    shipped = subprocess.run(  # noqa: S603
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    ).stdout.strip()
+    monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
+    native = law_of(package)
+    assert native(0.7).hex() == shipped
+    assert sum(native.stats.cache_misses.values()) == 1
+    monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "empty"))
+    monkeypatch.setattr(_shipped, "FOLDER", wheel)
+    taken = law_of(package)
+    assert taken(0.7).hex() == shipped
+    assert sum(taken.stats.cache_misses.values()) == 0
+    (package / "kernels" / "law.py").write_text(KERNEL + "# edited\n", encoding="utf-8")
+    edited = law_of(package)
+    edited(0.7)
+    assert sum(edited.stats.cache_misses.values()) == 1
+
+
+def test_kernels_of_the_wheel_are_left_where_the_processor_lacks_what_they_use(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(_shipped, "FOLDER", tmp_path)
+    triple = "x86_64-unknown-linux-gnu"
+    name, needs = _shipped._BASELINES["x86_64"]
+    has = ",".join(f"+{need}" for need in needs.split(","))
+    assert _shipped.shipped_for((triple, "znver3", has + ",-avx512f")) == (triple, name, "")
+    assert _shipped.shipped_for((triple, "ivybridge", has.replace("+avx2", "-avx2"))) is None
+    assert _shipped.shipped_for(("arm64-apple-darwin", "apple-m1", "+neon")) is not None
+    assert _shipped.shipped_for(("riscv64-unknown-linux-gnu", "generic", "")) is None
+    assert _shipped.baseline("AMD64") == name
+    assert _shipped.baseline("riscv64") is None
+    monkeypatch.setattr(_shipped, "FOLDER", tmp_path / "none")
+    assert _shipped.shipped_for((triple, "znver3", has)) is None
+
+
+@COMPILES
+@pytest.mark.slow
+def test_usual_analyses_compile_nothing_that_was_not_compiled_ahead() -> None:
+    assert set(ahead.compile_usual()) == set(ahead.USUAL)
+    bearing = LIRBearing(
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.25,
+        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
+        interface_friction=0.13,
+    )
+    shaking = np.full(4, 0.5)
+    motion = GroundMotion(x=shaking, y=shaking, z=0.1 * shaking, dt=0.005)
+    with event.install_recorder("numba:compile") as recorder:
+        for level in ("pendulum", "contact", "rigid_body"):
+            time_history(lumped_mass(bearing, 2e5), motion, level=level)
+        time_history(moment_frame(bearing=bearing), motion, integrator="generalised-alpha")
+    assert [e.data["dispatcher"].__name__ for _, e in recorder.buffer if e.is_start] == []
