@@ -128,7 +128,9 @@ def assumed() -> dict[str, Any]:
 
 def setting_of(values: dict[str, Any]) -> Setting:
     """Return a setting from what was kept of it."""
-    parts = {name: tuple(v) if isinstance(v, list) else v for name, v in values.items()}
+    parts: dict[str, Any] = {
+        name: tuple(v) if isinstance(v, list) else v for name, v in values.items()
+    }
     return Setting(**parts)
 
 
