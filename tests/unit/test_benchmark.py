@@ -23,7 +23,16 @@ from validation.measurements.benchmark_runs import (
     run_there,
 )
 from validation.measurements.benchmark_search import coarsest, setting_of
-from validation.measurements.benchmark_tables import goals, power, rival, verdict
+from validation.measurements.benchmark_tables import (
+    bound,
+    goals,
+    power,
+    rival,
+    second_cost,
+    step_cost,
+    verdict,
+    whole_cost,
+)
 
 
 def runs(*errors):
@@ -59,7 +68,14 @@ def test_multiply_adds_of_one_bearing_by_hand():
 
 def kept(ratio):
     """Return results of a mass on one bearing where OpenSees costs `ratio` times as much."""
-    there = {"dt": 0.01, "error": 1e-3, "setting": asdict(USUAL), "whole": 1.0, "rescued": 0}
+    there = {
+        "dt": 0.01,
+        "error": 1e-3,
+        "setting": asdict(USUAL),
+        "loop": 0.8,
+        "whole": 1.0,
+        "rescued": 0,
+    }
     run = asdict(Run(0.01, 1200, 0.01, 0.1, 0.2))
     here = {"direct": {"runs": [run], "errors": [1e-3], "dt": 0.01, "reference": 0.2},
             "reduced": {"refused": "refused: not here"}}  # fmt: skip
@@ -76,6 +92,21 @@ def kept(ratio):
         "pairs": {**dict.fromkeys(kinds, pairs), kinds[1]: {**pairs, "best": 0.05 * ratio}},
     }  # fmt: skip
     return {"a": found, "machine": "a machine"}
+
+
+def test_costs_of_a_step_of_a_second_and_of_a_whole_run():
+    found = kept(25.0)["a"]
+    assert step_cost(found, "singleFPBearing", "best") == pytest.approx(2.5 * 0.01 / 8.0)
+    assert step_cost(found, "singleFPBearing", "direct") == pytest.approx(0.1 * 0.01 / 8.0)
+    assert math.isnan(step_cost(found, "singleFPBearing", "reduced"))
+    assert second_cost(found, "singleFPBearing", "usual") == pytest.approx(5.0 / 8.0)
+    assert whole_cost(found, "singleFPBearing") == (1.0, 0.1)
+
+
+def test_what_bounds_a_step():
+    spent = {"step": 10.0, "states": 6.0, "tangents": 2.0, "arithmetic": 1.0}
+    assert bound(spent) == "the bearings' state determinations (60 %)"
+    assert bound({**spent, "step": 100.0}).startswith("what is left")
 
 
 def test_the_rival_is_the_cheapest_of_opensees_own_elements():

@@ -115,7 +115,7 @@ def _largest(
         if runs[-1].status == "ok" and error(runs[-1], reference) <= ALLOWED:
             return {
                 "dt": dt, "error": error(runs[-1], reference), "setting": asdict(setting),
-                "whole": runs[-1].whole, "rescued": runs[-1].rescued,
+                "loop": runs[-1].loop, "whole": runs[-1].whole, "rescued": runs[-1].rescued,
             }  # fmt: skip
     return {"dt": math.nan, "error": math.nan, "setting": asdict(setting)}
 
