@@ -15,7 +15,7 @@ import numpy as np
 import frames
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark_models import STRUCTURES, motion_of
-from validation.measurements.benchmark_runs import run_here, run_there
+from validation.measurements.benchmark_runs import BEARINGS_ALONE, run_here, run_there
 from validation.opensees.worker import Worker
 
 if TYPE_CHECKING:
@@ -80,7 +80,8 @@ def _one_by_one(frame: Frame, dt: float) -> None:
     cases = [motion.scaled(scale) for motion in motions().values() for scale in SCALES]
 
     def peak(motion: GroundMotion) -> float:
-        return run_here(frame, motion, LENGTH, dt).peak
+        data = frames.time_history(frame, motion, LENGTH, dt, recording=BEARINGS_ALONE)
+        return float(data["bearing_displacement"].max())
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(peak, cases))
