@@ -171,7 +171,7 @@ def goals(kept: dict[str, Any]) -> list[tuple[str, ...]]:
                 if found is None:
                     rows.append((what, device, "no setting of OpenSees keeps the error", "-"))
                     continue
-                got = f"{found.ratio:.0f} ({found.kind}; here {found.method})"
+                got = f"{found.ratio:.3g} ({found.kind}; here {found.method})"
                 rows.append((what, device, got, verdict(goal, found.ratio)))
     if kept.get("e", {}).get("state") == "ok":
         rows += batch_goals(kept["e"]["here"])
