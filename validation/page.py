@@ -227,7 +227,9 @@ def index(folder: Path = FOLDER) -> str:
         "skipped where `LIR_RECORDS` names no folder that holds it: the record is not part of "
         "this repository.",
         head + "\n" + "\n".join(rows),
-        "Besides: [speed_error.md](speed_error.md), error over cost of every level and step in "
+        "Besides: [benchmark.md](benchmark.md), cost for the same accuracy, beside OpenSees "
+        "(`python -m validation.measurements.benchmark`), "
+        "[speed_error.md](speed_error.md), error over cost of every level and step in "
         "nine scenes (`python -m validation.measurements.speed_error`), "
         "[hard_cases.md](hard_cases.md), "
         "what is hard to compute (`python -m validation.measurements.hard_cases`), "

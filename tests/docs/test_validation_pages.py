@@ -10,8 +10,8 @@ import validation
 from validation.page import CLAIMS, FOLDER, index
 
 MEASUREMENTS = (
-    "speed_error", "hard_cases", "opensees_hard_cases", "opensees_cost", "opensees_public_models",
-    "random_scenes",
+    "benchmark", "speed_error", "hard_cases", "opensees_hard_cases", "opensees_cost",
+    "opensees_public_models", "random_scenes",
     "slip", "yielding", "yielding_comparison",
 )  # fmt: skip
 PACKAGE = Path(str(validation.__file__)).parent

@@ -103,9 +103,10 @@ CASES = (
     Case("ties with slack", "ElasticPPGap", lambda: equipped(TIE), WEAK, 2e-3, 4.0),
     Case("walls, elastic", "ViscoelasticGap", lambda: equipped(WALL), 1.0, 5e-4, 2.4, works=False),
     Case("walls, Hertz", "Hertzdamp", lambda: equipped(POUNDING), 1.0, 5e-4, 2.4),
-    Case("hinges, no rims", "ConcentratedPlasticity", lambda: hinged(math.inf), 1.0,
+    Case("hinges, no rims", "ConcentratedPlasticity", lambda: hinged(bearing(math.inf, 0.1)), 1.0,
          2e-3, 4.0),
-    Case("hinges, rims met", "ConcentratedPlasticity", lambda: hinged(0.2), 1.0, 1e-3, 4.0),
+    Case("hinges, rims met", "ConcentratedPlasticity", lambda: hinged(bearing(0.2, 0.1)), 1.0,
+         1e-3, 4.0),
 )  # fmt: skip
 SHOWN = (0, 2, 3, 11)
 """Cases whose loops are drawn."""

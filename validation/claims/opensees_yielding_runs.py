@@ -158,10 +158,10 @@ def equipped(law: Law) -> Frame:
     return frame
 
 
-def hinged(capacity: float) -> Frame:
+def hinged(on: LIRBearing) -> Frame:
     """Return a moment frame of one bay and two storeys with hinges, its members free of shear."""
     frame = moment_frame(
-        (1, 1), 2, bearing=bearing(capacity, 0.1), damping=None, hinges=HINGES, floor_load=3000.0,
+        (1, 1), 2, bearing=on, damping=None, hinges=HINGES, floor_load=3000.0,
         **{
             name: replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
             for name, section in SECTIONS.items()

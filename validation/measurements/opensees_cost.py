@@ -67,8 +67,8 @@ def scenes(bearing: LIRBearing) -> dict[str, Frame]:
     """Return the structures, from one bearing to nine."""
     return {
         "a mass on one bearing": lumped_mass(bearing, EXAMPLE_MASS),
-        "1 × 1 bay, 1 storey": _building((1, 1), 1, bearing),
-        "2 × 2 bays, 3 storeys": _building((2, 2), 3, bearing),
+        "1 × 1 bay, 1 storey": slender_frame((1, 1), 1, bearing),
+        "2 × 2 bays, 3 storeys": slender_frame((2, 2), 3, bearing),
     }
 
 
@@ -189,7 +189,8 @@ def ratio(times: Mapping[str, list[float]], device: str) -> float:
     return statistics.median(a / b for a, b in pairs)
 
 
-def _building(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
+def slender_frame(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
+    """Return a moment frame without damping, its members without shear deformation."""
     return moment_frame(
         bays=bays, storeys=storeys, bearing=bearing, damping=None, column=slender(DEFAULT_COLUMN),
         beam=slender(DEFAULT_BEAM), base_beam=slender(DEFAULT_BASE_BEAM),

@@ -1,0 +1,160 @@
+"""Cost of this program and of OpenSees for the same accuracy: writes docs/validation/benchmark.md.
+
+    python -m validation.measurements.benchmark
+
+Runs what docs/validation/benchmark.json does not hold yet, case by case, each in a process of its
+own, keeps what it finds there, and writes the page. Options:
+
+    --case b c       these cases alone: a to f, or "profile"
+    --again          measure anew what is there
+    --short          shorter windows, one turn, fewer elements: to try it out, in a file of its own
+    --page           write the page from what is there
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import platform
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numba
+
+from lir_element.opensees import opensees
+from validation.measurements.benchmark_batch import batch_here, batch_there
+from validation.measurements.benchmark_cases import SOME, measure
+from validation.measurements.benchmark_figure import draw
+from validation.measurements.benchmark_models import STRUCTURES
+from validation.measurements.benchmark_page import text
+from validation.measurements.benchmark_profile import PROFILED, profile
+from validation.measurements.benchmark_search import setting_of
+from validation.opensees.worker import Worker
+from validation.page import DPI, FOLDER, index
+
+KEPT = FOLDER / "benchmark.json"
+LIMIT = 3600.0
+"""Seconds after which a case counts as hanging."""
+CASES = ("a", "b", "f", "profile", "e", "c", "d")
+"""In the order in which they are run: later ones use the steps of b."""
+
+
+def measured(key: str, kept: dict[str, Any], *, short: bool) -> dict[str, Any]:
+    """Run one structure in a process of its own; return what was found.
+
+    Parameters
+    ----------
+    key : str
+        Of the structure.
+    kept : dict
+        What was found before.
+    short : bool
+        Whether as little as possible is run.
+
+    Returns
+    -------
+    dict
+        As `benchmark_cases.Found`; its "state" is "ok", "hang" or "crash".
+    """
+    chosen = kept.get("b", {}).get("there")
+    with Worker(LIMIT) as worker:
+        state, found = worker.run(measure, structure=STRUCTURES[key], chosen=chosen, short=short)
+    return {"state": state, **(asdict(found) if found is not None else {})}
+
+
+def profiles() -> dict[str, Any]:
+    """Profile the loop in a process of its own."""
+    with Worker(LIMIT) as worker:
+        return {key: worker.run(profile, key=key)[1] for key in PROFILED}
+
+
+def batch(kept: dict[str, Any]) -> dict[str, Any]:
+    """Run the batch: here at the step of structure b, in OpenSees with its settings of it."""
+    found = kept["b"]
+    dt = found["here"]["LIR-DCFP"]["direct"]["dt"]
+    with Worker(LIMIT) as worker:
+        state, ours = worker.run(batch_here, dt=dt)
+    kinds = {}
+    for kind in SOME:
+        best = found["there"][kind]["best"]
+        kinds[kind] = batch_there(kind, best["dt"], setting_of(best["setting"]), LIMIT)
+    return {"state": state, "here": ours, "there": kinds}
+
+
+def keys_of(case: str) -> list[str]:
+    """Return what is kept of a case."""
+    found = [one.key for one in STRUCTURES.values() if one.case == case]
+    return found or [case]
+
+
+def run(case: str, kept: dict[str, Any], file: Path, *, again: bool, short: bool) -> None:
+    """Run a case, and keep each of its results at once."""
+    for key in keys_of(case):
+        if key in kept and not again:
+            continue
+        print(f"{datetime.datetime.now():%H:%M:%S} {key}", flush=True)  # of this machine
+        if key in STRUCTURES:
+            found = measured(key, kept, short=short)
+        elif key == "profile":
+            found = profiles()
+        elif "b" in kept:
+            found = batch(kept)
+        else:
+            print("  needs the steps of b: run that case first")
+            continue
+        kept[key] = {**found, "when": f"{datetime.datetime.now():%Y-%m-%d}"}
+        kept["machine"] = machine()
+        file.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+
+
+def machine() -> str:
+    """Return what the figures were taken on."""
+    return (
+        f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, numba "
+        f"{numba.__version__}, OpenSees {opensees().version()}"
+    )
+
+
+def processor() -> str:
+    """Return the name of the processor, as far as the system tells."""
+    file = Path("/proc/cpuinfo")
+    lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def write(kept: dict[str, Any], folder: Path = FOLDER) -> None:
+    """Write page, figure and index."""
+    draw(kept).savefig(
+        folder / "figures" / "benchmark-cost.png", dpi=DPI, metadata={"Software": None}
+    )
+    (folder / "benchmark.md").write_text(text(kept), encoding="utf-8")
+    (folder / "README.md").write_text(index(folder), encoding="utf-8")
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Measure what is asked for and write the page."""
+    parser = argparse.ArgumentParser(prog="python -m validation.measurements.benchmark")
+    parser.add_argument("--case", nargs="+", choices=CASES, default=CASES)
+    parser.add_argument("--again", action="store_true", help="measure anew what is there")
+    parser.add_argument("--short", action="store_true", help="try it out; no page is written")
+    parser.add_argument("--page", action="store_true", help="write the page from what is there")
+    options = parser.parse_args(arguments)
+    file = Path("benchmark-short.json") if options.short else KEPT
+    kept = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    if not options.page:
+        for case in CASES:
+            if case in options.case:
+                run(case, kept, file, again=options.again, short=options.short)
+    if options.short:
+        json.dump(kept, sys.stdout, indent=1)
+    else:
+        write(kept)
+
+
+if __name__ == "__main__":
+    main()

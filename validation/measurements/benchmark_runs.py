@@ -1,0 +1,277 @@
+"""One run of a structure of the benchmark here, and one in OpenSees: cost and peak displacement.
+
+Cost is CPU time of the process: on a machine that is busy it is what a run needs, where the time
+by the clock is what it had to wait for.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+import warnings
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+from typing import TYPE_CHECKING, Any
+from unittest import mock
+
+import numpy as np
+
+from frames import Recording, time_history
+from lir_element.errors import AnalysisWarning
+from validation.measurements.opensees_cost import devices
+from validation.opensees.frames import add_loads, build
+from validation.opensees.model import (
+    advance,
+    empty_model,
+    gravity_analysis,
+    ground_motion,
+    solver,
+    transient_steps,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from frames import Frame, GroundMotion
+    from lir_element import LIRBearing
+    from validation.measurements.benchmark_models import Structure
+
+RESCUES = 0.05
+"""Share of steps that may need another algorithm before a setting is given up."""
+BEARINGS_ALONE = Recording(channels=("bearing_displacement",))
+"""What is recorded of a run here: as much as in OpenSees."""
+_RESCUE_TOLERANCE = 1e-8  # m and rad, of the steps of a setting that fails
+
+
+@dataclass(frozen=True)
+class Run:
+    """What one run took and found.
+
+    Attributes
+    ----------
+    dt : float
+        Step [s]; NaN where the program chose it.
+    steps : int
+        Steps of the motion that were done.
+    loop : float
+        CPU time of the steps alone [s].
+    whole : float
+        CPU time with building the model, equilibrium at rest and reading the results [s].
+    peak : float
+        Largest displacement of a bearing in plan [m].
+    status : str
+        "ok", or why there is no result.
+    rescued : int
+        Steps of OpenSees that its algorithm did not solve, and another one did.
+    iterations : int
+        Of Newton's method here.
+    """
+
+    dt: float
+    steps: int
+    loop: float
+    whole: float
+    peak: float
+    status: str = "ok"
+    rescued: int = 0
+    iterations: int = 0
+
+    @property
+    def step(self) -> float:
+        """CPU time of a step [s]."""
+        return self.loop / self.steps if self.steps else float("nan")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How OpenSees solves: system, numberer, algorithm, and test with its tolerance."""
+
+    system: str = "UmfPack"
+    numberer: str = "RCM"
+    algorithm: tuple[str, ...] = ("Newton",)
+    criterion: tuple[str, float] = ("NormDispIncr", 1e-8)
+
+    @property
+    def name(self) -> str:
+        """All of it in words."""
+        return (
+            f"{self.system}, {self.numberer}, {' '.join(self.algorithm)}, "
+            f"{self.criterion[0]} {self.criterion[1]:.0e}"
+        )
+
+
+USUAL = Setting()
+"""What manuals and examples show."""
+
+
+@contextmanager
+def cpu_clock() -> Generator[None, None, None]:
+    """Have analyses here tell CPU time of the process for the time by the clock."""
+    with ExitStack() as stack:
+        for name, module in list(sys.modules.items()):
+            if name.startswith("frames.analysis.") and hasattr(module, "perf_counter"):
+                stack.enter_context(mock.patch.object(module, "perf_counter", process_time))
+        yield
+
+
+def run_here(
+    frame: Frame, motion: GroundMotion, duration: float, dt: float | None, method: str = "direct",
+    recording: Recording | None = BEARINGS_ALONE,
+) -> Run:  # fmt: skip
+    """Run a structure here.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure.
+    motion : GroundMotion
+        Acceleration of the ground.
+    duration : float
+        Length of the analysis [s].
+    dt : float or None
+        Step [s]; None lets the program choose.
+    method : str
+        Of `time_history`.
+    recording : Recording or None
+        Of `time_history`, the bearings' displacements among it.
+
+    Returns
+    -------
+    Run
+        Cost and peak; a method that is refused has the refusal as its status.
+    """
+    options: Any = {"method": method, "recording": recording}
+    cpu = process_time()
+    try:
+        with warnings.catch_warnings(), cpu_clock():
+            warnings.simplefilter("ignore", AnalysisWarning)
+            data = time_history(frame, motion, duration, dt, **options)
+    except (ValueError, MemoryError) as refusal:
+        return refused(dt, f"refused: {refusal}")
+    cpu = process_time() - cpu
+    moved = data["bearing_displacement"].to_numpy()[..., :2]
+    return Run(
+        dt=np.nan if dt is None else dt, steps=int(data.attrs["steps"]),
+        loop=float(data.attrs["seconds_loop"]), whole=cpu,
+        peak=float(np.linalg.norm(moved, axis=-1).max()), status=str(data.attrs["status"]),
+        iterations=int(data.attrs["newton_iterations"]),
+    )  # fmt: skip
+
+
+def refused(dt: float | None, status: str) -> Run:
+    """Return a run that gave nothing, with its reason."""
+    step = np.nan if dt is None else dt
+    return Run(step, 0, np.nan, np.nan, np.nan, status.splitlines()[0])
+
+
+def run_there(
+    structure: Structure, bearing: LIRBearing, kind: str, motion: GroundMotion, dt: float,
+    steps: int, setting: Setting = USUAL,
+) -> Run:  # fmt: skip
+    """Run a structure in OpenSees, on elements of its own or ours.
+
+    Parameters
+    ----------
+    structure : Structure
+        What is run.
+    bearing : LIRBearing
+        The LIR-DCFP under it, its design load that at rest.
+    kind : str
+        One of `opensees_cost.devices`.
+    motion : GroundMotion
+        Acceleration of the ground.
+    dt : float
+        Step [s].
+    steps : int
+        How many.
+    setting : Setting
+        How OpenSees solves.
+
+    Returns
+    -------
+    Run
+        Cost and peak.
+    """
+    device, place = devices(bearing, bearing.resolved()["design_load"])[kind]
+    frame = structure.frame(device)
+    began = process_time()
+    with tempfile.TemporaryDirectory() as folder, empty_model() as ops:
+        ops.logFile(os.devnull, "-noEcho")  # every failed iteration is reported
+        built = build(ops, frame, place)
+        add_loads(ops, frame, built)
+        damping = structure.stiffness_damping(frame)
+        if damping > 0.0:
+            members = built.members.values()
+            ops.region(1, "-ele", *members, "-rayleigh", 0.0, 0.0, damping, 0.0)
+        try:
+            gravity_analysis(ops)
+            ground_motion(ops, motion)
+            file = Path(folder) / "displacement.txt"
+            ops.recorder(
+                "Node", "-file", str(file), "-node", *built.bases, "-dof", 1, 2, "disp"
+            )  # fmt: skip
+            use(ops, setting)
+            transient_steps(ops)
+            timed = process_time()
+            rescued = march(ops, setting, steps, dt)
+            timed = process_time() - timed
+        except (RuntimeError, ops.OpenSeesError) as cause:
+            return refused(dt, f"stops: {cause}")
+        ops.remove("recorders")
+        whole = process_time() - began
+        moved = np.loadtxt(file, ndmin=2)
+    peak = float(np.hypot(moved[:, 0::2], moved[:, 1::2]).max())
+    status = "ok" if np.isfinite(peak) else "not finite"
+    return Run(dt, steps, timed, whole, peak, status, rescued)
+
+
+def use(ops: Any, setting: Setting) -> None:
+    """Give the analysis a setting."""
+    test, tolerance = setting.criterion
+    solver(ops, tolerance, test=test, system=setting.system)
+    ops.numberer(setting.numberer)
+    ops.algorithm(*setting.algorithm)
+
+
+def march(ops: Any, setting: Setting, steps: int, dt: float) -> int:
+    """Take steps; where the setting's algorithm fails take the step with another one.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSees, its analysis transient.
+    setting : Setting
+        Which is used.
+    steps : int
+        How many.
+    dt : float
+        Their length [s].
+
+    Returns
+    -------
+    int
+        Steps that needed another algorithm.
+
+    Raises
+    ------
+    RuntimeError
+        If no algorithm solves a step, or more than `RESCUES` of all steps need another.
+    """
+    began, done, rescued = ops.getTime(), 0, 0
+    while done < steps:
+        if ops.analyze(steps - done, dt) == 0:
+            return rescued
+        done = round((ops.getTime() - began) / dt) + 1
+        rescued += 1
+        if rescued > 1 + RESCUES * steps:
+            msg = f"more than {100.0 * RESCUES:g} % of the steps need another algorithm"
+            raise RuntimeError(msg)
+        ops.test("NormDispIncr", _RESCUE_TOLERANCE, 60)
+        ops.algorithm("KrylovNewton")
+        advance(ops, 1, dt, _RESCUE_TOLERANCE)
+        ops.test(*setting.criterion, 60)
+        ops.algorithm(*setting.algorithm)
+    return rescued

@@ -1,0 +1,179 @@
+"""The step and the settings with which OpenSees is cheapest and accurate enough."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, Any
+
+from validation.measurements.benchmark_models import motion_of, strong
+from validation.measurements.benchmark_runs import USUAL, Run, Setting, run_there
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from lir_element import LIRBearing
+    from validation.measurements.benchmark_models import Structure
+
+ALLOWED = 0.005
+"""Error of the peak displacement that a step may make [-]."""
+STEPS = (0.02, 0.01, 0.005, 0.0025)
+FINE = {"here": 5e-4, "there": 2.5e-3}
+"""Steps of the converged runs [s]."""
+DURATION = 12.0
+"""Of the runs that find the step [s]."""
+PLAIN = ("singleFPBearing", "TripleFrictionPendulum", "plain DCFP, fast route")
+RESILIENT = ("LIR-DCFP, fast route", "LIR-DCFP, macro-model")
+OWN = (PLAIN[2], RESILIENT[0])
+"""Kinds that are this program's element inside OpenSees: they converge to its results."""
+SYSTEMS = ("BandGeneral", "SparseGeneral", "ProfileSPD", "FullGeneral")
+ALGORITHMS = (
+    ("KrylovNewton",), ("ModifiedNewton",), ("ModifiedNewton", "-initial"), ("Newton", "-initial"),
+)  # fmt: skip
+NUMBERERS = ("AMD", "Plain")
+TESTS = (
+    ("NormDispIncr", 1e-6), ("NormDispIncr", 1e-5), ("NormUnbalance", 10.0), ("EnergyIncr", 1e-4),
+)  # fmt: skip
+
+
+def coarsest(runs: Sequence[Run], reference: float) -> float:
+    """Return the largest step that keeps the peak, as do all smaller ones [s]; NaN if none does.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        At several steps.
+    reference : float
+        Converged peak displacement [m].
+
+    Returns
+    -------
+    float
+        The step.
+    """
+    best = math.nan
+    for run in sorted((r for r in runs if math.isfinite(r.dt)), key=lambda r: r.dt):
+        if run.status != "ok" or error(run, reference) > ALLOWED:
+            return best
+        best = run.dt
+    return best
+
+
+def error(run: Run, reference: float) -> float:
+    """Return the error of the peak displacement of a run [-]."""
+    return abs(run.peak / reference - 1.0)
+
+
+def steps_there(
+    structure: Structure, bearing: LIRBearing, kind: str, reference: float | None
+) -> dict[str, Any]:
+    """Find steps and settings of OpenSees for a kind of element.
+
+    Parameters
+    ----------
+    structure : Structure
+        What is run.
+    bearing : LIRBearing
+        Under it.
+    kind : str
+        Element in OpenSees.
+    reference : float or None
+        Converged peak [m]; None: OpenSees's own at a fine step.
+
+    Returns
+    -------
+    dict
+        "usual" and "best": the step, its error and the setting; "runs", "reference", "tried".
+    """
+    motion = motion_of(DURATION)
+
+    def run(dt: float, setting: Setting = USUAL) -> Run:
+        return run_there(structure, bearing, kind, motion, dt, round(DURATION / dt), setting)
+
+    runs = []
+    if reference is None:
+        runs.append(run(FINE["there"]))
+        reference = runs[0].peak
+    usual = _largest(run, USUAL, reference, runs)
+    start = usual["dt"] if math.isfinite(usual["dt"]) else STEPS[1]
+    setting, tried = search(structure, bearing, kind, start)
+    best = _largest(run, setting, reference, runs) if setting != USUAL else usual
+    if not math.isfinite(best["dt"]):
+        best = usual
+    return {
+        "usual": usual, "best": best, "reference": reference, "tried": tried,
+        "runs": [asdict(one) for one in runs],
+    }  # fmt: skip
+
+
+def _largest(
+    run: Callable[[float, Setting], Run], setting: Setting, reference: float, runs: list[Run]
+) -> dict[str, Any]:
+    # From the largest step down: the first one that keeps the peak is taken.
+    for dt in STEPS:
+        runs.append(run(dt, setting))
+        if runs[-1].status == "ok" and error(runs[-1], reference) <= ALLOWED:
+            return {
+                "dt": dt, "error": error(runs[-1], reference), "setting": asdict(setting),
+                "loop": runs[-1].loop, "whole": runs[-1].whole, "rescued": runs[-1].rescued,
+            }  # fmt: skip
+    return {"dt": math.nan, "error": math.nan, "setting": asdict(setting)}
+
+
+def assumed() -> dict[str, Any]:
+    """Return a step and the usual settings, where none were searched."""
+    one = {"dt": STEPS[1], "setting": asdict(USUAL)}
+    return {"usual": one, "best": one}
+
+
+def setting_of(values: dict[str, Any]) -> Setting:
+    """Return a setting from what was kept of it."""
+    parts: dict[str, Any] = {
+        name: tuple(v) if isinstance(v, list) else v for name, v in values.items()
+    }
+    return Setting(**parts)
+
+
+def search(
+    structure: Structure, bearing: LIRBearing, kind: str, dt: float, length: float = 1.0
+) -> tuple[Setting, dict[str, float]]:
+    """Search the cheapest setting of OpenSees: one part after the other, from the usual one.
+
+    Parameters
+    ----------
+    structure : Structure
+        What is run.
+    bearing : LIRBearing
+        Under it.
+    kind : str
+        Element in OpenSees.
+    dt : float
+        Step [s].
+    length : float
+        Of the strong part of the motion that is run [s].
+
+    Returns
+    -------
+    Setting, dict
+        The cheapest, and the CPU time of a step by setting [s], NaN where it stops.
+    """
+    motion, tried = strong(length), {}
+
+    def cost(setting: Setting) -> float:
+        run = run_there(structure, bearing, kind, motion, dt, round(length / dt), setting)
+        tried[setting.name] = run.step if run.status == "ok" else math.nan
+        return run.step if run.status == "ok" else math.inf
+
+    best, least = USUAL, cost(USUAL)
+    for part, values in (
+        ("system", SYSTEMS),
+        ("algorithm", ALGORITHMS),
+        ("numberer", NUMBERERS),
+        ("criterion", TESTS),
+    ):
+        for value in values:
+            other = replace(best, **{part: value})  # type: ignore[arg-type]
+            spent = cost(other)
+            if spent < least:
+                best, least = other, spent
+    return best, tried
