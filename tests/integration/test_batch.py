@@ -156,6 +156,8 @@ def test_a_row_does_not_depend_on_those_before(
     "options",
     [
         {"features": Features(vertical_coupling=False)},
+        {"features": Features(plate_rotation=False, rims=False)},
+        {"features": Features(uplift=False, velocity_dependence=False)},
         {"features": Features(second_direction=False, rims=False, interface=False)},
         {"dt": 0.005, "integrator": "generalised-alpha", "spectral_radius": 0.7},
         {"level": {"bearing-0-0": "contact"}, "duration": 0.4},
