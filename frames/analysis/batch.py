@@ -9,7 +9,7 @@ import threading
 import warnings
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning, ModelWarning
@@ -20,6 +20,7 @@ from frames.analysis.recording import Recording, whole_steps
 from frames.analysis.stacking import stack
 from frames.analysis.transient import check_options, options_of
 from lir_element.device.features import Features
+from lir_element.door import require_choice
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning, RunStatus
 from lir_element.results.dataset import package_version
 
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
-_ATTENTIVE = 0.2  # s between two looks whether Ctrl-C was pressed, where waiting cannot be broken
+_ATTENTIVE = 0.02  # s between two looks whether a run is done
 
 
 def time_histories(
@@ -105,6 +106,7 @@ def time_histories(
     """
     structures, grounds = named_models(models), named_motions(motions)
     runs = grid(structures, grounds, scales, cases)
+    require_choice("method", method, ("direct",))
     check_options(level, method, integrator, "warn", features)
     if level in {"auto", "rigid_body"} if isinstance(level, str) else False:
         msg = (
@@ -218,10 +220,9 @@ def _arriving(
     # Rows as they are done, until all workers have ended.
     began, done, failed = perf_counter(), 0, 0
     while workers:
-        try:
-            row = results.get(timeout=_ATTENTIVE)
-        except queue.Empty:
-            continue
+        while results.empty():
+            sleep(_ATTENTIVE)  # Ctrl-C breaks it on every system
+        row = results.get()
         if row is None:
             workers -= 1
             continue

@@ -12,6 +12,7 @@ from frames.analysis.outcome import culprit, ended, judged
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import Recording
 from frames.analysis.reduction import judgeable_of
+from frames.analysis.size import require_rows
 from frames.analysis.stacking import NUMBERS, Layout, Row, reached_row
 from frames.analysis.transient import begin, march, settings_of
 from frames.analysis.workspace import PeakRecorder, Structure, Workspace, set_up
@@ -34,6 +35,13 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
     from lir_element.device.features import Features
+
+
+_ROW = 8e3
+"""Memory of a row besides what was reached: texts, peaks [bytes]."""
+
+_COPIES = 2.0
+"""Rows, and the Dataset made of them."""
 
 
 class Kept(NamedTuple):
@@ -87,6 +95,7 @@ class Runner:
         for case in cases:
             self._left[case.model] += 1
         self._lock = threading.Lock()
+        self._bytes, self._rows = 0.0, 0
 
     def worker(self, is_stopped: Callable[[], bool]) -> Worker:
         """Return what one thread runs with; `is_stopped` says whether to leave off."""
@@ -107,10 +116,21 @@ class Runner:
                 self._shared.pop(name, None)
 
     def _set_up(self, name: str) -> Structure | AnalysisError:
+        recording = self.kept.recording if self.kept.histories else None
         try:
-            return set_up(self._models[name], self.features, self._level)
+            found = set_up(self._models[name], self.features, self._level, recording)
         except AnalysisError as failure:
             return failure
+        own = [case for case in self.cases if case.model == name]
+        self._rows += len(own)
+        self._bytes += len(own) * (_ROW + 8.0 * float(found.layout.starts[-1]))
+        if recording is not None:
+            steps = (self.options[case.motion].steps for case in own)
+            every = recording.every
+            kept = sum(count // every + 1 if every else 2 for count in steps)
+            self._bytes += kept * found.step_bytes
+        require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
+        return found
 
 
 class Worker:

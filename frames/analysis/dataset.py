@@ -127,6 +127,23 @@ def build_dataset(
             "J",
             "energy since gravity",
         ),
+    } | _permanent(frame, state)
+    coordinates = {
+        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
+        "node": list(system.node_names),
+        "dof": list(DOFS),
+        "term": list(ENERGY_TERMS),
+        "level": [lv.name for lv in frame.levels],
+        **names,
+        **bearing_coordinates([name for name, _, _, _ in system.bearings]),
+    }
+    return xr.Dataset(variables, coordinates)
+
+
+def _permanent(frame: FrameContents, state: GravityState) -> dict[str, xr.Variable]:
+    # What a structure carries, and its levels.
+    system = state.system
+    return {
         "weight": labelled(
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
         ),
@@ -143,16 +160,6 @@ def build_dataset(
             "place of the node's level, -1 for none",
         ),
     }
-    coordinates = {
-        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
-        "node": list(system.node_names),
-        "dof": list(DOFS),
-        "term": list(ENERGY_TERMS),
-        "level": [lv.name for lv in frame.levels],
-        **names,
-        **bearing_coordinates([name for name, _, _, _ in system.bearings]),
-    }
-    return xr.Dataset(variables, coordinates)
 
 
 class _Motion:

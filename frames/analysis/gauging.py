@@ -1,7 +1,7 @@
 """What a run reached, taken up by compiled code from what its loop records, without any Dataset.
 
-The quantities are those of `frames.results.reached`, of runs at the level 'pendulum' whose bearings
-couple vertically (`can_gauge`); the others are read off Datasets (`Reduction`).
+The quantities are those of `frames.results.reached`, of most runs at the level 'pendulum'
+(`can_gauge`); those of others are read off Datasets (`Reduction`).
 """
 
 from __future__ import annotations
@@ -41,7 +41,10 @@ class Places(NamedTuple):
 
 def can_gauge(state: GravityState) -> bool:
     """Return whether what a run reaches can be taken up without Datasets."""
-    return state.contacts is None and state.system.features.vertical_coupling
+    # without vertical coupling its force is formed over neighbouring steps; bearings that the tilt
+    # of their plates does not reach do not know it
+    kept = state.system.features
+    return state.contacts is None and kept.vertical_coupling and kept.plate_rotation
 
 
 def devices_of(state: GravityState) -> Devices:

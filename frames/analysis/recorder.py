@@ -10,7 +10,13 @@ from frames.analysis.gauging import Gauge, can_gauge, devices_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
 from frames.analysis.reduction import Findings, Reduction, with_findings
-from frames.analysis.size import bytes_of_step, memory, require_memory, require_room
+from frames.analysis.size import (
+    bytes_of_step,
+    bytes_over_time,
+    memory,
+    require_memory,
+    require_room,
+)
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.parts_data import part_sizes
@@ -98,7 +104,7 @@ class Recorder:
         reduction = Reduction(recording)
         reduction.take(start, 0, final=True)
         row = reduction.recorded(reduction.judgeable())
-        require_room(_bytes_over_time(row), count, BUFFER)
+        require_room(bytes_over_time(row), count, BUFFER)
 
     def room(self, done: int) -> int:
         """Return the last base step that there is room for; a full buffer is emptied first.
@@ -179,9 +185,3 @@ class Recorder:
         )  # fmt: skip
         left_out = self._state.system.features.left_out
         return data.assign_attrs(features_left_out=", ".join(left_out) or "none")
-
-
-def _bytes_over_time(data: xr.Dataset) -> float:
-    # Memory of one recorded step.
-    histories = [data[name].nbytes for name in data.variables if "time" in data[name].dims]
-    return float(sum(histories)) / data.sizes["time"]

@@ -12,6 +12,8 @@ from lir_element.layout import BODIES, STATE
 from lir_element.units import TIMES, meant
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from frames.analysis.static import GravityState
 
 MOST_STEPS = 10**9
@@ -131,3 +133,34 @@ def memory() -> float:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     except (AttributeError, OSError, ValueError):  # not on every system
         return USUAL_MEMORY
+
+
+def bytes_over_time(data: xr.Dataset) -> float:
+    """Return the memory of one recorded step of a result [bytes]."""
+    histories = [data[name].nbytes for name in data.variables if "time" in data[name].dims]
+    return float(sum(histories)) / data.sizes["time"]
+
+
+def require_rows(needed: float, runs: int, asked: int) -> None:
+    """Refuse more results of many runs than the machine's memory holds.
+
+    Parameters
+    ----------
+    needed : float
+        Memory of the rows of `runs` runs, their Dataset included [bytes].
+    runs, asked : int
+        Runs of the structures so far, and of all.
+
+    Raises
+    ------
+    ValueError
+        If they would not fit.
+    """
+    there = memory()
+    if needed > there:
+        msg = (
+            f"the results of {runs} of {asked} runs take about {1e-9 * needed:.3g} GB, the machine "
+            f"has {1e-9 * there:.3g} GB: call time_histories for fewer cases at a time and save "
+            "each, or record less (record=None keeps what was reached alone)"
+        )
+        raise ValueError(msg)

@@ -10,9 +10,10 @@ import numpy as np
 from frames.analysis.dataset import build_dataset, peak_velocity
 from frames.analysis.gauging import Gauge, Places, can_gauge, devices_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
-from frames.analysis.reduction import Findings, judgeable_of, with_other_findings
+from frames.analysis.recording import require_known
+from frames.analysis.reduction import Findings, judgeable_of, reduced, with_other_findings
 from frames.analysis.scene import plane_coupling
-from frames.analysis.size import bytes_of_step
+from frames.analysis.size import bytes_of_step, bytes_over_time
 from frames.analysis.stacking import Layout, layout_of
 from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Run, output_arrays, run_arrays
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames.analysis.recording import Recording
     from frames.analysis.static import GravityState
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
@@ -49,11 +51,18 @@ class Structure(NamedTuple):
     template: xr.Dataset
     """What the audit reads of a run, of the state at rest alone."""
     layout: Layout
+    step_bytes: float
+    """Memory of one recorded step of the histories that are kept [bytes]."""
     gauges: tuple[Devices, Shape] | None
     """None where what is reached has to be read off Datasets."""
 
 
-def set_up(model: FrameContents, features: Features, level: str | Mapping[str, str]) -> Structure:
+def set_up(
+    model: FrameContents,
+    features: Features,
+    level: str | Mapping[str, str],
+    recording: Recording | None = None,
+) -> Structure:
     """Bring a structure into equilibrium, once for all of its runs.
 
     Parameters
@@ -64,6 +73,8 @@ def set_up(model: FrameContents, features: Features, level: str | Mapping[str, s
         What is modelled.
     level : str or mapping
         Levels of the bearings.
+    recording : Recording, optional
+        What is kept of histories.
 
     Returns
     -------
@@ -74,6 +85,8 @@ def set_up(model: FrameContents, features: Features, level: str | Mapping[str, s
     ------
     ModelError, AnalysisError
         As `gravity`.
+    ValueError
+        If the recording names what there is not.
     """
     coupling = 0.0 if features.second_direction else plane_coupling(model)
     state = gravity(model, features, level)
@@ -83,12 +96,15 @@ def set_up(model: FrameContents, features: Features, level: str | Mapping[str, s
     first = build_dataset(model, state, still, np.zeros(3), out, states, bodies, 1)
     left_out = ", ".join(features.left_out) or "none"
     first = first.assign_attrs(features_left_out=left_out)
+    if recording is not None:
+        require_known(recording, first)
     template = judgeable_of(first)
     template.attrs |= {
         "plane_coupling": coupling,
         "level": level if isinstance(level, str) else str(dict(level)),
     }
-    structure = Structure(model, state, template, layout_of(template), None)
+    size = 0.0 if recording is None else bytes_over_time(reduced(first, recording))
+    structure = Structure(model, state, template, layout_of(template), size, None)
     if not can_gauge(state):
         return structure
     level_node = template["level_node"].to_numpy()

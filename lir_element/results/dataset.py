@@ -20,7 +20,7 @@ from lir_element.layout import PROPS_BY_NAME
 from lir_element.results.deferred import deferred
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy.typing as npt
 
@@ -131,6 +131,14 @@ def bearing_variables(
         "torsional_moment": labelled(
             each, own(states["torque"]), "N m", "friction moment about the vertical axis"
         ),
+    } | _works(step, states, own)
+
+
+def _works(step: str, states: Records, own: Callable[[Floats], Floats]) -> dict[str, xr.Variable]:
+    # What friction, rims, contacts and sliders took up.
+    each = (step, "bearing")
+    surface = (*each, "surface")
+    return {
         "work_low_friction": labelled(
             surface, own(states["work_friction"]), "J", "dissipated by low friction, each surface"
         ),

@@ -1,0 +1,64 @@
+"""What compiled code takes up of a run is what its histories say."""
+
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from frames import (
+    AuditWarning,
+    Features,
+    Frame,
+    GroundMotion,
+    audit_report,
+    gravity,
+    lumped_mass,
+    moment_frame,
+    time_history,
+)
+from frames.analysis.gauging import can_gauge
+from lir_element import AnalysisWarning, LIRBearing
+
+
+@pytest.fixture(scope="module")
+def scenes(
+    newhall_bearing: LIRBearing, pulse: Callable[..., np.ndarray]
+) -> dict[str, tuple[Frame, GroundMotion]]:
+    x, y = pulse(4.5, 1.4, rest=0.1), pulse(2.0, 1.4, rest=0.1)
+    thrown = GroundMotion(x=x, z=3.0 * y, dt=0.005)
+    building = moment_frame((1, 1), 1, bearing=newhall_bearing)
+    return {
+        "building": (building, GroundMotion(x=x, y=y, dt=0.005)),
+        "thrown": (lumped_mass(newhall_bearing, 2e5), thrown.scaled([1.0, 1.0, 3.0])),
+        "failing": (building, GroundMotion(x=2.5 * x, dt=0.005)),
+    }
+
+
+@pytest.mark.parametrize("scene", ["building", "thrown", "failing"])
+@pytest.mark.parametrize("left_out", ["", *Features.names()])
+def test_the_audit_is_that_of_the_histories(
+    scenes: dict[str, tuple[Frame, GroundMotion]], scene: str, left_out: str
+) -> None:
+    model, motion = scenes[scene]
+    options: dict[str, Any] = {}
+    if left_out:
+        options["features"] = Features(**{left_out: False})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AuditWarning)
+        warnings.simplefilter("ignore", AnalysisWarning)
+        data = time_history(model, motion, **options)
+    lines = data.attrs["audit"].splitlines()
+    judged = [line for line in lines if not line.startswith("  inaccurate")]
+    assert judged == audit_report(data).splitlines()
+
+
+def test_what_is_not_in_the_states_is_read_off_histories(
+    scenes: dict[str, tuple[Frame, GroundMotion]],
+) -> None:
+    model, _ = scenes["building"]
+    assert can_gauge(gravity(model))
+    for features in (Features(plate_rotation=False), Features(vertical_coupling=False)):
+        assert not can_gauge(gravity(model, features))
+    assert not can_gauge(gravity(model, level="contact"))
