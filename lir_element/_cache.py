@@ -134,6 +134,17 @@ def keep(path: Path | None, content: bytes) -> bool:
     return True
 
 
+def _content(path: Path) -> bytes | None:
+    # What a file of the cache holds; None if there is none, or (with a warning) none to be read.
+    try:
+        return path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
+        return None
+
+
 def _warn(what: str, again: bool) -> None:
     # Once a process and kind of trouble: a run may compile a hundred kernels.
     kind = "again" if again else what
@@ -191,16 +202,12 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the compiled kernel for a signature, or None if it has to be compiled."""
-        target_context.refresh()
+        # numba's own cache refreshes the context first, 0.2 s: compiling does so by itself
         if not self._sources.unchanged():
             return None
         for key, path in self._places(sig, target_context.codegen()):
-            try:
-                content = path.read_bytes()
-            except (FileNotFoundError, NotADirectoryError):
-                continue
-            except OSError as error:
-                _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
+            content = _content(path)
+            if content is None:
                 continue
             reduced = self._opened(key, content)
             if reduced is not None:

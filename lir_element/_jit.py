@@ -54,8 +54,8 @@ def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> 
 
     def decorate(function: F) -> F:
         compiled: Any = numba.njit(
-            error_model="numpy", nogil=True, forceinline=inline, _nrt=counts
-        )(function)
+            error_model="numpy", nogil=True, forceinline=inline, _nrt=counts, no_cfunc_wrapper=True
+        )(function)  # Python calls kernels by the other wrapper; each is a copy of what is inlined
         if not config.DISABLE_JIT:  # else it is the plain function
             compiled._cache = KernelCache(function, sources)
         return cast("F", compiled)
@@ -98,9 +98,11 @@ inlined = kernels_of(OWN, inline=True)
 """The same for kernels that become part of their callers (see `kernels_of`)."""
 
 expanded: KernelDecorator = numba.njit(inline="always")
-"""For kernels that stand for an expression: put in place before types are known.
+"""For kernels that are part of one other, or stand for an expression: put there before typing.
 
-They may give back what compiled functions cannot return: a bundle of records.
+Nothing is compiled for themselves: a chain of `inlined` ones is optimised and made machine code at
+each of its links, all that is below included. They may give back what compiled functions cannot
+return: a bundle of records.
 """
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import expanded, inlined, kernel
 from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective
@@ -63,7 +63,7 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
     run.has_reduced[at] = 1
 
 
-@inlined
+@expanded
 def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
@@ -120,7 +120,7 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
     add_product(model.mass_eb, run.g_e, 1.0, run.rhs_b)
 
 
-@inlined
+@expanded
 def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     dt, at = run.clock[0].dt, run.clock[0].halvings
@@ -157,7 +157,7 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
         run.v_b_new[a] = run.v_b[a] + dt * ((1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a])
 
 
-@inlined
+@expanded
 def try_step(
     model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
     ground: Ground,
@@ -186,7 +186,7 @@ def try_step(
     return code
 
 
-@inlined
+@expanded
 def limits(run: Run) -> int:
     """Return the status of the bearings' limits in the trial state."""
     for k in range(run.new.shape[0]):
@@ -196,7 +196,7 @@ def limits(run: Run) -> int:
     return _OK
 
 
-@inlined
+@expanded
 def accept_step(
     model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
     ground: Ground,
@@ -249,7 +249,7 @@ def record(
                 out.part_state[place, k, n] = parts.old[k, n]
 
 
-@inlined
+@expanded
 def halve(run: Run) -> None:
     """Halve the step that is being tried."""
     run.clock[0].halvings += 1
@@ -257,7 +257,7 @@ def halve(run: Run) -> None:
     run.counts[0].halvings += 1
 
 
-@inlined
+@expanded
 def attempt(
     model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
     ground: Ground,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import expanded, inlined, kernel
 from frames.kernels.part_works import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
@@ -28,7 +28,7 @@ def opening(model: Model, k: int, b: Floats) -> float:
     return total
 
 
-@inlined
+@expanded
 def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
     """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
 
@@ -43,7 +43,7 @@ def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
     return rate
 
 
-@inlined
+@expanded
 def bend(run: Run, k: int, axis: int) -> float:
     """Return how far the force on node j of bearing `k` is from linear over two steps."""
     clock = run.clock[0]
@@ -111,7 +111,7 @@ def estimated_error(
     return error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 
-@inlined
+@expanded
 def is_rough(
     model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
     ground: Ground,
@@ -134,7 +134,7 @@ def is_rough(
     return run.clock[0].share > 1.0
 
 
-@inlined
+@expanded
 def keep_motion(model: Model, run: Run, ground: Ground) -> None:
     """Keep how the bearings were forced and moved, for the next estimate of the error."""
     clock = run.clock[0]

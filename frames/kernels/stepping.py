@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import expanded, inlined, kernel
 from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
@@ -59,7 +59,7 @@ def bearing_forces(
     return worst
 
 
-@inlined
+@expanded
 def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
     """Add `factor` times the bearings' tangents at the last trial, transposed, to `run.tangent`."""
     for k in range(model.props.shape[0]):
@@ -142,7 +142,7 @@ def predict(run: Run, linear: Floats, share: float) -> None:
         run.step[a] += run.residual[a]
 
 
-@inlined
+@expanded
 def renew_tangent(
     model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, linear: Floats,
     share: float,

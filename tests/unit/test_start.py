@@ -1,5 +1,6 @@
 """The first start: what importing loads, what a wheel's kernels save, what is compiled ahead."""
 
+import importlib
 import os
 import platform
 import subprocess  # what a new process does  # noqa: S404
@@ -11,29 +12,30 @@ import pytest
 from numba.core import event
 
 from frames import GroundMotion, ahead, lumped_mass, moment_frame, time_history
-from lir_element import LIRBearing, VelocityFriction, _cache, _shipped
-from lir_element._jit import kernels_of
+from lir_element import LIRBearing, VelocityFriction, _shipped
 
 COMPILES = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
 )
 KERNEL = """
 import math
-@kernel
+from pathlib import Path
+from lir_element import _cache
+from lir_element._jit import kernels_of
+
+@kernels_of(_cache.Sources(Path(__file__).parents[1]))
 def law(x):
     return math.exp(x) * (2.0 * x + 1.0 / 3.0)
 """
-COMPILE = (
-    "import sys; sys.path.insert(0, {tests!r}); from test_start import law_of; "
-    "from pathlib import Path; print(law_of(Path({folder!r}))(0.7).hex())"
-)
+COMPILE = "from law_of_a_wheel import law; print(law(0.7).hex())"
 HEAVY = ("scipy.signal", "scipy.stats", "scipy.optimize", "scipy.spatial", "matplotlib", "h5py")
 
 
-def law_of(folder: Path):
-    names = {"kernel": kernels_of(_cache.Sources(folder)), "__name__": "package"}
-    exec(compile(KERNEL, str(folder / "law.py"), "exec"), names)  # noqa: S102
-    return names["law"]
+def law_of():
+    """Return the kernel as a new process finds it."""
+    sys.modules.pop("law_of_a_wheel", None)
+    importlib.invalidate_caches()
+    return importlib.import_module("law_of_a_wheel").law
 
 
 def test_imports_leave_out_what_most_runs_do_without() -> None:
@@ -49,29 +51,30 @@ def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(
 ) -> None:
     package, wheel = tmp_path / "package", tmp_path / "wheel"
     (package / "kernels").mkdir(parents=True)
-    (package / "kernels" / "law.py").write_text(KERNEL, encoding="utf-8")
+    (package / "kernels" / "law_of_a_wheel.py").write_text(KERNEL, encoding="utf-8")
     environment = {
         **os.environ,
         "LIR_CACHE_DIR": str(wheel),
         "NUMBA_CPU_NAME": str(_shipped.baseline(platform.machine())),
         "NUMBA_CPU_FEATURES": "",
+        "PYTHONPATH": os.pathsep.join([str(package / "kernels"), *sys.path]),
     }
-    code = COMPILE.format(tests=str(Path(__file__).parent), folder=str(package))
     shipped = subprocess.run(  # noqa: S603
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+        [sys.executable, "-c", COMPILE], env=environment, capture_output=True, text=True, check=True
     ).stdout.strip()
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
-    native = law_of(package)
+    monkeypatch.syspath_prepend(str(package / "kernels"))
+    native = law_of()
     assert native(0.7).hex() == shipped
     assert sum(native.stats.cache_misses.values()) == 1
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "empty"))
     monkeypatch.setattr(_shipped, "FOLDER", wheel)
-    taken = law_of(package)
+    taken = law_of()
     assert taken(0.7).hex() == shipped
     assert sum(taken.stats.cache_misses.values()) == 0
-    (package / "kernels" / "law.py").write_text(KERNEL + "# edited\n", encoding="utf-8")
-    edited = law_of(package)
-    edited(0.7)
+    (package / "kernels" / "law_of_a_wheel.py").write_text(KERNEL + "# edited\n", encoding="utf-8")
+    edited = law_of()
+    assert edited(0.7).hex() == shipped
     assert sum(edited.stats.cache_misses.values()) == 1
 
 
