@@ -284,6 +284,8 @@ def _run(
         "steps": int(counts["steps"]),
         "newton_iterations": int(counts["iterations"]),
         "halvings": int(counts["halvings"]),
+        "state_determinations": int(counts["trials"]),
+        "tangents": int(counts["tangents"]),
         "degrees_of_freedom": int(state.system.mass.shape[0]),
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,

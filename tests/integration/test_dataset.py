@@ -50,7 +50,8 @@ CONTRACT = {
 ATTRIBUTES = {
     "status": str, "message": str, "lir_dcfp_version": str, "level": str, "method": str,
     "integrator": str, "spectral_radius": float, "dt": float, "step_control": str, "steps": int,
-    "newton_iterations": int, "halvings": int, "degrees_of_freedom": int, "seconds_gravity": float,
+    "newton_iterations": int, "halvings": int, "state_determinations": int, "tangents": int,
+    "degrees_of_freedom": int, "seconds_gravity": float,
     "seconds_loop": float, "title": str, "motion": str, "audit": str,
     "features_left_out": str, "plane_coupling": float,
 }  # fmt: skip

@@ -22,7 +22,7 @@ from validation.measurements.benchmark_runs import (
     run_here,
     run_there,
 )
-from validation.measurements.benchmark_search import coarsest, setting_of
+from validation.measurements.benchmark_search import cheapest, coarsest, setting_of
 from validation.measurements.benchmark_tables import (
     bound,
     goals,
@@ -49,6 +49,14 @@ def test_the_largest_step_that_keeps_the_peak_as_all_smaller_ones_do():
     assert math.isnan(coarsest([Run(1e-3, 10, 1.0, 2.0, 1.0, "rim_exceeded")], 1.0))
 
 
+def test_the_best_way_is_the_cheapest_that_keeps_the_error():
+    usual, loose = {"dt": 0.02, "loop": 1.0}, {"dt": math.nan}
+    assert cheapest([usual, loose, {"dt": 0.0025, "loop": 2.0}]) is usual
+    quick = {"dt": 0.01, "loop": 0.5}
+    assert cheapest([usual, quick]) is quick
+    assert cheapest([loose, loose]) is loose
+
+
 def test_power_laws_are_found():
     sizes = [9.0, 16.0, 36.0, 100.0]
     assert power(sizes, [3.0 * n**1.7 for n in sizes]) == pytest.approx(1.7)
@@ -62,8 +70,10 @@ def test_verdicts():
 
 
 def test_multiply_adds_of_one_bearing_by_hand():
-    # three matrices of 3 x 3, two residuals, one tangent: LU, its base and 12 x 12 put in place
-    assert multiply_adds(3, 0, 1, 1.0) == pytest.approx(27.0 + 18.0 + 9.0 + 9.0 + 144.0)
+    # three matrices of 3 x 3; two residuals, two solutions, of each one for the guess; half a
+    # tangent: its factorisation, and 12 x 12 put in place
+    expected = 27.0 + 18.0 + 18.0 + 0.5 * (9.0 + 144.0)
+    assert multiply_adds(3, 0, 1, 1.0, 1.0, 0.5) == pytest.approx(expected)
 
 
 def kept(ratio):

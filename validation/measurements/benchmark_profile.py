@@ -50,7 +50,9 @@ def _median_of(run: Callable[[], object]) -> float:
     return statistics.median(times)
 
 
-def multiply_adds(coordinates: int, modes: int, bearings: int, iterations: float) -> float:
+def multiply_adds(
+    coordinates: int, modes: int, bearings: int, iterations: float, states: float, tangents: float
+) -> float:
     """Return the multiply-adds that a step needs besides the bearings' state determinations.
 
     Parameters
@@ -59,21 +61,23 @@ def multiply_adds(coordinates: int, modes: int, bearings: int, iterations: float
         Bearing coordinates b and fixed-interface modes eta of the structure.
     bearings : int
         Number of bearings.
-    iterations : float
-        Of Newton's method a step.
+    iterations, states, tangents : float
+        A step: of Newton's method; determinations of all bearings' states; tangents made.
 
     Returns
     -------
     float
         Mass, damping and stiffness of b; the coupling of b and eta there and back, in the
-        right-hand sides and in their elimination; a residual more than iterations; a tangent of
-        12 x 12 put in place and factorised in each iteration.
+        right-hand sides and in their elimination; a residual a state determination; a guess of
+        the step; a solution an iteration and one for the guess; a bearing's 12 x 12 put in place,
+        and a factorisation, a tangent.
     """
     b, eta = float(coordinates), float(modes)
     linear = 3.0 * b * b + 4.0 * b * eta + 10.0 * eta
-    residuals = (iterations + 1.0) * b * b
-    tangents = iterations * (b**3 / 3.0 + b * b + 144.0 * bearings)
-    return linear + residuals + tangents
+    residuals = (states + 1.0) * b * b
+    solutions = (iterations + 1.0) * b * b
+    made = tangents * (b**3 / 3.0 + 144.0 * bearings)
+    return linear + residuals + solutions + made
 
 
 def profile(key: str) -> dict[str, float]:
@@ -88,7 +92,8 @@ def profile(key: str) -> dict[str, float]:
     -------
     dict of str to float
         Times of a step [us]: "step", of it "states", "tangents" and "arithmetic"; "recording",
-        which comes on top where all is recorded; and "multiply-adds", "iterations" [-].
+        which comes on top where all is recorded; and how many there are a step [-]:
+        "multiply-adds", "iterations", "states made", "tangents made".
     """
     structure = STRUCTURES[key]
     bearing = structure.bearing()
@@ -98,16 +103,19 @@ def profile(key: str) -> dict[str, float]:
     step = statistics.median(run.step for run in runs)
     full = [run_here(frame, motion, LENGTH, STEP, recording=None).step for _ in range(REPEATS)]
     everything = statistics.median(full)
-    iterations = runs[0].iterations / runs[0].steps
+    iterations, states, tangents = (
+        count / runs[0].steps for count in (runs[0].iterations, runs[0].states, runs[0].tangents)
+    )
     trial, _ = element_microseconds(bearing, REACH, "pendulum", tangent=False)
     both, _ = element_microseconds(bearing, REACH, "pendulum", tangent=True)
     count = len(frame.bearings)
     coordinates, modes = len(state.run.b), len(state.run.e)
-    needed = multiply_adds(coordinates, modes, count, iterations)
+    needed = multiply_adds(coordinates, modes, count, iterations, states, tangents)
     return {
-        "step": 1e6 * step, "states": count * (iterations + 1.0) * trial,
-        "tangents": count * iterations * (both - trial),
+        "step": 1e6 * step, "states": count * states * trial,
+        "tangents": count * tangents * (both - trial),
         "arithmetic": 1e-3 * nanoseconds_a_product() * needed,
         "recording": 1e6 * (everything - step), "multiply-adds": needed,
-        "iterations": iterations, "coordinates": float(coordinates), "modes": float(modes),
+        "iterations": iterations, "states made": states, "tangents made": tangents,
+        "coordinates": float(coordinates), "modes": float(modes),
     }  # fmt: skip

@@ -66,8 +66,8 @@ class Run:
         "ok", or why there is no result.
     rescued : int
         Steps of OpenSees that its algorithm did not solve, and another one did.
-    iterations : int
-        Of Newton's method here.
+    iterations, states, tangents : int
+        Of Newton's method here; determinations of all bearings' states, and tangents made.
     """
 
     dt: float
@@ -78,6 +78,8 @@ class Run:
     status: str = "ok"
     rescued: int = 0
     iterations: int = 0
+    states: int = 0
+    tangents: int = 0
 
     @property
     def step(self) -> float:
@@ -158,6 +160,7 @@ def run_here(
         loop=float(data.attrs["seconds_loop"]), whole=cpu,
         peak=float(np.linalg.norm(moved, axis=-1).max()), status=str(data.attrs["status"]),
         iterations=int(data.attrs["newton_iterations"]),
+        states=int(data.attrs["state_determinations"]), tangents=int(data.attrs["tangents"]),
     )  # fmt: skip
 
 
