@@ -72,6 +72,8 @@ ATTRIBUTES = {
     "tolerance": "error of a step over the displacement reached [-] where the program chose it",
     "steps": "steps taken, halved ones included",
     "newton_iterations": "iterations of Newton's method in all",
+    "state_determinations": "state determinations of all bearings",
+    "tangents": "tangents made",
     "halvings": "how often a step was halved",
     "degrees_of_freedom": "free degrees of freedom of the model",
     "seconds_gravity": "time of computation before the time loop [s]",

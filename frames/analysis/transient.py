@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 METHODS = ("direct",)
-_FORCE_TOLERANCE = 1e-6  # of the total weight
+_FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
 _CONTACT_TOLERANCE = 3e-5  # the same with a bearing at the level 'contact': its sliders' own motion

@@ -7,8 +7,8 @@ import pytest
 
 from frames import Recording
 from frames.analysis.recording import recording_of
-from frames.analysis.reduction import _later, _regular
-from frames.results.reached import Extreme, extreme_of
+from frames.analysis.reduction import _regular
+from frames.results.reached import Extreme, extreme_of, later
 
 
 def test_constructors_are_fields_put_together():
@@ -79,7 +79,7 @@ def test_extremes_of_pieces_are_those_of_the_whole():
     assert whole.at.tolist() == [0.1, 0.0, 0.1]
     for cut in (1, 2, 3):
         parts = [extreme_of(history[s], time[s]) for s in (slice(None, cut), slice(cut, None))]
-        joined = _later(*parts)
+        joined = later(*parts)
         assert isinstance(joined, Extreme)
         np.testing.assert_array_equal(joined.values, whole.values)
         np.testing.assert_array_equal(joined.at, whole.at)

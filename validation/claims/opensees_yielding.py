@@ -106,7 +106,7 @@ CASES = (
     Case("hinges, no rims", "ConcentratedPlasticity", lambda: hinged(bearing(math.inf, 0.1)), 1.0,
          2e-3, 4.0),
     Case("hinges, rims met", "ConcentratedPlasticity", lambda: hinged(bearing(0.2, 0.1)), 1.0,
-         1e-3, 4.0),
+         5e-4, 4.0),
 )  # fmt: skip
 SHOWN = (0, 2, 3, 11)
 """Cases whose loops are drawn."""

@@ -269,7 +269,7 @@ def write() -> str:
         "",
         "## Time history",
         "",
-        "Ten seconds of a made three-component motion, Newmark, Newton's method to 1e-6 of the "
+        "Ten seconds of a made three-component motion, Newmark, Newton's method to 1e-7 of the "
         "weight. 'Share' is time of computation over time of the earthquake.",
         "",
         "| model | DOFs (of bearings) | dt (s) | µs a step | Newton iterations | share |",
