@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.analysis.outcome import culprit, ended, judged
+from frames.analysis.outcome import concluded, ended
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import Recording
 from frames.analysis.reduction import judgeable_of
 from frames.analysis.size import require_rows
 from frames.analysis.stacking import NUMBERS, Layout, Row, reached_row
-from frames.analysis.transient import begin, march, settings_of
+from frames.analysis.transient import begin, ground_of, march, settings_of
 from frames.analysis.workspace import PeakRecorder, Structure, Workspace, set_up
-from frames.kernel_data import ENERGY_TERMS, Ground
-from frames.motion.shaking import seen_by_steps
-from frames.results.auditing import audit_report, doubts_of
+from frames.kernel_data import ENERGY_TERMS
+from frames.results.auditing import doubts_of
 from frames.results.kept import REACHED
 from frames.results.peaks import peaks_of
-from lir_element.errors import AnalysisError, RunStatus, failure_message
+from lir_element.errors import AnalysisError, RunStatus
+from lir_element.results.dataset import note_end
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -53,7 +53,6 @@ class Kept(NamedTuple):
 
 class _Ended(NamedTuple):
     # A run: how it ended, what the audit reads, energy at the end, what is recorded besides.
-    status: RunStatus
     data: xr.Dataset
     energy: FloatArray
     histories: xr.Dataset | None
@@ -170,11 +169,8 @@ class Worker:
         runner, state, structure = self._runner, workspace.reset(), workspace.structure
         options = runner.options[case.motion]
         motion = runner.motions[case.motion].scaled(case.scale)
-        shaking = motion
-        if not runner.features.second_direction:
-            shaking = motion.scaled([1.0, 0.0, 1.0])
         settings = settings_of(state, options)
-        ground = Ground(*seen_by_steps(shaking, settings.dt))
+        ground = ground_of(motion, runner.features, settings)
         recorder: PeakRecorder | _Recorder
         if structure.gauges is None or runner.kept.histories:
             recorder = _Recorder(
@@ -201,30 +197,20 @@ class Worker:
         seconds: float,
     ) -> _Ended:
         # What became of a run, as `time_history` judges it.
-        (status, detail), clock, counts = end, state.run.clock[0], state.run.counts[0]
-        done, time = int(clock["done"]), float(clock["time"])
+        counts, done = state.run.counts[0], int(state.run.clock["done"][0])
         data = recorder.data(done).assign_attrs(
             structure.template.attrs, integrator=options.integrator, seconds_loop=seconds
         )
         energy = recorder.out.energy[done - recorder.first].copy()
         whole, data = data, judgeable_of(data) if "time" in data.dims else data
-        data.attrs["audit"] = audit_report(data)
-        name = state.system.bearings[int(counts["bearing"])][0]
-        where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
-        if status is RunStatus.OK:
-            status, detail = judged(data)
-        message = "completed" + (f": {detail}" if detail else "")
-        if status is not RunStatus.OK:
-            message = failure_message(status, time, where, detail)
-            if status is not RunStatus.INACCURATE:
-                data.attrs |= {"failed_at": time, "failed_where": where}
-        data.attrs |= {"status": status.name.lower(), "message": message}
+        outcome = concluded(data, state, end)
+        note_end(data, *outcome)
         data.attrs |= {name: int(counts[name]) for name in ("steps", "halvings")}
         histories = None
         if self._runner.kept.histories and isinstance(recorder, _Recorder):
             recorded = whole if "time" in whole.dims else recorder.recorded(data)
             histories = _histories(recorded, structure.template)
-        return _Ended(status, data, energy, histories)
+        return _Ended(data, energy, histories)
 
 
 class _Recorder(Recorder):

@@ -26,7 +26,7 @@ from lir_element.results.eccentricity import interface_eccentricity
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from frames._types import FloatArray, IntArray
+    from frames._types import FloatArray
     from frames.analysis.static import GravityState
     from frames.assembly.assemble import System
     from frames.kernel_data import Ground, Output
@@ -199,7 +199,7 @@ class _Motion:
 
     def base_shear(self) -> FloatArray:
         system = self._state.system
-        grounded = np.isin([6 * i for _, i, _, _ in system.bearings], _fixed_dofs(system))
+        grounded = np.isin([6 * i for _, i, _, _ in system.bearings], system.fixed_dofs)
         forces = self._states["force"][: self._count, grounded, 6:9].sum(axis=1)
         beyond = self._out.beyond[: self._count]
         found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
@@ -244,16 +244,11 @@ def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
     return relative
 
 
-def _fixed_dofs(system: System) -> IntArray:
-    return np.flatnonzero(np.diff(system.transform.indptr) == 0)
-
-
 def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> FloatArray:
     # What supports of the structure itself resist (members on the ground), signed as bearing forces
     # are: positive with positive displacement of the structure.
     system = state.system
-    fixed = _fixed_dofs(system)
-    fixed = fixed[fixed % 6 < 3]
+    fixed = system.fixed_dofs[system.fixed_dofs % 6 < 3]
     stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
     forces = system.node_load[fixed] - np.asarray((stiffness[fixed] @ system.transform) @ q.T).T
     forces -= np.asarray(system.parts.node_rows[:, fixed].T @ beyond.T).T

@@ -51,14 +51,15 @@ def devices_of(state: GravityState) -> Devices:
     """Return what the peaks of the bearings are formed with."""
     props, system = state.model.props, state.system
     slider_height = props["radius"].sum(axis=1) - props["length"]
-    fixed = _fixed(system.transform)
     return Devices(
         records=device_records(system),
         height=interface_height(props["radius"], props["slider_radius"], slider_height),
         radius=props["radius"][:, 0].copy(),
         floor=props["axial_floor"].copy(),
         static=np.asarray(state.axial_forces, dtype=np.float64),
-        on_ground=np.array([int(fixed[6 * i]) for _, i, _, _ in system.bearings], np.int64),
+        on_ground=np.isin([6 * i for _, i, _, _ in system.bearings], system.fixed_dofs).astype(
+            np.int64
+        ),
     )
 
 
@@ -186,10 +187,6 @@ class Gauge:
         return found | {"time_lifted": r.lifted[:, 0].copy()}
 
 
-def _fixed(transform: SparseMatrix) -> FloatArray:
-    return np.asarray(np.diff(transform.indptr) == 0)
-
-
 def _nodes_dofs(nodes: IntArray, dofs: int) -> IntArray:
     # Places of the first `dofs` displacements of nodes, node by node.
     return np.asarray((6 * nodes[:, None] + np.arange(dofs)).ravel(), dtype=np.int64)
@@ -232,13 +229,12 @@ def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:
     # What supports of the structure itself resist along x and y: `_other_reactions` of the
     # Dataset; over free degrees of freedom, and over forces beyond with the constant.
     system = state.system
-    fixed = np.flatnonzero(_fixed(system.transform))
     stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
     node_rows = sparse.csc_array(system.parts.node_rows)
     rows = []
     rest = np.zeros((3, node_rows.shape[0] + 1))
     for axis in range(2):
-        those = fixed[fixed % 6 == axis]
+        those = system.fixed_dofs[system.fixed_dofs % 6 == axis]
         ones = np.ones((1, len(those)))
         rows.append(-(sparse.csr_array(ones) @ (stiffness[those] @ system.transform)))
         rest[axis, :-1] = -np.asarray(node_rows[:, those].sum(axis=1)).ravel()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames.results.auditing import audit_report
 from frames.results.reached import largest
 from lir_element.element import about_to_snap, limit_detail
 from lir_element.errors import RunStatus
@@ -103,6 +104,32 @@ def _tumbled(data: xr.Dataset) -> str:
         f"{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
         "compare smaller steps, and take it as a failure of the bearing"
     )
+
+
+def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
+    """Audit a run and judge it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        What the audit reads of the run. Gets the attribute `audit` and those of `judged`.
+    state : GravityState
+        The state it left.
+    end : tuple
+        As `ended` has it.
+
+    Returns
+    -------
+    Outcome
+        How it ended, and where it failed if it did.
+    """
+    status, detail = end
+    data.attrs["audit"] = audit_report(data)
+    name = state.system.bearings[int(state.run.counts["bearing"][0])][0]
+    where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
+    if status is RunStatus.OK:
+        status, detail = judged(data)
+    return Outcome(status, float(state.run.clock["time"][0]), where, detail)
 
 
 def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:

@@ -275,7 +275,7 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
     stiffness = sparse.csr_array(
         system.node_stiffness + node_geometric_stiffness(system, found.axial)
     )
-    fixed = np.flatnonzero(np.diff(system.transform.indptr) == 0)
+    fixed = system.fixed_dofs
     forces = np.asarray(stiffness[fixed] @ found.u.T).T - system.node_load[fixed]
     forces += np.asarray(system.parts.node_rows[:, fixed].T @ found.beyond.T).T
     every = np.ones((len(system.bearings), 2), dtype=bool)

@@ -12,7 +12,7 @@ import numpy as np
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.equilibrium import force_tolerance
-from frames.analysis.outcome import Outcome, culprit, ended, judged
+from frames.analysis.outcome import Outcome, concluded, ended
 from frames.analysis.plausible import check_analysis
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import recording_of
@@ -23,7 +23,7 @@ from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Setup
 from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
-from frames.results.auditing import audit_report, doubts_of
+from frames.results.auditing import doubts_of
 from lir_element.device.features import Features
 from lir_element.door import require_between, require_choice, require_positive
 from lir_element.element import ALL_LEVELS
@@ -260,14 +260,13 @@ def _run(
     state = gravity(model, features, level)
     settings = settings_of(state, options)
     tolerance = settings.error_tolerance
-    shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
-    ground = Ground(*seen_by_steps(shaking, settings.dt))
+    ground = ground_of(motion, features, settings)
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
     begin(state, ground)
     code, seconds = march(state, settings, ground, recorder, options)
-    status, detail = ended(state, code)
-    clock, counts = state.run.clock[0], state.run.counts[0]
-    data = recorder.data(int(clock["done"]))
+    end = ended(state, code)
+    counts = state.run.counts[0]
+    data = recorder.data(int(state.run.clock["done"][0]))
     data.attrs = {
         "title": f"time history of {model.name}",
         "motion": motion.name,
@@ -290,14 +289,10 @@ def _run(
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
-    seen = recorder.judgeable(data)
-    seen.attrs = data.attrs | {"audit": audit_report(seen.assign_attrs(data.attrs))}
-    name = state.system.bearings[int(counts["bearing"])][0]
-    where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
-    if status is RunStatus.OK:
-        status, detail = judged(seen)
+    seen = recorder.judgeable(data).assign_attrs(data.attrs)
+    outcome = concluded(seen, state, end)
     data.attrs = seen.attrs
-    return data, Outcome(status, float(clock["time"]), where, detail), recorder
+    return data, outcome, recorder
 
 
 def check_options(
@@ -379,6 +374,12 @@ def _tangent_worth(bearings: int, unknowns: int) -> float:
     new = bearings + _PRODUCT * unknowns**3 / 3.0
     kept = bearings + _PRODUCT * unknowns**2
     return max(new / kept - 1.0, 0.0) / _SERVES
+
+
+def ground_of(motion: GroundMotion, features: Features, settings: Setup) -> Ground:
+    """Return a motion as the loop integrates it: along the directions that are modelled."""
+    shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
+    return Ground(*seen_by_steps(shaking, settings.dt))
 
 
 def begin(state: GravityState, ground: Ground) -> None:

@@ -139,6 +139,11 @@ class System:
         """Deformations of the nonlinear parts from the free degrees of freedom, (m, n_free)."""
         return sparse.csr_array(self.parts.node_rows @ self.transform)
 
+    @cached_property
+    def fixed_dofs(self) -> IntArray:
+        """Places among the nodes' displacements, six a node, of those that supports hold."""
+        return np.flatnonzero(np.diff(self.transform.indptr) == 0)
+
     def __repr__(self) -> str:
         """Return sizes on one line."""
         return (

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
-from lir_element.kernels.linear import add_product, dot
+from lir_element.kernels.linear import add_product, dot, set_product
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
@@ -77,10 +77,8 @@ def coupled_load(
     add_product(damping_eb, g_e, -1.0, rhs_b)
     add_product(damping_be, g_b, -1.0, rhs_e)
     add_product(damping_ee, g_e, -1.0, rhs_e)
-    for k in range(rhs_e.shape[0]):
-        h_e[k] = 0.0
     add_product(follow, rhs_e, -1.0, rhs_b)
-    add_product(inverse, rhs_e, 1.0, h_e)
+    set_product(inverse, rhs_e, h_e)
 
 
 @kernel
@@ -92,11 +90,7 @@ def coupled_work(
 
     `flow_b` (n_b,) and `flow_e` (n_e,) are overwritten.
     """
-    for a in range(flow_b.shape[0]):
-        flow_b[a] = 0.0
-    for k in range(flow_e.shape[0]):
-        flow_e[k] = 0.0
-    add_product(damping_eb, v_e, 1.0, flow_b)
-    add_product(damping_be, v_b, 1.0, flow_e)
+    set_product(damping_eb, v_e, flow_b)
+    set_product(damping_be, v_b, flow_e)
     add_product(damping_ee, v_e, 1.0, flow_e)
     return dot(step_b, flow_b) + dot(step_e, flow_e)

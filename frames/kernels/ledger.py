@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined
 from frames.kernels.coupling import coupled_work
 from frames.kernels.part_works import part_energy_on
-from lir_element.kernels.linear import add_product, dot
+from lir_element.kernels.linear import add_product, dot, set_product
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 @inlined
 def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, momentum: Floats) -> float:
     """Return the kinetic energy relative to the ground; `momentum` (n_b,) is overwritten."""
-    for a in range(momentum.shape[0]):
-        momentum[a] = 0.0
-    add_product(model.mass_b, v_b, 1.0, momentum)
+    set_product(model.mass_b, v_b, momentum)
     add_product(model.mass_eb, v_e, 2.0, momentum)
     total = dot(v_b, momentum)
     for k in range(v_e.shape[0]):
@@ -39,9 +37,7 @@ def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
 
     `force` (n_b,) is overwritten.
     """
-    for a in range(force.shape[0]):
-        force[a] = 0.0
-    add_product(model.stiffness_b, b, 1.0, force)
+    set_product(model.stiffness_b, b, force)
     total = dot(b, force)
     for k in range(e.shape[0]):
         total += model.omega2[k] * e[k] * e[k]
@@ -58,9 +54,8 @@ def damping_work(model: Model, run: Run) -> float:
         total += run.g_e[k] * model.damping_e[k] * mean
     for a in range(run.b.shape[0]):
         run.h_b[a] = 0.5 * (run.v_b[a] + run.v_b_new[a])
-        run.g_b[a] = 0.0
     if model.damping_b.shape[0] > 0:
-        add_product(model.damping_b, run.h_b, 1.0, run.g_b)
+        set_product(model.damping_b, run.h_b, run.g_b)
         total += dot(run.step, run.g_b)
     if model.damping_ee.shape[0] > 0:
         total += coupled_work(

@@ -9,6 +9,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.kernel_data import ENERGY_TERMS
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -36,7 +37,9 @@ WHOLE_PLACES = (
 _PRESSED = 0.05  # frames.results.reached.PRESSED and FULL_SLIP
 _FULL_SLIP = 1.0 - 1e-9
 _LEAST_SHARE = 1e-3  # of the static force, where the interface holds next to nothing
-_INPUT, _YIELDING, _NUMERICAL = 0, 12, 15  # places in ENERGY_TERMS
+_INPUT = ENERGY_TERMS.index("input")
+_YIELDING = ENERGY_TERMS.index("yielding")
+_NUMERICAL = ENERGY_TERMS.index("numerical")
 
 
 @inlined

@@ -55,12 +55,30 @@ def add_product(columns: Floats, x: Floats, factor: float, out: Floats) -> None:
 
 
 @kernel
+def set_product(columns: Floats, x: Floats, out: Floats) -> None:
+    """Set `out` to ``columns.T @ x``, as `add_product` adds it."""
+    for a in range(out.shape[0]):
+        out[a] = 0.0
+    add_product(columns, x, 1.0, out)
+
+
+@kernel
 def dot(x: Floats, y: Floats) -> float:
     """Return the scalar product of `x` and `y`."""
     total = 0.0
     for a in range(x.shape[0]):
         total += x[a] * y[a]
     return total
+
+
+@kernel
+def pivot_of(a: Floats, col: int, n: int) -> int:
+    """Return the row below `n`, from `col` on, with the largest entry of a column; -1 if none."""
+    pivot, largest = col, abs(a[col, col])
+    for row in range(col + 1, n):
+        if abs(a[row, col]) > largest:
+            pivot, largest = row, abs(a[row, col])
+    return pivot if largest > 0.0 else -1
 
 
 @kernel
@@ -72,12 +90,8 @@ def factorise(columns: Floats, order: Words) -> bool:
     """
     n = columns.shape[0]
     for col in range(n):
-        pivot = col
-        largest = abs(columns[col, col])
-        for row in range(col + 1, n):
-            if abs(columns[row, col]) > largest:
-                pivot, largest = row, abs(columns[row, col])
-        if not largest > 0.0:
+        pivot = pivot_of(columns, col, n)
+        if pivot < 0:
             return False
         order[col] = pivot
         if pivot != col:
@@ -118,12 +132,8 @@ def solve_many(a: Floats, x: Floats, n: int, m: int) -> bool:
     Gaussian elimination with pivoted rows; both arrays are overwritten. Returns False if singular.
     """
     for col in range(n):
-        pivot = col
-        largest = abs(a[col, col])
-        for row in range(col + 1, n):
-            if abs(a[row, col]) > largest:
-                pivot, largest = row, abs(a[row, col])
-        if not largest > 0.0:
+        pivot = pivot_of(a, col, n)
+        if pivot < 0:
             return False
         if pivot != col:
             for k in range(col, n):

@@ -259,28 +259,29 @@ def report(
     data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str, *, on_failure: str
 ) -> xr.Dataset:
     """Write the outcome into the attributes; warn or raise on failure, warn of a given detail."""
-    data.attrs["status"] = status.name.lower()
+    note_end(data, status, time, where, detail)
     data.attrs["lir_dcfp_version"] = package_version()
-    data.attrs["message"] = "completed"
-    if status is RunStatus.OK:
-        if detail:
-            data.attrs["message"] += f": {detail}"
-            warnings.warn(detail, AnalysisWarning, stacklevel=3)
-        return data
     if status is RunStatus.INTERRUPTED:  # whatever `on_failure`: loops and scripts must stop
-        stop = AnalysisInterrupted(time, data)
-        data.attrs["message"] = f"interrupted at t = {time:.6g} s"
-        raise stop
-    message = failure_message(status, time, where, detail)
-    data.attrs["message"] = message
-    if status is RunStatus.INACCURATE:  # complete, and for the user to judge
-        warnings.warn(message, AnalysisWarning, stacklevel=3)
-        return data
-    data.attrs |= {"failed_at": time, "failed_where": where}
-    if on_failure == "raise":
+        raise AnalysisInterrupted(time, data)
+    if "failed_at" in data.attrs and on_failure == "raise":
         raise AnalysisError(status, time, where, detail, data)
-    warnings.warn(message, AnalysisWarning, stacklevel=3)
+    if status is not RunStatus.OK:
+        warnings.warn(data.attrs["message"], AnalysisWarning, stacklevel=3)
+    elif detail:
+        warnings.warn(detail, AnalysisWarning, stacklevel=3)
     return data
+
+
+def note_end(data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str) -> None:
+    """Write into the attributes how a run ended: status, message, and where it failed if it did."""
+    message = "completed" + (f": {detail}" if detail else "")
+    if status is RunStatus.INTERRUPTED:
+        message = f"interrupted at t = {time:.6g} s"
+    elif status is not RunStatus.OK:
+        message = failure_message(status, time, where, detail)
+        if status is not RunStatus.INACCURATE:  # which is complete, and for the user to judge
+            data.attrs |= {"failed_at": time, "failed_where": where}
+    data.attrs |= {"status": status.name.lower(), "message": message}
 
 
 def require_on_failure(value: str) -> None:

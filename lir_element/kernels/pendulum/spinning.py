@@ -122,6 +122,7 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
     first = first_spin(old, w.dt)
     if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
         return -1
+    spin_by(p, old, w, first)
     aim_on(p, old, w)
     evaluate(p, old, w)
     mu = old.friction_coefficient

@@ -254,7 +254,6 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     w.dt = max(time - old.time, 0.0)
     start_search(p, old, w)
     start_spin(p, old, w)
-    spin_by(p, old, w, first_spin(old, w.dt))
     if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
