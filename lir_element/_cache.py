@@ -30,8 +30,8 @@ from lir_element import _shipped
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-COMPILED = ("**/kernels/**/*.py", "_jit.py", "errors.py", "layout.py", "kernel_data.py",
-            "parts_layout.py", "bundles/*.py", "opensees/block/*.py")  # fmt: skip
+COMPILED = ("**/kernels/**/*.py", "_jit.py", "_parts.py", "errors.py", "layout.py",
+            "kernel_data.py", "parts_layout.py", "bundles/*.py", "opensees/block/*.py")  # fmt: skip
 """Patterns of the sources, in a package, that kernels consist of or import."""
 
 VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
@@ -44,6 +44,8 @@ _said: set[str] = set()
 
 taken: set[Path] = set()
 """Files that this process took kernels from."""
+
+_parts: dict[Path, Any] = {}  # that this process took from files, so that each is there once
 
 
 def compiled_sources(folder: Path) -> list[Path]:
@@ -160,6 +162,43 @@ def _warn(what: str, again: bool) -> None:
     )
 
 
+def _opened(key: tuple[Any, ...] | None, content: bytes) -> Any:
+    # What is kept, or None if the file is damaged or another kernel's (None: any kernel's).
+    if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
+        return None
+    try:
+        known, reduced = pickle.loads(content[_DIGEST:])  # noqa: S301  # written here
+    except _UNREADABLE:
+        return None
+    return reduced if key in {None, known} else None
+
+
+def _part_in(
+    path: Path, context: Any, rebuilt: Any, key: tuple[Any, ...] | None = None, digest: Any = None
+) -> Any:
+    # The part that a file holds, and all below; None if that is not there. The digest tells that
+    # it is what its caller was compiled with: names in the code differ from process to process.
+    part = _parts.get(path)
+    if part is None:
+        content = _content(path)
+        if content is None or digest not in {None, content[:_DIGEST]}:
+            return None
+        reduced = _opened(key, content)
+        if reduced is None:
+            _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
+            return None
+
+        def below(name: str, of: bytes) -> Any:
+            return _part_in(path.parent.parent / name, context, rebuilt, None, of)
+
+        part = rebuilt(context, reduced, below)
+        if part is None:
+            return None
+        part.library.kept = (f"{path.parent.name}/{path.name}", content[:_DIGEST])
+        _parts[path] = part
+    return part if digest in {None, part.library.kept[1]} else None
+
+
 class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
     """Where one kernel is looked for before it is compiled, and kept afterwards.
 
@@ -169,11 +208,15 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         The kernel as Python.
     sources : Sources
         What it may depend on.
+    rebuilt : callable, optional
+        Makes a part (`_parts`) of what was kept of it.
     """
 
-    def __init__(self, function: Any, sources: Sources) -> None:
+    def __init__(self, function: Any, sources: Sources, rebuilt: Any = None) -> None:
         self._name = f"{function.__module__}.{function.__qualname__}"
         self._sources = sources
+        self._rebuilt = rebuilt
+        self.as_part = False  # whether it is the part that is looked for
 
     @property
     def cache_path(self) -> str | None:
@@ -182,7 +225,8 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         return None if folder is None else str(folder)
 
     def _key(self, signature: Any, processor: Any) -> tuple[Any, ...]:
-        return (self._name, signature, processor, VERSIONS)
+        key = (self._name, signature, processor, VERSIONS)
+        return (*key, "part") if self.as_part else key
 
     def _path(self, key: tuple[Any, ...], folder: Path | None) -> Path | None:
         code = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
@@ -205,33 +249,35 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         target_context.refresh()  # 0.2 s, once: C's calling convention needs it
         if not self._sources.unchanged():
             return None
+        if self.as_part:
+            return self._load_part(sig, target_context)
         for key, path in self._places(sig, target_context.codegen()):
             content = _content(path)
             if content is None:
                 continue
-            reduced = self._opened(key, content)
+            reduced = _opened(key, content)
             if reduced is not None:
                 taken.add(path)
                 return CompileResult._rebuild(target_context, *reduced)
             _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
         return None
 
-    @staticmethod
-    def _opened(key: tuple[Any, ...], content: bytes) -> Any:
-        # What is kept, or None if the file is damaged or another kernel's.
-        if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
-            return None
-        try:
-            known, reduced = pickle.loads(content[_DIGEST:])  # noqa: S301  # written here
-        except _UNREADABLE:
-            return None
-        return reduced if known == key else None
+    def _load_part(self, sig: Any, context: Any) -> Any:
+        key = self._key(sig, context.codegen().magic_tuple())
+        path = self._path(key, self._sources.folder())
+        return None if path is None else _part_in(path, context, self._rebuilt, key=key)
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep a compiled kernel, if it may be kept and there is room for it."""
         lasting = not data.library.has_dynamic_globals and not data.lifted
         if "again" in _said or not lasting or not self._sources.unchanged():
             return
+        reduced = data.library.reduced(data) if self.as_part else data._reduce()
+        if reduced is None:
+            return
         key = self._key(sig, data.codegen.magic_tuple())
-        content = dumps((key, data._reduce()))
-        keep(self._path(key, self._sources.folder()), hashlib.sha256(content).digest() + content)
+        path = self._path(key, self._sources.folder())
+        content = dumps((key, reduced))
+        digest = hashlib.sha256(content).digest()
+        if keep(path, digest + content) and path and self.as_part:
+            data.library.kept = (f"{path.parent.name}/{path.name}", digest)

@@ -25,6 +25,13 @@ OWN = Sources(Path(__file__).parent)
 """What the kernels of this package depend on."""
 
 
+WITH_PARTS = numba.__version__.startswith("0.68.")
+"""Whether this numba is one whose inside is known: else kernels take twice as long to compile."""
+
+if WITH_PARTS:
+    from lir_element._parts import KernelDispatcher, rebuilt_part
+
+
 class KernelDecorator(Protocol):
     """A decorator that keeps the signature of what it compiles."""
 
@@ -53,10 +60,15 @@ def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> 
     """
 
     def decorate(function: F) -> F:
-        compiled: Any = numba.njit(
-            error_model="numpy", nogil=True, forceinline=inline, _nrt=counts, no_cfunc_wrapper=True
-        )(function)  # Python calls kernels by the other wrapper; each is a copy of what is inlined
-        if not config.DISABLE_JIT:  # else it is the plain function
+        if config.DISABLE_JIT:
+            return function
+        options = {"error_model": "numpy", "nogil": True, "forceinline": inline, "_nrt": counts,
+                   "no_cfunc_wrapper": True}  # fmt: skip  # Python calls by the other wrapper
+        if WITH_PARTS:
+            compiled: Any = KernelDispatcher(function, options)
+            compiled._cache = KernelCache(function, sources, rebuilt_part)
+        else:
+            compiled = numba.njit(**options)(function)
             compiled._cache = KernelCache(function, sources)
         return cast("F", compiled)
 
