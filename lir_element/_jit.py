@@ -65,7 +65,8 @@ def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> 
         options = {"error_model": "numpy", "nogil": True, "forceinline": inline, "_nrt": counts,
                    "no_cfunc_wrapper": True}  # fmt: skip  # Python calls by the other wrapper
         if WITH_PARTS:
-            compiled: Any = KernelDispatcher(function, options)
+            options |= {"nopython": True, "boundscheck": None}  # as `njit` has it
+            compiled: Any = KernelDispatcher(function, targetoptions=options)
             compiled._cache = KernelCache(function, sources, rebuilt_part)
         else:
             compiled = numba.njit(**options)(function)

@@ -181,13 +181,16 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
 
     _asked_by_kernel = False
 
-    def __init__(self, function: Any, options: dict[str, Any]) -> None:
-        options = {"nopython": True, "boundscheck": None, **options}  # as `njit` does
-        super().__init__(function, targetoptions=options)
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
         _kernels[id(self)] = self
         usual: Any = self._compiler  # type: ignore[has-type]
         self._compiler = _KernelCompiler(
-            function, usual.targetdescr, options, usual.locals, usual.pipeline_class
+            usual.py_func,
+            usual.targetdescr,
+            usual.targetoptions,
+            usual.locals,
+            usual.pipeline_class,
         )
 
     def get_call_template(self, args: Any, kws: Any) -> Any:

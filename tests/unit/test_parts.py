@@ -1,0 +1,166 @@
+"""Kernels that kernels call: kept as parts, made machine code only where Python calls them."""
+
+import math
+import os
+import subprocess  # what a new process does  # noqa: S404
+import sys
+from pathlib import Path
+from typing import Any
+
+import numba
+import pytest
+
+import lir_element
+from lir_element import _cache
+from lir_element._jit import WITH_PARTS, kernels_of
+
+COMPILES = pytest.mark.skipif(
+    os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
+)
+PARTS = pytest.mark.skipif(
+    not WITH_PARTS or os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="there are no parts"
+)
+ROOT = Path(lir_element.__file__).parents[1]
+SOURCE = """
+import math
+
+@kernel
+def law(x, power):
+    return math.exp(-x) * x ** power
+
+@kernel
+def twice(x):
+    return law(x, 2) + law(x, 3)
+
+@kernel
+def other(x):
+    return twice(x) - law(x, 2)
+
+@kernel
+def last(x):
+    return other(x) + twice(x)
+"""
+X = 0.7
+TWICE = math.exp(-X) * (X**2 + X**3)
+LAST = math.exp(-X) * X**3 + TWICE
+NAMES = ("law", "twice", "other", "last")
+
+
+@pytest.fixture
+def kernels(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What a new process finds: a function that returns the kernels, and an empty cache."""
+    monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
+    folder = tmp_path / "package" / "kernels"
+    folder.mkdir(parents=True)
+    path = folder / "law.py"
+    path.write_text(SOURCE, encoding="utf-8")
+
+    def start() -> dict[str, Any]:
+        monkeypatch.setattr(_cache, "_parts", {})
+        sources = _cache.Sources(folder.parent)
+        names: dict[str, Any] = {"kernel": kernels_of(sources), "__name__": "package"}
+        exec(compile(SOURCE, str(path), "exec"), names)  # noqa: S102
+        return names
+
+    return start
+
+
+def compiled(kernel: Any) -> int:
+    return sum(kernel.stats.cache_misses.values())
+
+
+def files(tmp_path: Path, name: str) -> list[Path]:
+    return sorted((tmp_path / "cache").rglob(f"package.{name}-*"))
+
+
+@PARTS
+def test_a_part_becomes_whole_when_python_calls_it(kernels: Any, tmp_path: Path) -> None:
+    names = kernels()
+    law = names["law"]
+    assert names["twice"](X) == pytest.approx(TWICE, rel=1e-15)
+    assert compiled(law) == 1  # constants are numbers: 2 and 3 are one signature
+    [part] = law.overloads.values()
+    assert not part.library._object_caching_enabled  # there is no object
+    assert law(X, 2) == pytest.approx(math.exp(-X) * X**2, rel=1e-15)
+    assert compiled(law) == 2
+    assert len(files(tmp_path, "law")) == 2
+    assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
+
+
+@PARTS
+def test_a_later_process_takes_parts_from_the_cache(kernels: Any, tmp_path: Path) -> None:
+    kernels()["other"](X)
+    names = kernels()
+    taken = set(_cache.taken)
+    assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
+    assert [compiled(names[name]) for name in NAMES] == [0, 0, 1, 1]
+    assert _cache.taken == taken  # what a wheel packs is what Python calls
+    names = kernels()
+    assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
+    assert [compiled(names[name]) for name in NAMES] == [0, 0, 0, 0]
+    assert _cache.taken - taken == {
+        path for path in files(tmp_path, "last") if path in _cache.taken
+    }
+
+
+@PARTS
+def test_a_part_is_left_whose_callee_another_process_has_replaced(
+    kernels: Any, tmp_path: Path
+) -> None:
+    kernels()["other"](X)
+    [law] = files(tmp_path, "law")
+    before = law.read_bytes()
+    law.unlink()
+    kernels()["law"].get_call_template((numba.typeof(X), numba.typeof(2)), {})
+    assert law.read_bytes() != before  # names in the code are those of a process
+    names = kernels()
+    assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
+    assert [compiled(names[name]) for name in NAMES] == [0, 1, 1, 1]
+
+
+FALLBACK = """
+import numba
+numba.__version__ = "0.1.0"
+from lir_element import _jit
+assert not _jit.WITH_PARTS
+from lir_element.kernels.rotation import turn_matrix
+import numpy as np
+q = np.empty((3, 3))
+turn_matrix(0.1, 0.2, 0.3, q)
+print(q.tobytes().hex(), sum(turn_matrix.stats.cache_misses.values()))
+"""
+
+
+def run(code: str, cache: Path) -> list[str]:
+    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(cache)}
+    done = subprocess.run(  # noqa: S603
+        [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
+    )
+    return done.stdout.split()
+
+
+@COMPILES
+def test_with_a_numba_that_is_not_known_kernels_compile_the_ordinary_way(tmp_path: Path) -> None:
+    usual = FALLBACK.replace('"0.1.0"', "numba.__version__").replace("not _jit.WITH_PARTS", "True")
+    [bits, misses] = run(FALLBACK, tmp_path)
+    assert misses == "1"
+    assert run(FALLBACK, tmp_path) == [bits, "0"]
+    assert run(usual, tmp_path) == [bits, "1"]
+
+
+FIRST = """
+from frames.ahead import USUAL
+import warnings
+warnings.simplefilter("ignore")
+USUAL["time history"]()
+"""
+
+
+@COMPILES
+@pytest.mark.slow
+def test_a_run_compiles_no_kernels_of_other_levels(tmp_path: Path) -> None:
+    run(FIRST, tmp_path)
+    names = {path.name.rsplit("-", 1)[0] for path in tmp_path.rglob("*.kernel")}
+    assert "frames.kernels.integration.advance" in names
+    others = ("contact", "rigid_body")
+    assert not [n for n in names if any(f"lir_element.kernels.{o}." in n for o in others)]
