@@ -75,6 +75,21 @@ ATTRIBUTES = {
     "state_determinations": "state determinations of all bearings",
     "tangents": "tangents made",
     "halvings": "how often a step was halved",
+    "modes": "modes or vectors of the structure over held bearings",
+    "reduction_runs": 'runs of `method="reduced"`; only of those',
+    "reduction_tolerance": "largest difference of two runs that was asked for [-]",
+    **{
+        f"reduction_error_{name}": f"difference of the last two runs: {text}, over the largest [-]"
+        for name, text in (
+            ("bearing_displacement", "peak displacements of the bearings"),
+            ("base_shear", "peak base shear"),
+            ("axial_force", "peak axial forces"),
+            ("floor_acceleration", "peak accelerations of nodes in plan"),
+            ("vertical_acceleration", "vertical ones, over the largest in any direction"),
+            ("storey_drift", "peak drifts of storeys and lines"),
+            ("yielding", "peak deformations of links and rotations of hinges"),
+        )
+    },
     "degrees_of_freedom": "free degrees of freedom of the model",
     "seconds_gravity": "time of computation before the time loop [s]",
     "seconds_loop": "time of computation of the time loop [s]",
@@ -121,7 +136,7 @@ def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
     model = moment_frame((1, 1), 1, bearing=bearing, hinges={"column": PlasticHinge(moment_y=1e6)})
     brace = Bilinear(stiffness=1e7, yield_force=1e5)
     model.add_link("brace", "base-0-0", "floor-1-1-0", brace)
-    history = time_history(model, motion, level="auto")
+    history = time_history(model, motion, level="auto", method="reduced")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         failed = cyclic_test(bearing, [0.0, 0.25], 100e3)

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Literal
 from frames._errors import AuditWarning, ModelWarning
 from frames.analysis.batch_run import Kept, Runner
 from frames.analysis.cases import BatchProgress, grid, named_models, named_motions, tell
+from frames.analysis.options import check_options, options_of
 from frames.analysis.plausible import motion_doubts
 from frames.analysis.recording import Recording, whole_steps
 from frames.analysis.stacking import stack
-from frames.analysis.transient import check_options, options_of
 from lir_element.device.features import Features
 from lir_element.door import require_choice
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning, RunStatus

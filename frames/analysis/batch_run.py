@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.analysis.cases import Case
+    from frames.analysis.options import Options
     from frames.analysis.static import GravityState
-    from frames.analysis.transient import Options
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
     from lir_element.device.features import Features

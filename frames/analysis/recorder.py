@@ -6,10 +6,15 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from frames.analysis.dataset import build_dataset, peak_velocity
-from frames.analysis.gauging import Gauge, can_gauge, devices_of
+from frames.analysis.gauging import Gauge, Places, can_gauge, devices_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
-from frames.analysis.reduction import Findings, Reduction, with_findings
+from frames.analysis.reduction import (
+    Findings,
+    Reduction,
+    present_quantities,
+    with_findings,
+)
 from frames.analysis.size import (
     bytes_of_step,
     bytes_over_time,
@@ -20,6 +25,8 @@ from frames.analysis.size import (
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.parts_data import part_sizes
+from frames.results.measures import lines_of
+from frames.results.reached import largest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,6 +36,7 @@ if TYPE_CHECKING:
     from frames.kernel_data import Ground
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
+    from frames.results.reached import Extreme
 
 BUFFER = 64e6
 """Memory of the steps between two emptyings, their Dataset included [bytes]."""
@@ -172,6 +180,28 @@ class Recorder:
         parts.take(self.out, 0, count)
         reached, end = gauge.reached() | parts.reached(), float(self.out.time[count - 1])
         return with_findings(data.drop_dims("time"), Findings(reached, gauge.totals(), {}, end))
+
+    def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
+        """Return the largest values of all quantities of a result that `data` gave, by name.
+
+        Parameters
+        ----------
+        data : xarray.Dataset
+            The result.
+
+        Returns
+        -------
+        dict of str to Extreme
+            By compiled code where it can be.
+        """
+        if not self._is_whole or not can_gauge(self._state):
+            return {name: largest(data, name) for name in present_quantities(data)}
+        levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
+        shape = shape_of(self._state, Places(*levels, lines_of(data)))
+        gauge, parts = Gauge(devices_of(self._state), shape), PartGauge(self._state, self._model)
+        gauge.take(self._states, self.out, self._ground, 0, data.sizes["time"])
+        parts.take(self.out, 0, data.sizes["time"])
+        return gauge.reached() | parts.reached()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""

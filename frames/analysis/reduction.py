@@ -345,7 +345,7 @@ def _measured(
         return state.reached, state.totals
     time = piece["time"].to_numpy()[begin:end]
     reached, totals = {}, {}
-    for name in _present(piece):
+    for name in present_quantities(piece):
         now = extreme_of(QUANTITIES[name].of(piece)[begin:end], time)
         reached[name] = later(state.reached[name], now) if name in state.reached else now
     for name, total in TOTALS.items():
@@ -354,8 +354,8 @@ def _measured(
     return reached, totals
 
 
-def _present(piece: xr.Dataset) -> list[str]:
-    # The quantities that a model has.
+def present_quantities(piece: xr.Dataset) -> list[str]:
+    """Return the names of the quantities that the model of a result has."""
     levels = piece.sizes["level"]
     lacking: set[str] = set() if levels else {"floor_plan", "floor_vertical"}
     if levels < 2:

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import spsolve
 
 from frames.assembly.basis import bearing_rows
+from frames.assembly.sparse_solver import Factors
 from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffness
 
 if TYPE_CHECKING:
@@ -59,7 +59,10 @@ def first_displacement(system: System, with_points: Collection[str] = ()) -> Flo
         the geometric stiffness of an analysis.
     """
     springs = guessed_springs(system, with_points)
-    return np.asarray(spsolve(sparse.csc_array(system.stiffness + springs), system.load))
+    stiffness = sparse.csr_array(system.stiffness + springs)
+    factors = Factors(stiffness)
+    first = factors.solve(system.load)
+    return first + factors.solve(system.load - np.asarray(stiffness @ first))  # round-off
 
 
 def spring_forces(system: System, displacement: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -159,9 +159,31 @@ def gravity(
         If supports take weight past the bearings, or numbers look as if given in other units
         (`Frame.check` lists the same).
     """
+    prepared = prepare(frame, features, level)
+    began = perf_counter()
+    basis = build_basis(prepared.system, prepared.geometric, frame.damping)
+    return at_rest(prepared, basis, perf_counter() - began)
+
+
+class Prepared(NamedTuple):
+    """A frame as matrices, before the choice of a basis."""
+
+    system: System
+    geometric: SparseMatrix
+    member_forces: FloatArray
+    linear: FloatArray
+    """Displacements on linear springs (n_free,)."""
+    levels: dict[str, str]
+    seconds: float
+
+
+def prepare(
+    frame: FrameContents, features: Features | None, level: str | Mapping[str, str]
+) -> Prepared:
+    """Check a frame and make its matrices, geometric stiffness included; arguments as `gravity`."""
     plausible.refuse_extent(frame)
     for doubt in plausible.doubts(frame):
-        warnings.warn(doubt, ModelWarning, stacklevel=2)
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
     points = [name for name, own in levels.items() if own == "contact"]
@@ -173,7 +195,37 @@ def gravity(
     member_forces = member_axial_forces(system, linear)
     geometric = geometric_stiffness(system, member_forces)
     system = replace(system, parts=with_axial_forces(system.parts, system.members, member_forces))
-    basis = build_basis(system, geometric, frame.damping)
+    return Prepared(system, geometric, member_forces, linear, levels, perf_counter() - began)
+
+
+def at_rest(
+    prepared: Prepared, basis: Basis, seconds: float, *, silent: bool = False
+) -> GravityState:
+    """Find the equilibrium under permanent loads in a basis.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        Of `prepare`.
+    basis : Basis
+        The frame in bearing coordinates.
+    seconds : float
+        Time that the basis took [s].
+    silent : bool
+        Whether doubts about the model have been told.
+
+    Returns
+    -------
+    GravityState
+        The equilibrium.
+
+    Raises
+    ------
+    AnalysisError
+        As `gravity`.
+    """
+    began = perf_counter()
+    system, _, member_forces, linear, levels, before = prepared
     found = find_equilibrium(system, basis, linear, levels, None)
     compiling = found.compiling
     axial_forces = np.array(found.run.old["axial_force"])
@@ -183,7 +235,7 @@ def gravity(
     displacement = expand(basis, found.run.b, found.run.e)
     state = GravityState(
         system=system,
-        geometric=geometric,
+        geometric=prepared.geometric,
         member_forces=member_forces,
         basis=basis,
         model=found.model,
@@ -191,14 +243,14 @@ def gravity(
         contacts=found.contacts,
         displacement=displacement,
         axial_forces=axial_forces,
-        seconds=perf_counter() - began - compiling,
+        seconds=before + seconds + perf_counter() - began - compiling,
         load_path=load_path(
             system, node_geometric_stiffness(system, member_forces), displacement, axial_forces
         ),
         parts=parts_at_rest(system, basis, displacement),
     )
-    for doubt in state.doubts:
-        warnings.warn(doubt, ModelWarning, stacklevel=2)
+    for doubt in () if silent else state.doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
     return state
 
 

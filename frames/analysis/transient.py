@@ -5,31 +5,30 @@ from __future__ import annotations
 import math
 import warnings
 from time import perf_counter
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.equilibrium import force_tolerance
+from frames.analysis.options import Options, check_options, check_reduction, options_of
 from frames.analysis.outcome import Outcome, concluded, ended
 from frames.analysis.plausible import check_analysis
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import recording_of
-from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
+from frames.analysis.refining import refined
+from frames.analysis.rigid import rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
-from frames.analysis.size import number_of_steps
 from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Setup
 from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
 from frames.results.auditing import doubts_of
 from lir_element.device.features import Features
-from lir_element.door import require_between, require_choice, require_positive
-from lir_element.element import ALL_LEVELS
 from lir_element.errors import RunStatus
 from lir_element.pieces import in_pieces, ready
-from lir_element.results.dataset import report, require_on_failure
+from lir_element.results.dataset import report
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -41,8 +40,8 @@ if TYPE_CHECKING:
     from frames.kernel_data import Output
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
+    from frames.results.reached import Extreme
 
-METHODS = ("direct",)
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
@@ -62,11 +61,12 @@ def time_history(
     duration: float | None = None,
     dt: float | None = None,
     level: str | Mapping[str, str] = "pendulum",
-    method: Literal["direct"] = "direct",
+    method: Literal["direct", "reduced"] = "direct",
     *,
     integrator: Literal["newmark", "generalised-alpha", "explicit"] | None = None,
     spectral_radius: float = 0.8,
     tolerance: float | None = None,
+    reduction_tolerance: float | None = None,
     record_every: int = 1,
     recording: Recording | None = None,
     on_failure: Literal["warn", "raise"] = "warn",
@@ -93,8 +93,10 @@ def time_history(
         those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":
         the cheapest that is sufficient; the analysis is run, audited, and run again with what was
         missing.
-    method : {"direct"}
-        "direct": all degrees of freedom.
+    method : {"direct", "reduced"}
+        "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
+        vectors of the structure, in a run with few and a run with twice as many, until two runs
+        agree: for structures of a thousand degrees of freedom and more.
     integrator : {None, "newmark", "generalised-alpha", "explicit"}
         Time integration. None is Newmark's average acceleration, which conserves energy;
         "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
@@ -105,6 +107,11 @@ def time_history(
         Error of a step over the displacement reached where the program controls it: 1e-4 by
         default, 3e-5 where a bearing is at the level "contact". At the level "rigid_body" over the
         effective radius: 1e-8.
+    reduction_tolerance : float, optional
+        Of the method "reduced": largest difference of two runs in the peaks of bearing
+        displacement and base shear, and a tenth of that of axial forces, floor accelerations,
+        storey drifts and yielding parts; 1e-3 by default. What is larger in the end is named by
+        a line of the audit.
     record_every : int
         Record every so many base steps: ``Recording(every=record_every)``.
     recording : Recording, optional
@@ -144,10 +151,12 @@ def time_history(
     """
     check_analysis(model, motion)
     check_options(level, method, integrator, on_failure, features)
+    check_reduction(method, level, reduction_tolerance)
     wanted = recording_of(recording, record_every)
     options = options_of(
         motion, duration, dt, method=method, integrator=integrator,
         spectral_radius=spectral_radius, tolerance=tolerance, recording=wanted, progress=progress,
+        reduction=reduction_tolerance,
     )  # fmt: skip
     if level == "rigid_body":
         data, outcome = rigid_time_history(
@@ -200,52 +209,6 @@ class StepWriter(Protocol):
         ...
 
 
-class Options(NamedTuple):
-    """What every run of an analysis has in common."""
-
-    duration: float
-    base: float
-    steps: int
-    tolerance: float | None  # error of a step; infinite: fixed step; None: by level
-    method: str
-    integrator: str
-    spectral_radius: float
-    recording: Recording
-    progress: Callable[[float], None] | None
-
-
-def options_of(
-    motion: GroundMotion,
-    duration: float | None,
-    dt: float | None,
-    *,
-    method: str,
-    integrator: str | None,
-    spectral_radius: float,
-    tolerance: float | None,
-    recording: Recording,
-    progress: Callable[[float], None] | None,
-) -> Options:
-    """Return the options of a run under a motion, checked: arguments as of `time_history`."""
-    if tolerance is not None:
-        require_between("tolerance", tolerance, 1e-12, 1e-2, "-")
-    require_between("spectral_radius", spectral_radius, 0.0, 1.0 + 1e-12, "-")
-    length = motion.duration if duration is None else require_positive("duration", duration, "s")
-    base = motion.dt / math.ceil(motion.dt / LARGEST_STEP - 1e-9) if dt is None else dt
-    steps = number_of_steps(length, dt, base)
-    return Options(
-        duration=length,
-        base=float(base),
-        steps=steps,
-        tolerance=tolerance if dt is None else math.inf,
-        method=method,
-        integrator=integrator or "newmark",
-        spectral_radius=float(spectral_radius),
-        recording=recording,
-        progress=progress,
-    )
-
-
 def _run(
     model: FrameContents,
     motion: GroundMotion,
@@ -254,10 +217,39 @@ def _run(
     options: Options,
 ) -> tuple[xr.Dataset, Outcome, Recorder]:
     # One run and its audit; what is recorded joins it in the end.
-    coupling = 0.0
-    if not features.second_direction:
-        coupling = plane_coupling(model)
-    state = gravity(model, features, level)
+    attrs = {
+        "title": f"time history of {model.name}",
+        "motion": motion.name,
+        "level": level if isinstance(level, str) else str(dict(level)),
+        "features_left_out": ", ".join(features.left_out) or "none",
+        "plane_coupling": 0.0 if features.second_direction else plane_coupling(model),
+    }
+    if options.method == "direct":
+        return _run_from(gravity(model, features, level), model, motion, options, attrs)
+    runs: list[tuple[xr.Dataset, Outcome, Recorder]] = []
+
+    def run(state: GravityState) -> tuple[dict[str, Extreme], bool]:
+        runs[:] = [_run_from(state, model, motion, options, attrs)]
+        data, outcome, recorder = runs[0]
+        return recorder.reached(data), outcome.status is RunStatus.INTERRUPTED
+
+    found = refined(model, features, level, options.reduction, run)
+    data, outcome, recorder = runs[0]
+    data.attrs |= found.attrs
+    if found.doubt:
+        data.attrs["audit"] += f"\n! reduced: two runs differ by more than asked for: {found.doubt}"
+    return data, outcome, recorder
+
+
+def _run_from(
+    state: GravityState,
+    model: FrameContents,
+    motion: GroundMotion,
+    options: Options,
+    attrs: dict[str, object],
+) -> tuple[xr.Dataset, Outcome, Recorder]:
+    # One run from a state at rest.
+    features = state.system.features
     settings = settings_of(state, options)
     tolerance = settings.error_tolerance
     ground = ground_of(motion, features, settings)
@@ -267,12 +259,7 @@ def _run(
     end = ended(state, code)
     counts = state.run.counts[0]
     data = recorder.data(int(state.run.clock["done"][0]))
-    data.attrs = {
-        "title": f"time history of {model.name}",
-        "motion": motion.name,
-        "level": level if isinstance(level, str) else str(dict(level)),
-        "features_left_out": ", ".join(features.left_out) or "none",
-        "plane_coupling": coupling,
+    data.attrs = attrs | {
         "recording": str(options.recording),
         "method": options.method,
         "integrator": options.integrator,
@@ -286,6 +273,7 @@ def _run(
         "state_determinations": int(counts["trials"]),
         "tangents": int(counts["tangents"]),
         "degrees_of_freedom": int(state.system.mass.shape[0]),
+        "modes": len(state.run.e),
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
@@ -293,50 +281,6 @@ def _run(
     outcome = concluded(seen, state, end)
     data.attrs = seen.attrs
     return data, outcome, recorder
-
-
-def check_options(
-    level: object,
-    method: str,
-    integrator: str | None,
-    on_failure: str,
-    features: object,
-) -> None:
-    """Refuse options that are not known, or do not go together."""
-    choices: list[tuple[str, object, tuple[str | None, ...]]] = [
-        ("method", method, METHODS),
-        ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
-    ]
-    if isinstance(level, str):
-        choices.insert(0, ("level", level, (*ALL_LEVELS, "auto")))
-    for name, value, allowed in choices:
-        require_choice(name, value, allowed)
-    if integrator == "explicit" and level != "rigid_body":
-        msg = f'integrator = "explicit" belongs to level="rigid_body", not to {level!r}'
-        raise ValueError(msg)
-    require_on_failure(on_failure)
-    if features is not None and not isinstance(features, Features):
-        msg = f"features = {features!r} must be a Features, such as Features(rims=False), or None"
-        raise TypeError(msg)
-    if features is not None and level == "auto":
-        msg = 'level = "auto" chooses the features for itself: leave features out, or give a level'
-        raise ValueError(msg)
-    if features is not None:
-        _check_features(features, level)
-
-
-def _check_features(features: Features, level: object) -> None:
-    refused: set[str] = set()
-    if level == "rigid_body":
-        refused = set(features.left_out)
-    elif level not in {"pendulum", "auto"} if isinstance(level, str) else True:
-        refused = set(features.left_out) & {"uplift", "vertical_coupling"}
-    if refused:
-        msg = (
-            f"features leave out {', '.join(sorted(refused))}, which level = {level!r} always has: "
-            'keep it, or use level="pendulum"'
-        )
-        raise ValueError(msg)
 
 
 def settings_of(state: GravityState, options: Options) -> Setup:

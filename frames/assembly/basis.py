@@ -95,7 +95,7 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
         expand[massless] = follow @ part
     offset = still @ (static.T @ load[n_b:])
     offset[massless] += offset_m
-    damping_e, beta = _damping(damping, omega2)
+    damping_e, beta = mode_damping(damping, omega2)
     basis = Basis(
         bearing_dofs=touched,
         expand_b=expand_b,
@@ -179,8 +179,21 @@ def _largest(system: System, direction: FloatArray, places: IntArray) -> str:
     return system.dof_labels[place]
 
 
-def _damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:
-    # Damping constants of the modes, and the factor of stiffness for the base's deformation.
+def mode_damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:
+    """Return damping constants of modes, and the factor of stiffness for the base's deformation.
+
+    Parameters
+    ----------
+    damping : Damping or None
+        Damping of the structure.
+    omega2 : ndarray, (n_e,)
+        Squared circular frequencies of the modes over held bearings [1/s2].
+
+    Returns
+    -------
+    ndarray, float
+        Constants (n_e,) [1/s]; the factor [s].
+    """
     omega = np.sqrt(omega2)
     if isinstance(damping, ModalDamping):
         ratios = np.full(len(omega), damping.ratios[-1])

@@ -11,6 +11,7 @@ from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
+from frames.assembly.sparse_solver import Factors
 from frames.model.laws import elastic_stiffness
 from frames.model.parts import DOFS
 
@@ -30,6 +31,8 @@ MOTIONS = 12
 
 NO_STIFFNESS = 1e-13
 """Eigenvalue of the scaled stiffness (unit diagonal) below which a motion is free [-]."""
+
+_SHIFT = 1e-8  # of the scaled stiffness, which makes that of a mechanism regular
 
 NAMED = 4
 """How many motions, and how many DOFs of each, a message lists."""
@@ -206,7 +209,9 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
         _, vectors = scipy.linalg.eigh(dense, subset_by_index=[0, wanted - 1])
     else:
         start = np.random.default_rng(0).standard_normal(size)
-        _, vectors = sparse_linalg.eigsh(scaled, k=wanted, sigma=-1e-8, v0=start)
+        shifted = Factors(sparse.csr_array(scaled + _SHIFT * sparse.eye_array(size)))
+        inverse = sparse_linalg.LinearOperator(scaled.shape, shifted.solve, dtype=np.float64)
+        _, vectors = sparse_linalg.eigsh(scaled, k=wanted, sigma=-_SHIFT, v0=start, OPinv=inverse)
     energies = np.sum(vectors * np.asarray(scaled @ vectors), axis=0)
     # less than none is no mechanism: loads push it over, which `build_basis` refuses
     motions: FloatArray = scale[:, None] * vectors[:, np.abs(energies) < NO_STIFFNESS]

@@ -68,8 +68,14 @@ class Basis:
     @cached_property
     def shaken(self) -> FloatArray:
         """Accelerations of b and eta at rest under a unit of ground acceleration, (n, 3) [-]."""
-        mass = np.block([[self.mass_b, self.mass_be], [self.mass_be.T, np.diag(self.mass_e)]])
-        return np.asarray(-linalg.pinvh(mass) @ np.concatenate([self.inertia_b, self.inertia_e]))
+        heavy = self.mass_e > 0.0  # of the modes 1; what lags without mass is not accelerated
+        between = self.mass_be[:, heavy]
+        left = self.mass_b - between @ between.T
+        alone = self.inertia_b - between @ self.inertia_e[heavy]
+        of_e = np.zeros_like(self.inertia_e)
+        of_b = -linalg.pinvh(0.5 * (left + left.T)) @ alone
+        of_e[heavy] = -self.inertia_e[heavy] - between.T @ of_b
+        return np.vstack([of_b, of_e])
 
     def shift(self, loads: FloatArray) -> FloatArray:
         """Return how loads (n_free, ...) displace what has no mass while b and eta rest."""

@@ -15,7 +15,7 @@ import numpy as np
 from scipy import linalg
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray
+    from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.coordinates import Basis
 
 _UNCOUPLED = 1e-10  # of the gross damping of two coordinates, below which nothing couples them
@@ -23,7 +23,10 @@ _CONSISTENT = 1e-6  # cosine of damping forces, up to which massless ones follow
 
 
 def with_matrix_damping(
-    basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray
+    basis: Basis,
+    damping: FloatArray | SparseMatrix,
+    stiffness: FloatArray | SparseMatrix,
+    still: FloatArray,
 ) -> Basis:
     """Add damping that is given as a matrix.
 
@@ -31,7 +34,7 @@ def with_matrix_damping(
     ----------
     basis : Basis
         The frame without it.
-    damping, stiffness : ndarray, (n_free, n_free)
+    damping, stiffness : ndarray or csr_array, (n_free, n_free)
         Damping of the motion relative to the ground; stiffness, geometric part included.
     still : ndarray, (n_free, n_still)
         Directions without mass, which follow the rest statically.
@@ -44,8 +47,8 @@ def with_matrix_damping(
     """
     basis = _with_lag(basis, damping, stiffness, still)
     to_b, to_e = basis.expand_b, basis.expand_e
-    own_b, own_e = (0.5 * (c + c.T) for c in (to_b.T @ damping @ to_b, to_e.T @ damping @ to_e))
-    between = to_b.T @ damping @ to_e
+    own_b, own_e = (0.5 * (c + c.T) for c in (_of(to_b, damping, to_b), _of(to_e, damping, to_e)))
+    between = _of(to_b, damping, to_e)
     basis = replace(basis, damping_b=basis.damping_b + own_b)
     alone = np.diag(own_e)
     if _is_nothing(own_e - np.diag(alone), to_e, to_e, damping) and _is_nothing(
@@ -55,31 +58,66 @@ def with_matrix_damping(
     return replace(basis, damping_be=between, damping_ee=own_e)
 
 
+def couples_massless(basis: Basis, damping: SparseMatrix, massless: IntArray) -> bool:
+    """Return whether damping holds up degrees of freedom that have no mass.
+
+    Parameters
+    ----------
+    basis : Basis
+        The frame in shapes that leave what has no mass in equilibrium without damping.
+    damping : csr_array, (n_free, n_free)
+        The damping.
+    massless : ndarray, (n_massless,)
+        Places of what has no mass.
+
+    Returns
+    -------
+    bool
+        False where its forces there are round-off, or the damping follows the stiffness.
+    """
+    shapes = np.hstack([basis.expand_b, basis.expand_e])
+    forces = np.abs(np.asarray(damping[massless] @ shapes))
+    own = abs(damping).diagonal()[massless]
+    return bool((forces > _CONSISTENT * np.sqrt(np.outer(own, _gross(shapes, damping)))).any())
+
+
 def _is_nothing(
-    coupling: FloatArray, rows: FloatArray, columns: FloatArray, damping: FloatArray
+    coupling: FloatArray,
+    rows: FloatArray,
+    columns: FloatArray,
+    damping: FloatArray | SparseMatrix,
 ) -> bool:
     # Whether what damping couples of these shapes is round-off.
     bound = np.sqrt(np.outer(_gross(rows, damping), _gross(columns, damping)))
     return bool((np.abs(coupling) <= _UNCOUPLED * bound).all())
 
 
-def _gross(shapes: FloatArray, damping: FloatArray) -> FloatArray:
+def _of(left: FloatArray, matrix: FloatArray | SparseMatrix, right: FloatArray) -> FloatArray:
+    return np.asarray(left.T @ np.asarray(matrix @ right))
+
+
+def _gross(shapes: FloatArray, damping: FloatArray | SparseMatrix) -> FloatArray:
     # The work of each shape with itself, all terms counted positive: no round-off where it is zero.
     size = np.abs(shapes)
-    return np.asarray(np.sum(size * (np.abs(damping) @ size), axis=0))
+    return np.asarray(np.sum(size * np.asarray(abs(damping) @ size), axis=0))
 
 
-def _with_lag(basis: Basis, damping: FloatArray, stiffness: FloatArray, still: FloatArray) -> Basis:
+def _with_lag(
+    basis: Basis,
+    damping: FloatArray | SparseMatrix,
+    stiffness: FloatArray | SparseMatrix,
+    still: FloatArray,
+) -> Basis:
     count = still.shape[1]
     if not count:
         return basis
-    still = still / np.sqrt(np.sum(still * (stiffness @ still), axis=0))
+    still = still / np.sqrt(np.sum(still * np.asarray(stiffness @ still), axis=0))
     shapes = np.hstack([basis.expand_b, basis.expand_e])
-    forces = np.abs(still.T @ damping @ shapes)
+    forces = np.abs(_of(still, damping, shapes))
     work, own = _gross(shapes, damping), _gross(still, damping)
     if not (forces > _CONSISTENT * np.sqrt(np.outer(own, work))).any():
         return basis
-    block = still.T @ stiffness @ still
+    block = _of(still, stiffness, still)
     omega2, vectors = linalg.eigh(0.5 * (block + block.T))
     more = still @ vectors
     none = np.zeros(count)

@@ -1,0 +1,241 @@
+"""A reduced basis: the bearings' degrees of freedom kept, the linear rest as few Ritz vectors.
+
+As `build_basis`, but instead of all modes over held bearings it takes load-dependent vectors
+(Wilson, Yuan and Dickens 1982): the static displacements under the inertia of rigid motions, and of
+what each bearing moves along its axis (without these the axial forces are off by a fifth), then
+those under the inertia of the vectors before, and so on. So they come in the order in which they
+count; what is left out follows permanent loads and nonlinear parts statically.
+Everything stays sparse, so that the set-up of a large structure takes seconds.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import linalg, sparse
+
+from frames._errors import ModelError
+from frames.assembly.basis import bearing_rows, build_basis, mode_damping
+from frames.assembly.coordinates import Basis
+from frames.assembly.matrix_damping import couples_massless, with_matrix_damping
+from frames.assembly.sparse_solver import Factors
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.assemble import System
+    from frames.model.damping import Damping
+
+RIGID_A_TURN = 3
+"""Generations of vectors of rigid motions for one of the bearings' own."""
+
+_NEW = 1e-6  # of a vector's size: what must be left of it beside those before, to be one more
+
+
+class RitzSpace:
+    """Load-dependent vectors of a structure over its held bearings, as many as are asked for.
+
+    Parameters
+    ----------
+    system : System
+        Matrices over the free degrees of freedom.
+    geometric : csr_array, (n_free, n_free)
+        Geometric stiffness of the members.
+    damping : Damping or None
+        Damping of the structure, as in `build_basis`.
+
+    Attributes
+    ----------
+    most : int
+        How many modes there are at all.
+
+    Raises
+    ------
+    ModelError
+        If the structure over held bearings is unstable under its permanent loads, or if a damping
+        matrix acts on what has no mass.
+    """
+
+    def __init__(self, system: System, geometric: SparseMatrix, damping: Damping | None) -> None:
+        self._system, self._damping = system, damping
+        stiffness = sparse.csr_array(system.stiffness + geometric)
+        self._touched = np.unique(bearing_rows(system).tocoo().coords[1]).astype(np.int64)
+        self._rest = np.setdiff1d(np.arange(stiffness.shape[0]), self._touched)
+        inner = sparse.csr_array(stiffness[self._rest][:, self._rest])
+        self._stiffness = stiffness
+        self._mass = sparse.csr_array(system.mass[self._rest][:, self._rest])
+        self._factors = _factors(inner, system, geometric, damping)
+        self._follow = self._solve(-np.asarray(stiffness[self._rest][:, self._touched].toarray()))
+        self._static = self._solve(system.load[self._rest])
+        self._vectors = self._loads = np.zeros((len(self._rest), 0))  # loads = stiffness @ vectors
+        self._rigid = self._mass_of_rigid_motions()
+        self._heaving = self._mass_of_heaving()
+        self.most = int(np.count_nonzero(abs(self._mass).sum(axis=1)))
+
+    def _solve(self, right: FloatArray) -> FloatArray:
+        return self._factors.solve(right) if self._factors is not None else right
+
+    def _mass_of_rigid_motions(self) -> FloatArray:
+        # Inertia of the rest, (n_rest, 6), under unit accelerations of rigid motions.
+        system = self._system
+        arms = system.coordinates - system.coordinates.mean(axis=0)
+        turns = np.zeros((len(arms), 6, 3))
+        for axis in range(3):
+            unit = np.eye(3)[axis]
+            turns[:, :3, axis], turns[:, 3 + axis, axis] = np.cross(unit, arms), 1.0
+        transform = system.transform
+        normal = Factors(sparse.csr_array(transform.T @ transform))
+        moved = normal.solve(np.asarray(transform.T @ turns.reshape(-1, 3)))
+        turned = np.asarray(system.mass @ moved)
+        return np.hstack([system.inertia_load[self._rest], turned[self._rest]])
+
+    def _mass_of_heaving(self) -> FloatArray:
+        # Inertia of the rest that follows a unit acceleration of each bearing along its axis.
+        rows = bearing_rows(self._system)[:, self._touched]
+        axial = np.flatnonzero(np.isin(np.arange(rows.shape[0]) % 6, 2))
+        lifted = np.unique(rows[axial].tocoo().coords[1])
+        own = np.asarray(self._system.mass[self._rest][:, self._touched[lifted]].toarray())
+        return np.asarray(own + self._mass @ self._follow[:, lifted])
+
+    def grow(self) -> int:
+        """Make a turn of further vectors, if there are any.
+
+        A turn takes three generations of what rigid motions excite, and one of what the bearings
+        excite along their axes.
+
+        Returns
+        -------
+        int
+            How many there are now.
+        """
+        for _ in range(RIGID_A_TURN):
+            self._rigid = self._next(self._rigid)
+        self._heaving = self._next(self._heaving)
+        return self._vectors.shape[1]
+
+    def _next(self, loads: FloatArray) -> FloatArray:
+        # Take up the vectors that answer some loads; return the inertia of those that are new.
+        # Vectors have modal mass 1 and are orthogonal, made so twice for the digits; each is the
+        # answer to a load on what has mass, so that the rest follows without round-off.
+        vectors = self._solve(loads)
+        size = np.sqrt(np.maximum(np.sum(vectors * np.asarray(self._mass @ vectors), axis=0), 0.0))
+        scale = 1.0 / np.where(size > 0.0, size, 1.0)
+        loads, vectors = loads * scale, vectors * scale
+        for _ in range(2):
+            shares = self._vectors.T @ np.asarray(self._mass @ vectors)
+            loads, vectors = loads - self._loads @ shares, vectors - self._vectors @ shares
+            mix = _orthogonal(vectors.T @ np.asarray(self._mass @ vectors))
+            loads, vectors = loads @ mix, vectors @ mix
+        vectors = self._solve(loads)
+        room = self.most - self._vectors.shape[1]
+        self._vectors = np.hstack([self._vectors, vectors[:, :room]])
+        self._loads = np.hstack([self._loads, loads[:, :room]])
+        return np.asarray(self._mass @ vectors[:, :room])
+
+    def basis(self) -> Basis:
+        """Return the frame in the bearings' coordinates and the vectors made so far."""
+        system, n_b = self._system, len(self._touched)
+        omega2, turned = self._turned()
+        phi = self._vectors @ turned
+        n_free, n_e = self._stiffness.shape[0], len(omega2)
+        expand_b, expand_e = np.zeros((n_free, n_b)), np.zeros((n_free, n_e))
+        expand_b[self._touched], expand_b[self._rest] = np.eye(n_b), self._follow
+        expand_e[self._rest] = phi
+        offset = np.zeros(n_free)
+        load_e = phi.T @ system.load[self._rest]
+        offset[self._rest] = self._static - phi @ (load_e / omega2)
+        damping_e, beta = mode_damping(self._damping, omega2)
+        with_mass = np.asarray(system.mass @ expand_b)
+        own = expand_b.T @ np.asarray(system.stiffness @ expand_b)
+        basis = Basis(
+            bearing_dofs=self._touched,
+            expand_b=expand_b,
+            expand_e=expand_e,
+            offset=offset,
+            still=self._still(phi, omega2),
+            mass_b=_symmetric(expand_b.T @ with_mass),
+            mass_be=with_mass.T @ expand_e,
+            mass_e=np.ones(n_e),
+            stiffness_b=_symmetric(expand_b.T @ np.asarray(self._stiffness @ expand_b)),
+            damping_b=_symmetric(beta * own),
+            omega2=omega2,
+            damping_e=damping_e,
+            damping_be=np.zeros((0, 0)),
+            damping_ee=np.zeros((0, 0)),
+            load_b=expand_b.T @ system.load,
+            load_e=load_e,
+            inertia_b=expand_b.T @ system.inertia_load,
+            inertia_e=expand_e.T @ system.inertia_load,
+        )
+        if not system.damping.nnz:
+            return basis
+        _refuse_lag(system, basis)
+        none = np.zeros((n_free, 0))
+        return with_matrix_damping(basis, system.damping, self._stiffness, none)
+
+    def _turned(self) -> tuple[FloatArray, FloatArray]:
+        # Squared frequencies of the modes among the vectors, and how these mix them.
+        if not self._vectors.shape[1]:
+            return np.zeros(0), np.zeros((0, 0))
+        stiffness = self._vectors.T @ self._loads
+        mass = self._vectors.T @ np.asarray(self._mass @ self._vectors)
+        omega2, turned = linalg.eigh(_symmetric(stiffness), _symmetric(mass))
+        return omega2, turned
+
+    def _still(self, phi: FloatArray, omega2: FloatArray) -> FloatArray:
+        # Shapes of stiffness 1 of how what is left out follows the nonlinear parts.
+        rows, n_free = self._system.part_rows, self._stiffness.shape[0]
+        if not rows.shape[0] or not len(self._rest):
+            return np.zeros((n_free, 0))
+        loads = rows[:, self._rest].T.toarray()
+        left = self._solve(loads) - phi @ ((phi.T @ loads) / omega2[:, None])
+        flexibility = loads.T @ left
+        size = np.sqrt(np.maximum(np.diag(flexibility), 0.0))
+        scale = 1.0 / np.where(size > 0.0, size, 1.0)
+        values, vectors = linalg.eigh(_symmetric(flexibility * np.outer(scale, scale)))
+        kept = values > _NEW * max(float(values[-1]), 0.0)
+        still = np.zeros((n_free, int(kept.sum())))
+        still[self._rest] = left @ (scale[:, None] * vectors[:, kept] / np.sqrt(values[kept]))
+        return still
+
+
+def _factors(
+    inner: SparseMatrix, system: System, geometric: SparseMatrix, damping: Damping | None
+) -> Factors | None:
+    # The stiffness over held bearings, factorised; None where nothing is left.
+    if not inner.shape[0]:
+        return None
+    try:
+        factors = Factors(inner)
+    except RuntimeError:
+        factors = None
+    if factors is not None and factors.is_positive:
+        return factors
+    build_basis(system, geometric, damping)  # names the culprit
+    message = (
+        "the structure over held bearings is unstable under its permanent loads: reduce the loads "
+        "or stiffen columns"
+    )
+    raise ModelError(message)
+
+
+def _orthogonal(inertia: FloatArray) -> FloatArray:
+    # How vectors of about mass 1 mix to orthogonal ones of mass 1, the longest first; what others
+    # had in them already is left out.
+    masses, turned = linalg.eigh(_symmetric(inertia))
+    kept = np.flatnonzero(masses > _NEW**2)[::-1]
+    return np.asarray(turned[:, kept] / np.sqrt(masses[kept]))
+
+
+def _refuse_lag(system: System, basis: Basis) -> None:
+    massless = np.flatnonzero(~(abs(system.mass).sum(axis=1) > 0.0))
+    if couples_massless(basis, system.damping, massless):
+        message = (
+            'method = "reduced": a damping matrix of this model acts on degrees of freedom without '
+            'mass, which lag behind; take method="direct"'
+        )
+        raise ModelError(message)
+
+
+def _symmetric(matrix: FloatArray) -> FloatArray:
+    return np.ascontiguousarray(0.5 * (matrix + matrix.T))
