@@ -21,10 +21,13 @@ from frames.kernels.peaking import (
     peak_of_structure,
 )
 from frames.peak_data import Devices, Reached, Shape
+from frames.results.measures import lines_of
 from frames.results.reached import Extreme
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.analysis.static import GravityState
     from frames.kernel_data import Ground, Output
@@ -37,6 +40,12 @@ class Places(NamedTuple):
     level: IntArray  # (n_nodes,) level of each node, -1 for none
     height: FloatArray  # (n_levels,) [m]
     lines: tuple[IntArray, IntArray, IntArray]  # lower node, upper node, its level
+
+
+def places_of(data: xr.Dataset) -> Places:
+    """Return where the nodes of a result stand."""
+    levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
+    return Places(*levels, lines_of(data))
 
 
 def can_gauge(state: GravityState) -> bool:

@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from frames.analysis.dataset import build_dataset, peak_velocity
-from frames.analysis.gauging import Gauge, Places, can_gauge, devices_of, shape_of
+from frames.analysis.gauging import Gauge, can_gauge, devices_of, places_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
 from frames.analysis.reduction import (
@@ -25,17 +25,18 @@ from frames.analysis.size import (
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.parts_data import part_sizes
-from frames.results.measures import lines_of
 from frames.results.reached import largest
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from frames._types import FloatArray
     from frames.analysis.recording import Recording
     from frames.analysis.static import GravityState
     from frames.kernel_data import Ground
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
+    from frames.peak_data import Shape
     from frames.results.reached import Extreme
 
 BUFFER = 64e6
@@ -174,12 +175,10 @@ class Recorder:
         """
         if not self._is_whole or not can_gauge(self._state):
             return data
-        gauge, parts = Gauge(devices_of(self._state)), PartGauge(self._state, self._model)
         count = data.sizes["time"]
-        gauge.take(self._states, self.out, self._ground, 0, count)
-        parts.take(self.out, 0, count)
-        reached, end = gauge.reached() | parts.reached(), float(self.out.time[count - 1])
-        return with_findings(data.drop_dims("time"), Findings(reached, gauge.totals(), {}, end))
+        reached, totals = self._gauged(count)
+        found = Findings(reached, totals, {}, float(self.out.time[count - 1]))
+        return with_findings(data.drop_dims("time"), found)
 
     def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
         """Return the largest values of all quantities of a result that `data` gave, by name.
@@ -196,12 +195,17 @@ class Recorder:
         """
         if not self._is_whole or not can_gauge(self._state):
             return {name: largest(data, name) for name in present_quantities(data)}
-        levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
-        shape = shape_of(self._state, Places(*levels, lines_of(data)))
-        gauge, parts = Gauge(devices_of(self._state), shape), PartGauge(self._state, self._model)
-        gauge.take(self._states, self.out, self._ground, 0, data.sizes["time"])
-        parts.take(self.out, 0, data.sizes["time"])
-        return gauge.reached() | parts.reached()
+        return self._gauged(data.sizes["time"], shape_of(self._state, places_of(data)))[0]
+
+    def _gauged(
+        self, count: int, shape: Shape | None = None
+    ) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
+        # What the first rows reached, and their totals; with a shape, the structure's too.
+        gauge = Gauge(devices_of(self._state), shape)
+        parts = PartGauge(self._state, self._model)
+        gauge.take(self._states, self.out, self._ground, 0, count)
+        parts.take(self.out, 0, count)
+        return gauge.reached() | parts.reached(), gauge.totals()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""

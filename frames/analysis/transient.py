@@ -95,8 +95,8 @@ def time_history(
         missing.
     method : {"direct", "reduced"}
         "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
-        vectors of the structure, in a run with few and a run with twice as many, until two runs
-        agree: for structures of a thousand degrees of freedom and more.
+        vectors of the structure, in a run with few and runs with more, until two agree: for
+        structures whose modes are many beside their bearings (docs/choices.md).
     integrator : {None, "newmark", "generalised-alpha", "explicit"}
         Time integration. None is Newmark's average acceleration, which conserves energy;
         "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
@@ -109,9 +109,9 @@ def time_history(
         effective radius: 1e-8.
     reduction_tolerance : float, optional
         Of the method "reduced": largest difference of two runs in the peaks of bearing
-        displacement and base shear, and a tenth of that of axial forces, floor accelerations,
-        storey drifts and yielding parts; 1e-3 by default. What is larger in the end is named by
-        a line of the audit.
+        displacement and base shear, 1e-3 by default; ten times that in axial forces, floor
+        accelerations in plan, storey drifts and yielding parts, a hundred times in vertical
+        accelerations. What is larger in the end is named by a line of the audit.
     record_every : int
         Record every so many base steps: ``Recording(every=record_every)``.
     recording : Recording, optional

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.analysis.dataset import build_dataset, peak_velocity
-from frames.analysis.gauging import Gauge, Places, can_gauge, devices_of, shape_of
+from frames.analysis.gauging import Gauge, can_gauge, devices_of, places_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
 from frames.analysis.reduction import Findings, judgeable_of, reduced, with_other_findings
@@ -19,7 +19,6 @@ from frames.analysis.static import gravity
 from frames.kernel_data import Ground, Run, output_arrays, run_arrays
 from frames.kernels.integration import record
 from frames.parts_data import Parts, part_sizes
-from frames.results.measures import lines_of
 from frames.results.reached import Extreme
 from lir_element.bundles.contact_data import Contacts, detached
 
@@ -107,9 +106,8 @@ def set_up(
     structure = Structure(model, state, template, layout_of(template), size, None)
     if not can_gauge(state):
         return structure
-    level_node = template["level_node"].to_numpy()
-    places = Places(level_node, template["level_height"].to_numpy(), lines_of(template))
-    return structure._replace(gauges=(devices_of(state), shape_of(state, places)))
+    gauges = devices_of(state), shape_of(state, places_of(template))
+    return structure._replace(gauges=gauges)
 
 
 class Workspace:

@@ -42,6 +42,11 @@ def bearing_rows(system: System) -> SparseMatrix:
     return picked
 
 
+def touched_dofs(rows: SparseMatrix) -> IntArray:
+    """Return the places among the free DOFs, in order, of those that some rows depend on."""
+    return np.unique(rows.tocoo().coords[1]).astype(np.int64)
+
+
 def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
     """Change a frame to bearing coordinates and all fixed-interface modes.
 
@@ -70,7 +75,7 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
     stiffness = elastic + geometric.toarray()
     mass = system.mass.toarray()
     n_free = len(stiffness)
-    touched = np.unique(bearing_rows(system).tocoo().coords[1]).astype(np.int64)
+    touched = touched_dofs(bearing_rows(system))
     rest = np.setdiff1d(np.arange(n_free), touched)
     massless = rest[~mass[rest].any(axis=1)]
     massive = np.setdiff1d(rest, massless)
@@ -102,11 +107,11 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
         expand_e=expand_e,
         offset=offset,
         still=_still_shapes(stiffness, massless, still) if len(system.parts.kind) else still[:, :0],
-        mass_b=_symmetric(to_kept_b.T @ m @ to_kept_b),
+        mass_b=symmetric(to_kept_b.T @ m @ to_kept_b),
         mass_be=to_kept_b.T @ m @ to_kept_e,
         mass_e=np.ones(len(omega2)),
-        stiffness_b=_symmetric(to_kept_b.T @ k @ to_kept_b),
-        damping_b=_symmetric(beta * (expand_b.T @ elastic @ expand_b)),
+        stiffness_b=symmetric(to_kept_b.T @ k @ to_kept_b),
+        damping_b=symmetric(beta * (expand_b.T @ elastic @ expand_b)),
         omega2=omega2,
         damping_e=damping_e,
         damping_be=np.zeros((0, 0)),
@@ -169,7 +174,7 @@ def _interface_modes(
             f'"{label}": reduce the loads or stiffen columns'
         )
         raise ModelError(message) from error
-    psi = -linalg.solve(_symmetric(inner), k[n_b:, :n_b], assume_a="pos")
+    psi = -linalg.solve(symmetric(inner), k[n_b:, :n_b], assume_a="pos")
     return psi, phi, omega2, static
 
 
@@ -208,5 +213,6 @@ def mode_damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArra
     return np.zeros(len(omega)), 0.0
 
 
-def _symmetric(matrix: FloatArray) -> FloatArray:
+def symmetric(matrix: FloatArray) -> FloatArray:
+    """Return a matrix (n, n) without what round-off made unsymmetric."""
     return np.ascontiguousarray(0.5 * (matrix + matrix.T))

@@ -5,7 +5,7 @@ As `build_basis`, but instead of all modes over held bearings it takes load-depe
 what each bearing moves along its axis (without these the axial forces are off by a fifth), then
 those under the inertia of the vectors before, and so on. So they come in the order in which they
 count; what is left out follows permanent loads and nonlinear parts statically.
-Everything stays sparse, so that the set-up of a large structure takes seconds.
+The structure's own matrices stay sparse, so that a large one is set up in seconds.
 """
 
 from __future__ import annotations
@@ -16,7 +16,13 @@ import numpy as np
 from scipy import linalg, sparse
 
 from frames._errors import ModelError
-from frames.assembly.basis import bearing_rows, build_basis, mode_damping
+from frames.assembly.basis import (
+    bearing_rows,
+    build_basis,
+    mode_damping,
+    symmetric,
+    touched_dofs,
+)
 from frames.assembly.coordinates import Basis
 from frames.assembly.matrix_damping import couples_massless, with_matrix_damping
 from frames.assembly.sparse_solver import Factors
@@ -52,14 +58,13 @@ class RitzSpace:
     Raises
     ------
     ModelError
-        If the structure over held bearings is unstable under its permanent loads, or if a damping
-        matrix acts on what has no mass.
+        If the structure over held bearings is unstable under its permanent loads.
     """
 
     def __init__(self, system: System, geometric: SparseMatrix, damping: Damping | None) -> None:
         self._system, self._damping = system, damping
         stiffness = sparse.csr_array(system.stiffness + geometric)
-        self._touched = np.unique(bearing_rows(system).tocoo().coords[1]).astype(np.int64)
+        self._touched = touched_dofs(bearing_rows(system))
         self._rest = np.setdiff1d(np.arange(stiffness.shape[0]), self._touched)
         inner = sparse.csr_array(stiffness[self._rest][:, self._rest])
         self._stiffness = stiffness
@@ -92,8 +97,7 @@ class RitzSpace:
     def _mass_of_heaving(self) -> FloatArray:
         # Inertia of the rest that follows a unit acceleration of each bearing along its axis.
         rows = bearing_rows(self._system)[:, self._touched]
-        axial = np.flatnonzero(np.isin(np.arange(rows.shape[0]) % 6, 2))
-        lifted = np.unique(rows[axial].tocoo().coords[1])
+        lifted = touched_dofs(rows[2::6])
         own = np.asarray(self._system.mass[self._rest][:, self._touched[lifted]].toarray())
         return np.asarray(own + self._mass @ self._follow[:, lifted])
 
@@ -133,7 +137,18 @@ class RitzSpace:
         return np.asarray(self._mass @ vectors[:, :room])
 
     def basis(self) -> Basis:
-        """Return the frame in the bearings' coordinates and the vectors made so far."""
+        """Return the frame in the bearings' coordinates and the vectors made so far.
+
+        Returns
+        -------
+        Basis
+            As of `build_basis`, with fewer modes.
+
+        Raises
+        ------
+        ModelError
+            If a damping matrix acts on what has no mass.
+        """
         system, n_b = self._system, len(self._touched)
         omega2, turned = self._turned()
         phi = self._vectors @ turned
@@ -153,11 +168,11 @@ class RitzSpace:
             expand_e=expand_e,
             offset=offset,
             still=self._still(phi, omega2),
-            mass_b=_symmetric(expand_b.T @ with_mass),
+            mass_b=symmetric(expand_b.T @ with_mass),
             mass_be=with_mass.T @ expand_e,
             mass_e=np.ones(n_e),
-            stiffness_b=_symmetric(expand_b.T @ np.asarray(self._stiffness @ expand_b)),
-            damping_b=_symmetric(beta * own),
+            stiffness_b=symmetric(expand_b.T @ np.asarray(self._stiffness @ expand_b)),
+            damping_b=symmetric(beta * own),
             omega2=omega2,
             damping_e=damping_e,
             damping_be=np.zeros((0, 0)),
@@ -179,7 +194,7 @@ class RitzSpace:
             return np.zeros(0), np.zeros((0, 0))
         stiffness = self._vectors.T @ self._loads
         mass = self._vectors.T @ np.asarray(self._mass @ self._vectors)
-        omega2, turned = linalg.eigh(_symmetric(stiffness), _symmetric(mass))
+        omega2, turned = linalg.eigh(symmetric(stiffness), symmetric(mass))
         return omega2, turned
 
     def _still(self, phi: FloatArray, omega2: FloatArray) -> FloatArray:
@@ -192,7 +207,7 @@ class RitzSpace:
         flexibility = loads.T @ left
         size = np.sqrt(np.maximum(np.diag(flexibility), 0.0))
         scale = 1.0 / np.where(size > 0.0, size, 1.0)
-        values, vectors = linalg.eigh(_symmetric(flexibility * np.outer(scale, scale)))
+        values, vectors = linalg.eigh(symmetric(flexibility * np.outer(scale, scale)))
         kept = values > _NEW * max(float(values[-1]), 0.0)
         still = np.zeros((n_free, int(kept.sum())))
         still[self._rest] = left @ (scale[:, None] * vectors[:, kept] / np.sqrt(values[kept]))
@@ -222,7 +237,7 @@ def _factors(
 def _orthogonal(inertia: FloatArray) -> FloatArray:
     # How vectors of about mass 1 mix to orthogonal ones of mass 1, the longest first; what others
     # had in them already is left out.
-    masses, turned = linalg.eigh(_symmetric(inertia))
+    masses, turned = linalg.eigh(symmetric(inertia))
     kept = np.flatnonzero(masses > _NEW**2)[::-1]
     return np.asarray(turned[:, kept] / np.sqrt(masses[kept]))
 
@@ -235,7 +250,3 @@ def _refuse_lag(system: System, basis: Basis) -> None:
             'mass, which lag behind; take method="direct"'
         )
         raise ModelError(message)
-
-
-def _symmetric(matrix: FloatArray) -> FloatArray:
-    return np.ascontiguousarray(0.5 * (matrix + matrix.T))

@@ -27,7 +27,6 @@ class Factors:
     """
 
     def __init__(self, matrix: SparseMatrix) -> None:
-        self.shape = matrix.shape
         self._factors = linalg.splu(
             sparse.csc_array(matrix),
             permc_spec="MMD_AT_PLUS_A",
