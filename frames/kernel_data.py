@@ -118,7 +118,8 @@ class Run(NamedTuple):
     store_at_rest: Array  # (1,) in the elastic sliding of all friction under permanent loads
     push: Array  # (n_bearings, 3) force on node j before the committed state
     own: Array  # (n_bearings, 2) of these, horizontal and beside the bearings' forces: trial
-    moved: Array  # (n_bearings, 6) mean velocity of node j to i, and its rate, last step
+    swing: Array  # (4,) squares of these accelerations and of their changes in the step, means
+    moved: Array  # (n_bearings, 6) mean velocity of node j (up: to i), and its rate, last step
     carried: Array  # (n_bearings,) mass that the permanent axial force holds [kg]
     force_old: Array  # (n_b,) bearing forces, committed
     force: Array
@@ -246,7 +247,7 @@ def run_arrays(model: Model) -> Run:
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK), store_at_rest=np.zeros(1),
         push=np.zeros((count, 3)), moved=np.zeros((count, 6)),
-        own=np.zeros((count, 2)), carried=np.ones(count),
+        own=np.zeros((count, 2)), swing=np.zeros(4), carried=np.ones(count),
         force_old=b(), force=b(), force_before=np.zeros((2, n_b)),
         tangent=np.zeros((n_b, n_b)), order=np.zeros(n_b, np.int64),
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),

@@ -11,6 +11,7 @@ from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
 _BEND = 0.9  # rad a step, beyond which the laws do not see to how a path bends
+_MEMORY = 0.2  # s, over which what rings is averaged
 _MOST_LATE = 2.0  # of the friction force: it has turned round
 
 if TYPE_CHECKING:
@@ -22,18 +23,19 @@ if TYPE_CHECKING:
 
 @inlined
 def opening(model: Model, k: int, axis: int, b: Floats) -> float:
-    """Return how far `b` takes node j of bearing `k` from node i along an axis."""
+    """Return how far `b` takes node j of bearing `k`: to the side, or up from node i."""
     total = 0.0
     for entry in range(model.start[k, 6 + axis], model.start[k, 7 + axis]):
         total += model.values[entry] * b[model.columns[entry]]
-    for entry in range(model.start[k, axis], model.start[k, axis + 1]):
-        total -= model.values[entry] * b[model.columns[entry]]
+    if axis == 2:
+        for entry in range(model.start[k, 2], model.start[k, 3]):
+            total -= model.values[entry] * b[model.columns[entry]]
     return total
 
 
 @expanded
 def rate(model: Model, run: Run, k: int, axis: int) -> float:
-    """Return the acceleration of bearing `k`'s node j to i along an axis about the step's start.
+    """Return the acceleration of bearing `k`'s `opening` along an axis about the step's start.
 
     From displacements, which are free of what rings from step to step.
     """
@@ -78,23 +80,31 @@ def driven(run: Run, ground: Ground, axis: int) -> tuple[float, float]:
 
 
 @kernel
-def ringing(model: Model, run: Run, ground: Ground) -> float:
-    """Return by how much the bearings' accelerations changed beside their forces.
+def ringing(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
+    """Return 12 times how far what rings at the bearings gets out of phase in a step's length [m].
 
-    A mass that stands on the bearings without a structure moves by their forces alone.
+    From accelerations beside the bearings' forces, by which alone a mass without a structure moves;
+    not more than 12 times twice the displacement that rings.
     """
-    total, mass = 0.0, 0.0
+    clock = run.clock[0]
+    run.swing[0], run.swing[1] = 0.0, 0.0
+    if clock.dt_before <= 0.0:
+        return 0.0
+    mass = 0.0
     for axis in range(2):
         push, shaking = driven(run, ground, axis)
         for k in range(run.old.shape[0]):
-            own = rate(model, run, k, axis) + push
-            if model.start[k, axis] == model.start[k, axis + 1]:
-                own += shaking
+            own = rate(model, run, k, axis) + push + shaking
             gain = own - run.moved[k, 3 + axis]
             run.own[k, axis] = own
-            total += run.carried[k] * gain * gain
+            run.swing[0] += run.carried[k] * own * own
+            run.swing[1] += run.carried[k] * gain * gain
             mass += 0.5 * run.carried[k]
-    return math.sqrt(total / mass) if run.clock[0].dt_before > 0.0 else 0.0
+    run.swing[0], run.swing[1] = run.swing[0] / mass, run.swing[1] / mass
+    lost = settings.error_time * clock.dt * math.sqrt(run.swing[1])
+    if run.swing[3] > 0.0:
+        lost = min(lost, 24.0 * run.swing[2] * math.sqrt(run.swing[2]) / run.swing[3])
+    return lost
 
 
 @expanded
@@ -179,7 +189,7 @@ def estimated_error(
         wrong += part_error(parts, ratio)
     error = math.sqrt(wrong / mass) * settings.error_flexibility  # (5.3)
     error *= min(clock.dt / settings.error_event, 1.0)
-    error += clock.dt * ringing(model, run, ground) * settings.error_time  # (5.9)
+    error += ringing(model, run, settings, ground)  # (5.9)
     return factor * error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 
@@ -210,6 +220,9 @@ def is_rough(
 def keep_motion(model: Model, run: Run, ground: Ground) -> None:
     """Keep how the bearings were forced and moved, for the next estimate of the error."""
     clock = run.clock[0]
+    share = clock.dt / (clock.dt + _MEMORY)
+    run.swing[2] += share * (run.swing[0] - run.swing[2])
+    run.swing[3] += share * (run.swing[1] / (clock.dt * clock.dt) - run.swing[3])
     for k in range(run.old.shape[0]):
         run.moved[k, 5] = lifting(model, run, ground, k)
         for axis in range(3):
