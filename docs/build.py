@@ -69,7 +69,7 @@ ATTRIBUTES = {
     "spectral_radius": "of the generalised-alpha method at infinite frequency [-]",
     "dt": "base step [s]",
     "step_control": '"error" where the program chose the step (dt=None), "fixed" where given',
-    "tolerance": "error of a step over the displacement reached [-] where the program chose it",
+    "tolerance": "error of displacement histories aimed at, over the displacement reached [-]",
     "steps": "steps taken, halved ones included",
     "newton_iterations": "iterations of Newton's method in all",
     "state_determinations": "state determinations of all bearings",

@@ -117,7 +117,9 @@ class Run(NamedTuple):
     work: Array
     store_at_rest: Array  # (1,) in the elastic sliding of all friction under permanent loads
     push: Array  # (n_bearings, 3) force on node j before the committed state
-    rise: Array  # (n_bearings, 2) mean vertical velocity of node j to i, and its rate, last step
+    own: Array  # (n_bearings, 2) of these, horizontal and beside the bearings' forces: trial
+    swing: Array  # (4,) squares of these accelerations and of their changes in the step, means
+    moved: Array  # (n_bearings, 6) mean velocity of node j (up: to i), and its rate, last step
     carried: Array  # (n_bearings,) mass that the permanent axial force holds [kg]
     force_old: Array  # (n_b,) bearing forces, committed
     force: Array
@@ -173,9 +175,12 @@ class Setup(NamedTuple):
     tangent_worth: float  # iterations that a kept tangent may take before a new one is cheaper
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
-    error_tolerance: float  # of a step over the displacement reached; infinite: fixed step
+    error_tolerance: float  # of histories over the displacement reached; infinite: fixed step
     smallest_reach: float  # m, displacement that counts as reached from the start
-    error_time: float  # s, time over which an error in velocity counts
+    error_flexibility: float  # s2, displacement that a lasting error of force over mass makes
+    error_time: float  # s, time over which what rings gets out of phase
+    error_event: float  # s, step below which an error of force counts as an impulse
+    least_halvings: int  # of a base step, whatever the estimate says
     error_vertical: float  # share of the vertical error that counts while a bearing is pressed
     error_open: float  # the same while it is lifted off, or lands
     first: int  # base step that the first row of the output holds
@@ -241,7 +246,8 @@ def run_arrays(model: Model) -> Run:
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), mean_v_before=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
         work=np.zeros(count, dtype=WORK), store_at_rest=np.zeros(1),
-        push=np.zeros((count, 3)), rise=np.zeros((count, 2)), carried=np.ones(count),
+        push=np.zeros((count, 3)), moved=np.zeros((count, 6)),
+        own=np.zeros((count, 2)), swing=np.zeros(4), carried=np.ones(count),
         force_old=b(), force=b(), force_before=np.zeros((2, n_b)),
         tangent=np.zeros((n_b, n_b)), order=np.zeros(n_b, np.int64),
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),

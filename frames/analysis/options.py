@@ -28,7 +28,7 @@ class Options(NamedTuple):
     duration: float
     base: float
     steps: int
-    tolerance: float | None  # error of a step; infinite: fixed step; None: by level
+    tolerance: float | None  # error of histories; infinite: fixed step; None: by level
     method: str
     integrator: str
     spectral_radius: float

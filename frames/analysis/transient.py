@@ -18,10 +18,10 @@ from frames.analysis.plausible import check_analysis
 from frames.analysis.recorder import Recorder
 from frames.analysis.recording import recording_of
 from frames.analysis.refining import refined
-from frames.analysis.rigid import rigid_time_history
+from frames.analysis.rigid import LARGEST_STEP, rigid_time_history
 from frames.analysis.scene import exact_features, plane_coupling
 from frames.analysis.static import gravity
-from frames.kernel_data import Ground, Setup
+from frames.kernel_data import MOST_HALVINGS, Ground, Setup
 from frames.kernels.integration import advance, record
 from frames.motion.shaking import seen_by_steps
 from frames.results.auditing import doubts_of
@@ -44,8 +44,12 @@ if TYPE_CHECKING:
 
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
-_ERROR_TOLERANCE = 1e-4  # of the displacement reached, a step, where the program chooses
-_CONTACT_TOLERANCE = 3e-5  # the same with a bearing at the level 'contact': its sliders' own motion
+_ERROR_TOLERANCE = 1e-3  # of histories over the displacement reached, where the program chooses
+_CONTACT_TOLERANCE = 3e-4  # the same with a bearing at the level 'contact': its sliders' own motion
+_HALVED_FROM = 5e-4  # tolerance below whose half the largest step is halved, below a fourth twice
+_ERROR_SHARE = 0.045  # of what a lasting force does to the pendulum: it does not last (calibrated)
+_ERROR_TIME = 8.0  # times sqrt(L / g), over which what rings gets out of phase (calibrated)
+_ERROR_EVENT = 1.5e-3  # s, step below which an error of force counts as an impulse (calibrated)
 _SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from the start
 _ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
@@ -104,9 +108,10 @@ def time_history(
     spectral_radius : float
         Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
     tolerance : float, optional
-        Error of a step over the displacement reached where the program controls it: 1e-4 by
-        default, 3e-5 where a bearing is at the level "contact". At the level "rigid_body" over the
-        effective radius: 1e-8.
+        Error that the bearings' displacement histories may have, over the displacement reached,
+        where the program controls it: 1e-3 by default, 3e-4 where a bearing is at the level
+        "contact". Between 5e-5 and 5e-4 the error is within a factor of three of it
+        (docs/choices.md). At the level "rigid_body" that of a step over the effective radius: 1e-8.
     reduction_tolerance : float, optional
         Of the method "reduced": largest difference of two runs in the peaks of bearing
         displacement and base shear, 1e-3 by default; ten times that in axial forces, floor
@@ -306,11 +311,23 @@ def settings_of(state: GravityState, options: Options) -> Setup:
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
         error_tolerance=float(tolerance),
         smallest_reach=float(_SMALLEST_REACH * length),
-        error_time=float(math.sqrt(length / state.system.gravity)),
+        error_flexibility=float(_ERROR_SHARE * length / state.system.gravity),
+        error_time=float(_ERROR_TIME * math.sqrt(length / state.system.gravity)),
+        error_event=float(_ERROR_EVENT),
+        least_halvings=_least_halvings(options.base, tolerance),
         error_vertical=float(_ERROR_VERTICAL),
         error_open=float(_ERROR_OPEN),
         first=0,
     )
+
+
+def _least_halvings(base: float, tolerance: float) -> int:
+    # Of the base step: small tolerances get small steps, whatever the estimate says.
+    if not tolerance <= 0.5 * _HALVED_FROM:
+        return 0
+    largest = LARGEST_STEP * 0.5 ** math.floor(math.log2(_HALVED_FROM / tolerance) + 1e-9)
+    wanted = math.ceil(math.log2(base / largest) - 1e-9)
+    return min(max(wanted, 0), MOST_HALVINGS // 2)
 
 
 def _tangent_worth(bearings: int, unknowns: int) -> float:

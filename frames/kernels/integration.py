@@ -268,6 +268,8 @@ def attempt(
     step is doubled again where it fits.
     """
     clock = run.clock[0]
+    if clock.halvings < settings.least_halvings:
+        clock.halvings = settings.least_halvings
     ticks = 1 << (_MOST_HALVINGS - clock.halvings)
     clock.dt = settings.dt / (1 << clock.halvings)
     clock.time = settings.dt * (clock.done + clock.ticks / _TICKS)
@@ -293,7 +295,7 @@ def attempt(
     clock.ticks += ticks
     clock.good += 1
     calm = clock.good >= 2 and clock.share < _CALM
-    if clock.halvings > 0 and calm and clock.ticks % (2 * ticks) == 0:
+    if clock.halvings > settings.least_halvings and calm and clock.ticks % (2 * ticks) == 0:
         clock.halvings -= 1
         clock.good = 0
     return _OK

@@ -1,4 +1,4 @@
-"""Kernels of the error estimate of a step: whether it is too rough, and what the next one needs."""
+"""Kernels of the error estimate: what a step adds to the error of the bearings' histories."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from frames.kernels.part_works import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
+_BEND = 0.9  # rad a step, beyond which the laws do not see to how a path bends
+_MEMORY = 0.2  # s, over which what rings is averaged
+_MOST_LATE = 2.0  # of the friction force: it has turned round
+
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Run, Setup
     from frames.parts_data import Parts
@@ -18,29 +22,89 @@ if TYPE_CHECKING:
 
 
 @inlined
-def opening(model: Model, k: int, b: Floats) -> float:
-    """Return how far `b` takes node j of bearing `k` up from node i."""
+def opening(model: Model, k: int, axis: int, b: Floats) -> float:
+    """Return how far `b` takes node j of bearing `k`: to the side, or up from node i."""
     total = 0.0
-    for entry in range(model.start[k, 8], model.start[k, 9]):
+    for entry in range(model.start[k, 6 + axis], model.start[k, 7 + axis]):
         total += model.values[entry] * b[model.columns[entry]]
-    for entry in range(model.start[k, 2], model.start[k, 3]):
-        total -= model.values[entry] * b[model.columns[entry]]
+    if axis == 2:
+        for entry in range(model.start[k, 2], model.start[k, 3]):
+            total -= model.values[entry] * b[model.columns[entry]]
     return total
+
+
+@expanded
+def rate(model: Model, run: Run, k: int, axis: int) -> float:
+    """Return the acceleration of bearing `k`'s `opening` along an axis about the step's start.
+
+    From displacements, which are free of what rings from step to step.
+    """
+    clock = run.clock[0]
+    change = opening(model, k, axis, run.step) / clock.dt - run.moved[k, axis]
+    return change / (0.5 * (clock.dt + clock.dt_before))
 
 
 @expanded
 def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
     """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
 
-    From displacements, which are free of what rings from step to step; total, where node i is
-    fixed, so that it is smooth in free flight.
+    Total, where node i is fixed, so that it is smooth in free flight.
+    """
+    found = rate(model, run, k, 2)
+    if model.start[k, 2] == model.start[k, 3]:
+        found += ground_acceleration(ground.acceleration, ground.dt, run.clock[0].time, 2)
+    return found
+
+
+@expanded
+def driven(run: Run, ground: Ground, axis: int) -> tuple[float, float]:
+    """Return the bearings' force over the mass they carry, and the ground's acceleration.
+
+    Means of the step and the one before, with the weights that `rate` has.
     """
     clock = run.clock[0]
-    rate = opening(model, k, run.step) / clock.dt - run.rise[k, 0]
-    rate /= 0.5 * (clock.dt + clock.dt_before)
-    if model.start[k, 2] == model.start[k, 3]:
-        rate += ground_acceleration(ground.acceleration, ground.dt, clock.time, 2)
-    return rate
+    force, mass = 0.0, 0.0
+    past, coming = clock.dt_before, clock.dt
+    for k in range(run.old.shape[0]):
+        force += past * run.push[k, axis] + coming * run.new[k].force[6 + axis]
+        force += (past + coming) * run.old[k].force[6 + axis]
+        mass += run.carried[k]
+    shaking = past * ground_acceleration(ground.acceleration, ground.dt, clock.time - past, axis)
+    shaking += coming * ground_acceleration(
+        ground.acceleration, ground.dt, clock.time + coming, axis
+    )
+    shaking += (past + coming) * ground_acceleration(
+        ground.acceleration, ground.dt, clock.time, axis
+    )
+    return 0.5 * force / (mass * (past + coming)), 0.5 * shaking / (past + coming)
+
+
+@kernel
+def ringing(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
+    """Return 12 times how far what rings at the bearings gets out of phase in a step's length [m].
+
+    From accelerations beside the bearings' forces, by which alone a mass without a structure moves;
+    not more than 12 times twice the displacement that rings.
+    """
+    clock = run.clock[0]
+    run.swing[0], run.swing[1] = 0.0, 0.0
+    if clock.dt_before <= 0.0:
+        return 0.0
+    mass = 0.0
+    for axis in range(2):
+        push, shaking = driven(run, ground, axis)
+        for k in range(run.old.shape[0]):
+            own = rate(model, run, k, axis) + push + shaking
+            gain = own - run.moved[k, 3 + axis]
+            run.own[k, axis] = own
+            run.swing[0] += run.carried[k] * own * own
+            run.swing[1] += run.carried[k] * gain * gain
+            mass += 0.5 * run.carried[k]
+    run.swing[0], run.swing[1] = run.swing[0] / mass, run.swing[1] / mass
+    lost = settings.error_time * clock.dt * math.sqrt(run.swing[1])
+    if run.swing[3] > 0.0:
+        lost = min(lost, 24.0 * run.swing[2] * math.sqrt(run.swing[2]) / run.swing[3])
+    return lost
 
 
 @expanded
@@ -52,29 +116,44 @@ def bend(run: Run, k: int, axis: int) -> float:
     return float(new - old - ratio * (old - run.push[k, axis]))
 
 
+@expanded
+def turned(a_1: float, a_2: float, b_1: float, b_2: float) -> float:
+    """Return the angle from (a_1, a_2) to (b_1, b_2), zero where one of them is none."""
+    return math.atan2(a_1 * b_2 - a_2 * b_1, a_1 * b_1 + a_2 * b_2)
+
+
 @kernel
 def lagging(model: Model, run: Run, k: int) -> float:
-    """Return the force by which the Bouc-Wen friction of bearing `k` lags behind its law.
+    """Return the force by which the friction of bearing `k` lags behind its law.
 
-    An implicit step follows the curve of that law with an error of first order: half of what
-    the friction changes by, in so far as its sliding slips. The elastic-plastic law has none.
+    Implicit steps are half a step late, an error of first order: half of what the dampers of the
+    rims change by, and half of what friction changes by, in so far as its sliding slips, as it
+    turns more or less than the path (what the path bends is seen to), and as its size grows by the
+    Bouc-Wen law.
     """
     p, old, new = model.props[k], run.old[k], run.new[k]
     total = 0.0
-    if p.bouc_wen == 0:
-        return total
     for side in range(2):
-        size = math.hypot(new.hysteresis[side, 0], new.hysteresis[side, 1])
-        gain = size - math.hypot(old.hysteresis[side, 0], old.hysteresis[side, 1])
+        damped = new.rim_force[side] - p.rim_stiffness * new.rim_closure[side]
+        damped -= old.rim_force[side] - p.rim_stiffness * old.rim_closure[side]
+        total += 0.5 * abs(damped)
+        z_1, z_2 = new.hysteresis[side, 0], new.hysteresis[side, 1]
+        y_1, y_2 = old.hysteresis[side, 0], old.hysteresis[side, 1]
+        size = math.hypot(z_1, z_2)
+        gain = size - math.hypot(y_1, y_2)
         slipped = new.slid[side] - p.yield_displacement[side] * max(gain, 0.0)
-        if slipped > 0.0 and size > 0.0:
-            along = 0.0
-            for axis in range(2):
-                along += old.hysteresis[side, axis] * new.hysteresis[side, axis] / size
-            d_1, d_2 = new.sliding_increment[side, 0], new.sliding_increment[side, 1]
-            force = new.friction_coefficient[side] * new.axial_force * abs(size - along)
-            force *= slipped / max(slipped, math.hypot(d_1, d_2))
-            total += 0.5 * p.radius[side] / p.length * force
+        if slipped <= 0.0 or size == 0.0:
+            continue
+        d_1, d_2 = new.sliding_increment[side, 0], new.sliding_increment[side, 1]
+        bend = turned(old.sliding_increment[side, 0], old.sliding_increment[side, 1], d_1, d_2)
+        if abs(bend) > _BEND:
+            bend = 0.0
+        late = size * min(abs(turned(y_1, y_2, z_1, z_2) - bend), _MOST_LATE)
+        if p.bouc_wen != 0:
+            late += abs(size - (y_1 * z_1 + y_2 * z_2) / size)
+        force = new.friction_coefficient[side] * new.axial_force * late
+        force *= slipped / max(slipped, math.hypot(d_1, d_2))
+        total += 0.5 * p.radius[side] / p.length * force
     return total
 
 
@@ -82,23 +161,24 @@ def lagging(model: Model, run: Run, k: int) -> float:
 def estimated_error(
     model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
 ) -> float:
-    """Return the estimated error of the step in the bearings' displacement over what is allowed.
+    """Return the error of the bearings' displacements that such steps make, over the allowed one.
 
-    The trapezoidal rule integrates each bearing's force F to the velocity of the mass it carries
-    with an error of ``dt / 12`` times the second difference of F / m, which counts over
-    ``error_time``; schemes that damp have more of it (docs/theory.md, 5). Forces that are linear
-    in the step, as the ground's, have none, and what rings in the structure has none unless it
-    passes through a bearing. Off the ground a bearing has no force, and the change of its vertical
-    acceleration says how it will land.
+    The trapezoidal rule integrates each bearing's force with an error of a twelfth of its second
+    difference, and what is late counts besides. A lasting error of a force is a displacement of the
+    pendulum, that of a step below ``error_event`` an impulse. What rings in the structure gets out
+    of phase; it counts over ``error_time``. Schemes that damp have more error (docs/theory.md, 5).
+    Forces that are linear in the step, as the ground's, have none. Off the ground a bearing has no
+    force, and the change of its vertical acceleration says how it will land.
     """
     clock = run.clock[0]
     damps = settings.gamma - 0.5
     factor = 1.0 / 12.0 + 0.5 * damps * damps
+    ratio = clock.dt / clock.dt_before if clock.dt_before > 0.0 else 0.0
     wrong, mass = 0.0, 0.0
     for k in range(run.old.shape[0]):
         x, y, z = bend(run, k, 0), bend(run, k, 1), bend(run, k, 2)
         if run.old[k].axial_force <= 0.0 or run.new[k].axial_force <= 0.0:
-            z = run.carried[k] * (lifting(model, run, ground, k) - run.rise[k, 1])
+            z = run.carried[k] * (lifting(model, run, ground, k) - run.moved[k, 5])
             z *= settings.error_open
         else:
             z *= settings.error_vertical
@@ -106,9 +186,11 @@ def estimated_error(
         wrong += x * x + y * y + z * z + late * late
         mass += run.carried[k] * run.carried[k]
     if parts is not None:
-        wrong += part_error(parts, clock.dt / clock.dt_before if clock.dt_before > 0.0 else 0.0)
-    error = factor * clock.dt * math.sqrt(wrong / mass) * settings.error_time  # (5.3)
-    return error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
+        wrong += part_error(parts, ratio)
+    error = math.sqrt(wrong / mass) * settings.error_flexibility  # (5.3)
+    error *= min(clock.dt / settings.error_event, 1.0)
+    error += ringing(model, run, settings, ground)  # (5.9)
+    return factor * error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 
 @expanded
@@ -138,10 +220,15 @@ def is_rough(
 def keep_motion(model: Model, run: Run, ground: Ground) -> None:
     """Keep how the bearings were forced and moved, for the next estimate of the error."""
     clock = run.clock[0]
+    share = clock.dt / (clock.dt + _MEMORY)
+    run.swing[2] += share * (run.swing[0] - run.swing[2])
+    run.swing[3] += share * (run.swing[1] / (clock.dt * clock.dt) - run.swing[3])
     for k in range(run.old.shape[0]):
-        run.rise[k, 1] = lifting(model, run, ground, k)
-        run.rise[k, 0] = opening(model, k, run.step) / clock.dt
+        run.moved[k, 5] = lifting(model, run, ground, k)
         for axis in range(3):
+            if axis < 2:
+                run.moved[k, 3 + axis] = run.own[k, axis]
+            run.moved[k, axis] = opening(model, k, axis, run.step) / clock.dt
             run.push[k, axis] = run.old[k].force[6 + axis]
         u = run.new[k].displacement
         clock.reach = max(clock.reach, math.sqrt((u[6] - u[0]) ** 2 + (u[7] - u[1]) ** 2))

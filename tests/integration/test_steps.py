@@ -1,6 +1,7 @@
 """Steps of time: order of convergence, halving, impacts that make no energy, chosen steps."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import linalg
 
-from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, shear_building
+from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, moment_frame, shear_building
 from lir_element import CoulombFriction, Element, LIRBearing
 
 # Such bearings are meant here.
@@ -137,6 +138,64 @@ def test_chosen_step_is_at_most_that_of_the_motion(run, pulse, newhall_bearing):
     for step, expected in ((0.002, 0.002), (0.02, 0.005)):
         data = run(lumped_mass(newhall_bearing, MASS), GroundMotion(x=pulse(1, 1, step), dt=step))
         assert data.attrs["dt"] == expected
+
+
+def history(data) -> np.ndarray:
+    """Return the bearings' horizontal displacements every 10 ms."""
+    every = round(0.01 / float(data["time"][1]))
+    return data["bearing_displacement"].to_numpy()[::every, :, :2]
+
+
+def made_waves(scale: float) -> GroundMotion:
+    """Return waves of three components in a ramp, with noise."""
+    t = np.arange(0.0, 8.0, 0.01)
+    ramp = np.minimum(t / 2.0, 1.0) * np.minimum((8.0 - t) / 3.0, 1.0)
+    noise = np.random.default_rng(1).normal(size=(3, len(t)))
+    waves = [
+        scale * a * ramp * (np.sin(2.0 * np.pi * t / p) + 0.15 * n)
+        for (a, p), n in zip(((1.7, 1.6), (1.2, 2.1), (0.8, 0.25)), noise, strict=True)
+    ]
+    return GroundMotion(*waves, dt=0.01)
+
+
+@pytest.mark.parametrize("kind", ["mass", "mass on rims", "plain mass", "building"])
+def test_achieved_error_is_within_a_factor_of_three(run, newhall_bearing, kind):
+    bearing = newhall_bearing.as_dcfp() if kind == "plain mass" else newhall_bearing
+    if kind == "building":
+        model = moment_frame(bays=(1, 1), storeys=2, bearing=bearing)
+    else:
+        model = lumped_mass(bearing, MASS)
+    motion = made_waves(1.0 if kind == "mass on rims" else 0.5)
+    fine = run(model, motion, dt=1e-4, record_every=100)
+    assert (float(fine["rim_force"].max()) > 0.0) == (kind == "mass on rims")
+    largest = np.hypot(*np.moveaxis(history(fine), -1, 0)).max()
+    for tolerance in (5e-4, 2e-4, 1e-4, 5e-5):
+        data = run(model, motion, tolerance=tolerance)
+        gap = np.hypot(*np.moveaxis(history(data) - history(fine), -1, 0)).max() / largest
+        assert tolerance / 3.0 < gap < 3.0 * tolerance, (tolerance, gap)
+
+
+@pytest.mark.parametrize("oblique", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize(
+    ("kind", "strengths"),
+    [("dcfp", (2.8, 3.0, 3.5, 4.0, 5.0)), ("lir", (2.3, 2.6)), ("building", (2.3,))],
+)
+def test_impacts_are_located(run, pulse, newhall_bearing, kind, strengths, oblique):
+    """Compare forces at impacts with those of steps 50 times finer, at the same instants."""
+    bearing = replace(newhall_bearing, slip_capacity=1.0)
+    if kind == "building":
+        model = moment_frame(bays=(1, 1), storeys=2, bearing=bearing)
+    else:
+        model = lumped_mass(bearing if kind == "lir" else newhall_bearing.as_dcfp(), MASS)
+    for strength in strengths:
+        x = pulse(strength, 2.0, 0.01, cycles=1.0, rest=0.5)
+        motion = GroundMotion(x=x, y=oblique * np.roll(x, 20), dt=0.01)
+        chosen = run(model, motion)
+        fine = run(model, motion, dt=1e-4, record_every=50)
+        assert float(fine["rim_force"].max()) > 0.0
+        for name in ("rim_force", "bearing_force"):
+            biggest = [float(np.abs(data[name]).max()) for data in (chosen, fine)]
+            assert_allclose(*biggest, rtol=2e-2, err_msg=f"{name} {strength}")
 
 
 @pytest.mark.parametrize("kind", ["lir", "dcfp"])
