@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning, ModelWarning
 from frames.analysis.batch_run import Kept, Runner
+from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.analysis.options import check_options, options_of
 from frames.analysis.plausible import motion_doubts
@@ -124,10 +125,11 @@ def time_histories(
     }  # fmt: skip
     _warn_of_motions(structures, grounds, runs)
     chosen = Features.all() if features is None else features
-    runner = Runner(structures, grounds, options, runs, chosen, level, kept)
     count = _processors() if workers is None else whole_steps("workers", workers)
     began = perf_counter()
-    rows, is_whole = _all(runner, min(count, len(runs)), tell(progress))
+    with blas_threads_for(*structures.values()):
+        runner = Runner(structures, grounds, options, runs, chosen, level, kept)
+        rows, is_whole = _all(runner, min(count, len(runs)), tell(progress))
     if not rows:
         raise KeyboardInterrupt
     data = stack(rows, runs)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from frames._errors import ModelError
+from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.springs import spring_matrix
 from frames.analysis.static import GravityState, gravity
 from frames.assembly.natural_modes import UnstableError, natural_modes
@@ -73,7 +74,8 @@ def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sl
     k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
     m = system.mass.toarray()
     try:
-        found = natural_modes(k, m, count)
+        with blas_threads_for(frame):
+            found = natural_modes(k, m, count)
     except UnstableError as error:
         label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
         message = (

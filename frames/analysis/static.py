@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError, ModelWarning
+from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.nonlinear_start import parts_at_rest
 from frames.analysis.plausible import doubts, held_periods
@@ -159,10 +160,11 @@ def gravity(
         If supports take weight past the bearings, or numbers look as if given in other units
         (`Frame.check` lists the same).
     """
-    prepared = prepare(frame, features, level)
-    began = perf_counter()
-    basis = build_basis(prepared.system, prepared.geometric, frame.damping)
-    return at_rest(prepared, basis, perf_counter() - began)
+    with blas_threads_for(frame):
+        prepared = prepare(frame, features, level)
+        began = perf_counter()
+        basis = build_basis(prepared.system, prepared.geometric, frame.damping)
+        return at_rest(prepared, basis, perf_counter() - began)
 
 
 class Prepared(NamedTuple):

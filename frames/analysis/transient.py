@@ -11,6 +11,7 @@ import numpy as np
 
 from frames._errors import AuditWarning
 from frames.analysis.automatic import mark_other_end, settle
+from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.equilibrium import force_tolerance
 from frames.analysis.options import Options, check_options, check_reduction, options_of
 from frames.analysis.outcome import Outcome, concluded, ended
@@ -174,7 +175,8 @@ def time_history(
 
     def analyse(kept: Features, at: str | Mapping[str, str]) -> xr.Dataset:
         recorders.clear()  # of an earlier run: its memory
-        data, outcome, recorder = _run(model, motion, kept, at, options)
+        with blas_threads_for(model):
+            data, outcome, recorder = _run(model, motion, kept, at, options)
         outcomes.append(outcome)
         recorders.append(recorder)
         if outcome[0] is RunStatus.INTERRUPTED:  # no further run of level="auto"

@@ -189,7 +189,7 @@ def estimated_error(
         wrong += part_error(parts, ratio)
     error = math.sqrt(wrong / mass) * settings.error_flexibility  # (5.3)
     error *= min(clock.dt / settings.error_event, 1.0)
-    error += ringing(model, run, settings, ground)  # (5.9)
+    error += ringing(model, run, settings, ground)  # (5.10)
     return factor * error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
 
 
