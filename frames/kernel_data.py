@@ -56,6 +56,7 @@ CLOCK_FIELDS = (
     Field("reach", "m", "", "largest horizontal displacement of a bearing so far"),
     Field("equal", "-", "", "accepted steps since one of another size", (), "i8"),
     Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
+    Field("carry", "-", "", "steps since the products below were made anew", (), "i8"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
 )
 
@@ -131,6 +132,11 @@ class Run(NamedTuple):
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
     follow_e: Array  # (halvings, n_e, n_b) and how they follow b
     lead_e: Array  # (halvings, n_b, n_e) its transpose
+    held: Array  # (n_b,) stiffness_b b, committed
+    flow_v: Array  # (n_e,) mass_eb v_b and mass_eb a_b, committed, and of the trial
+    flow_a: Array
+    flow_v_new: Array
+    flow_a_new: Array
     b_new: Array
     v_b_new: Array
     a_b_new: Array
@@ -253,6 +259,7 @@ def run_arrays(model: Model) -> Run:
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),
         follow_e=np.zeros((sizes, n_full, n_b)), lead_e=np.zeros((sizes, n_b, n_full)),
+        held=b(), flow_v=e(), flow_a=e(), flow_v_new=e(), flow_a_new=e(),
         b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
         rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
         h_b=b(), h_e=e(), g_b=b(), g_e=e(),

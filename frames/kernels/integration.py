@@ -18,7 +18,7 @@ from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict
 from frames.kernels.yielding import begin_parts, part_load_on_modes, set_part_follow
 from lir_element.errors import RunStatus
-from lir_element.kernels.linear import add_product
+from lir_element.kernels.linear import add_product, set_product
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -32,6 +32,7 @@ _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
 _MOST_HALVINGS = MOST_HALVINGS
 _TICKS = 1 << MOST_HALVINGS  # parts of a base step
 _CALM = 0.25  # share of the allowed error below which twice the step is tried: it grows by dt^2
+_CARRIED = 64  # steps, after which products that are carried on have gathered some 1e-11
 _LIMIT_HALVINGS = 4  # of a step before a limit of the bearing counts as exceeded
 
 
@@ -63,6 +64,14 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
     run.has_reduced[at] = 1
 
 
+@kernel
+def renew_products(model: Model, run: Run) -> None:
+    """Set what is carried from step to step from the committed state."""
+    set_product(model.stiffness_b, run.b, run.held)
+    set_product(model.mass_be, run.v_b, run.flow_v)
+    set_product(model.mass_be, run.a_b, run.flow_a)
+
+
 @expanded
 def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
@@ -72,8 +81,10 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
     known_a = (1.0 - am) * (0.5 / beta - 1.0) - am
     damp_v = (1.0 - af) * (1.0 - gamma / beta) + af
     damp_a = (1.0 - af) * dt * (1.0 - 0.5 * gamma / beta)
+    if run.clock[0].carry == 0:
+        renew_products(model, run)
     for a in range(run.b.shape[0]):
-        run.rhs_b[a] = model.load_b[a] - af * run.force_old[a]
+        run.rhs_b[a] = model.load_b[a] - af * run.force_old[a] - run.held[a]
         run.h_b[a] = known_v * run.v_b[a] + known_a * run.a_b[a]
         run.g_b[a] = damp_v * run.v_b[a] + damp_a * run.a_b[a]
     for k in range(run.e.shape[0]):
@@ -83,6 +94,7 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
             + model.mass_e[k] * run.h_e[k]
             - model.damping_e[k] * (damp_v * run.v_e[k] + damp_a * run.a_e[k])
             - model.omega2[k] * run.e[k]
+            + (known_v * run.flow_v[k] + known_a * run.flow_a[k])
         )
     if parts is not None:
         for a in range(run.b.shape[0]):
@@ -98,8 +110,6 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
         for k in range(run.e.shape[0]):
             run.rhs_e[k] -= model.inertia_e[k, axis] * pull
     add_product(model.mass_b, run.h_b, 1.0, run.rhs_b)
-    add_product(model.mass_be, run.h_b, 1.0, run.rhs_e)
-    add_product(model.stiffness_b, run.b, -1.0, run.rhs_b)
     if model.damping_b.shape[0] > 0:
         add_product(model.damping_b, run.g_b, -1.0, run.rhs_b)
     # the modes, eliminated
@@ -125,6 +135,7 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     dt, at = run.clock[0].dt, run.clock[0].halvings
     beta, gamma = settings.beta, settings.gamma
+    set_product(model.mass_be, run.step, run.flow_v_new)
     if model.damping_ee.shape[0] > 0:
         for k in range(run.e.shape[0]):
             run.g_e[k] = run.h_e[k]
@@ -137,8 +148,7 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
     else:
         c_m, c_c, c_k = effective(settings, dt)
         for k in range(run.e.shape[0]):
-            run.g_e[k] = run.rhs_e[k]
-        add_product(model.mass_be, run.step, -c_m, run.g_e)
+            run.g_e[k] = run.rhs_e[k] - c_m * run.flow_v_new[k]
         if parts is not None:
             part_load_on_modes(parts, run.g_e)
         for k in range(run.e.shape[0]):
@@ -149,6 +159,10 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
             0.5 / beta - 1.0
         ) * run.a_e[k]
         run.v_e_new[k] = run.v_e[k] + dt * ((1.0 - gamma) * run.a_e[k] + gamma * run.a_e_new[k])
+        old, flow = run.flow_a[k], run.flow_v_new[k]
+        new = (flow / dt - run.flow_v[k]) / (beta * dt) - (0.5 / beta - 1.0) * old
+        run.flow_v_new[k] = run.flow_v[k] + dt * ((1.0 - gamma) * old + gamma * new)
+        run.flow_a_new[k] = new
     for a in range(run.b.shape[0]):
         run.b_new[a] = run.b[a] + run.step[a]
         run.a_b_new[a] = (run.step[a] / dt - run.v_b[a]) / (beta * dt) - (
@@ -218,6 +232,8 @@ def accept_step(
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
+        run.flow_v[k], run.flow_a[k] = run.flow_v_new[k], run.flow_a_new[k]
+    clock.carry = clock.carry + 1 if clock.carry + 1 < _CARRIED else 0
     clock.time += clock.dt
     clock.dt_before = clock.dt
     run.counts[0].steps += 1

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined
 from frames.kernels.coupling import coupled_work
 from frames.kernels.part_works import part_energy_on
-from lir_element.kernels.linear import add_product, dot, set_product
+from lir_element.kernels.linear import dot, set_product
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 
 
 @inlined
-def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, momentum: Floats) -> float:
-    """Return the kinetic energy relative to the ground; `momentum` (n_b,) is overwritten."""
+def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats) -> float:
+    """Return the kinetic energy relative to the ground; `flow` (n_e,) is mass_eb v_b.
+
+    `momentum` (n_b,) is overwritten.
+    """
     set_product(model.mass_b, v_b, momentum)
-    add_product(model.mass_eb, v_e, 2.0, momentum)
     total = dot(v_b, momentum)
     for k in range(v_e.shape[0]):
-        total += model.mass_e[k] * v_e[k] * v_e[k]
+        total += v_e[k] * (model.mass_e[k] * v_e[k] + 2.0 * flow[k])
     return 0.5 * total
 
 
@@ -35,7 +37,7 @@ def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, momentum: Floats) -> 
 def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
     """Return the strain energy of the structure, geometric part included.
 
-    `force` (n_b,) is overwritten.
+    `force` (n_b,) becomes that of the structure on b.
     """
     set_product(model.stiffness_b, b, force)
     total = dot(b, force)
@@ -96,8 +98,8 @@ def add_energy(model: Model, run: Run, parts: Parts | None, ground: Ground) -> N
         given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
         parts.work[3] += given
         bearings += given
-    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.h_b)
-    elastic = elastic_energy(model, run.b_new, run.e_new, run.h_b) - clock.elastic_start
+    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.flow_v_new, run.h_b)
+    elastic = elastic_energy(model, run.b_new, run.e_new, run.held) - clock.elastic_start
     energy.input += supplied
     energy.gravity += lifted
     energy.damping += damped

@@ -144,6 +144,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--short", action="store_true", help="try it out; no page is written")
     parser.add_argument("--page", action="store_true", help="write the page from what is there")
     options = parser.parse_args(arguments)
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of the processes that run the cases
     file = Path("benchmark-short.json") if options.short else KEPT
     kept = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
     if not options.page:
