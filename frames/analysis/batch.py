@@ -274,15 +274,17 @@ def _warn_of_runs(rows: Sequence[Row]) -> None:
         text = ", ".join(f"{count} {status}" for status, count in kinds.items())
         warnings.warn(
             f"{len(ill)} of {len(rows)} runs stopped early or are doubtful ({text}); the first, "
-            f"run {ill[0].place}: {ill[0].message}. See the variables status and message",
-            AnalysisWarning, stacklevel=3,
-        )  # fmt: skip
+            f"run {ill[0].place}: {ill[0].message.rstrip('.')}. "
+            "See the variables status and message",
+            AnalysisWarning,
+            stacklevel=3,
+        )
     marked = [row for row in rows if row.doubts and math.isnan(row.failed_at)]
     if marked:
         first = min(marked, key=_place)
         warnings.warn(
             f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; the first, "
-            f"run {first.place}: {first.doubts}. See the variable doubts",
+            f"run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
             AuditWarning, stacklevel=3,
         )  # fmt: skip
 
