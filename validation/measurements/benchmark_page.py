@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 LIMITS = (
     "- CPU time of the process, steps alone: neither program builds the model, finds the "
     "equilibrium at rest or reads its results in it. Where whole runs are meant it is said.",
+    "- Both have one thread: those of the dense algebra spin while they wait, and would count as "
+    "CPU time.",
     "- Both record the bearings' displacements at every step, OpenSees to a file.",
     f"- A step of OpenSees that its algorithm does not solve is taken by KrylovNewton; a setting "
     f"that needs that in more than {100.0 * RESCUES:g} % of the steps is given up.",
