@@ -86,10 +86,37 @@ def factorise(columns: Floats, order: Words) -> bool:
     """Factorise a matrix (n, n) in place, row c of `columns` being its column c.
 
     Gaussian elimination of the transposed with pivoted rows, exchanged as `order` tells; the
-    pivots are kept inverted. Returns False if the matrix is singular.
+    pivots are kept inverted. Four pivots at a time are taken out of what is left, which is read
+    and written once for them. Returns False if the matrix is singular.
     """
     n = columns.shape[0]
-    for col in range(n):
+    for first in range(0, n, 4):
+        last = min(first + 4, n)
+        if not factorise_panel(columns, order, first, last):
+            return False
+        for row in range(first + 1, last):
+            for col in range(first, row):
+                factor = columns[row, col]
+                for k in range(last, n):
+                    columns[row, k] -= factor * columns[col, k]
+        if last - first < 4:
+            return True
+        p_0, p_1 = columns[first, last:], columns[first + 1, last:]
+        p_2, p_3 = columns[first + 2, last:], columns[first + 3, last:]
+        for row in range(last, n):
+            f_0, f_1 = columns[row, first], columns[row, first + 1]
+            f_2, f_3 = columns[row, first + 2], columns[row, first + 3]
+            rest = columns[row, last:]
+            for k in range(rest.shape[0]):
+                rest[k] -= (f_0 * p_0[k] + f_1 * p_1[k]) + (f_2 * p_2[k] + f_3 * p_3[k])
+    return True
+
+
+@kernel
+def factorise_panel(columns: Floats, order: Words, first: int, last: int) -> bool:
+    """Eliminate with the pivots `first` to `last` in their own columns alone."""
+    n = columns.shape[0]
+    for col in range(first, last):
         pivot = pivot_of(columns, col, n)
         if pivot < 0:
             return False
@@ -103,7 +130,7 @@ def factorise(columns: Floats, order: Words) -> bool:
             factor = columns[row, col] * inv
             columns[row, col] = factor
             if factor != 0.0:
-                for k in range(col + 1, n):
+                for k in range(col + 1, last):
                     columns[row, k] -= factor * columns[col, k]
     return True
 
