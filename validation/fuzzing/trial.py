@@ -160,8 +160,10 @@ def sensitivity(scene: Scene, data: xr.Dataset) -> tuple[float, set[str]]:
     rng = np.random.default_rng((scene.seed, scene.number, 10))
     changed, ends = [], set()
     for _ in range(NOISY_RUNS):
-        noise = 1.0 + NOISE * rng.uniform(-1.0, 1.0, scene.motion.components.shape)
-        x, y, z = (scene.motion.components * noise).T
+        x, y, z = scene.motion.components.T
+        noise = NOISE * rng.uniform(-1.0, 1.0, (3, len(x)))
+        size = np.hypot(x, y)  # so that a motion in a plane is not kept in it
+        x, y, z = x + noise[0] * size, y + noise[1] * size, z + noise[2] * z
         other = run(scene, GroundMotion(x=x, y=y, z=z, dt=scene.motion.dt, name="random"))[1]
         changed.append(change(data, other))
         ends.add(end_of(other))
