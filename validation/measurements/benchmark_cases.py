@@ -25,6 +25,7 @@ from validation.measurements.benchmark_search import (
     assumed,
     coarsest,
     error,
+    search,
     setting_of,
     steps_there,
 )
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 METHODS = ("direct", "reduced")
 SOME = (PLAIN[0], RESILIENT[0])
 """Kinds that are run under large structures."""
+SEARCHED = 5
+"""Steps by which a setting is judged for a large structure."""
 COARSE = 2.5e-3
 """Step of the converged runs of large structures [s]."""
 
@@ -143,7 +146,7 @@ def measure(
             reference = found.here[device_of(kind)]["direct"]["reference"]
             there = steps_there(structure, bearing, kind, reference if kind in OWN else None)
         else:
-            there = _taken((chosen or {}).get(kind) or assumed())
+            there = _searched(structure, bearing, kind, (chosen or {}).get(kind) or assumed())
         found.there[kind] = there
         frame = frames[device_of(kind)]
         found.pairs[kind] = turns(
@@ -152,11 +155,19 @@ def measure(
     return found
 
 
-def _taken(there: dict[str, Any]) -> dict[str, Any]:
-    # Step and setting alone: what they cost and found belongs to the structure they come from.
-    return {
+def _searched(
+    structure: Structure, bearing: LIRBearing, kind: str, there: dict[str, Any]
+) -> dict[str, Any]:
+    # Steps of the structure they come from; the best setting is this one's own: what is cheapest
+    # for few unknowns is not for many.
+    found = {
         name: {part: there[name][part] for part in ("dt", "setting")} for name in ("usual", "best")
     }
+    dt = found["best"]["dt"]
+    if math.isfinite(dt):
+        settings, _ = search(structure, bearing, kind, dt, SEARCHED * dt)
+        found["best"]["setting"] = asdict(settings[0]) if settings else found["best"]["setting"]
+    return found
 
 
 def sizes(structure: Structure, frame: Frame) -> dict[str, int]:

@@ -39,8 +39,9 @@ LIMITS = (
     "- Both record the bearings' displacements at every step, OpenSees to a file.",
     f"- A step of OpenSees that its algorithm does not solve is taken by KrylovNewton; a setting "
     f"that needs that in more than {100.0 * RESCUES:g} % of the steps is given up.",
-    "- Of cases c and d OpenSees runs a window of the strong motion alone, with steps and settings "
-    "of the building on nine bearings; its cost for a whole motion follows from its cost a step.",
+    "- Of cases c and d OpenSees runs a window of the strong motion alone, with the steps "
+    "of the building on nine bearings and the setting that is cheapest in five of its own steps, "
+    "whatever its error; its cost for a whole motion follows from its cost a step.",
     "- The elements of OpenSees have laws of their own: what separates their peaks from ours with "
     "all steps small is another matter, [opensees_pendulum.md](opensees_pendulum.md), "
     "[opensees_macro_model.md](opensees_macro_model.md).",
