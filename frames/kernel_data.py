@@ -56,7 +56,6 @@ CLOCK_FIELDS = (
     Field("reach", "m", "", "largest horizontal displacement of a bearing so far"),
     Field("equal", "-", "", "accepted steps since one of another size", (), "i8"),
     Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
-    Field("carry", "-", "", "steps since the products below were made anew", (), "i8"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
 )
 

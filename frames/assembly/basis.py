@@ -19,7 +19,7 @@ from scipy import linalg, sparse
 from frames._errors import ModelError
 from frames.assembly.coordinates import Basis as Basis
 from frames.assembly.matrix_damping import with_matrix_damping
-from frames.assembly.natural_modes import UnstableError, natural_modes, weakest
+from frames.assembly.natural_modes import UnstableError, natural_modes, symmetric, weakest
 from frames.model.damping import ModalDamping, RayleighDamping
 
 if TYPE_CHECKING:
@@ -211,8 +211,3 @@ def mode_damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArra
         alpha = beta * w1 * w2
         return alpha + beta * omega2, float(beta)
     return np.zeros(len(omega)), 0.0
-
-
-def symmetric(matrix: FloatArray) -> FloatArray:
-    """Return a matrix (n, n) without what round-off made unsymmetric."""
-    return np.ascontiguousarray(0.5 * (matrix + matrix.T))

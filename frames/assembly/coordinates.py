@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import linalg
 
+from frames.assembly.natural_modes import symmetric
+
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
 
@@ -73,7 +75,7 @@ class Basis:
         left = self.mass_b - between @ between.T
         alone = self.inertia_b - between @ self.inertia_e[heavy]
         of_e = np.zeros_like(self.inertia_e)
-        of_b = -linalg.pinvh(0.5 * (left + left.T)) @ alone
+        of_b = -linalg.pinvh(symmetric(left)) @ alone
         of_e[heavy] = -self.inertia_e[heavy] - between.T @ of_b
         return np.vstack([of_b, of_e])
 

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import linalg
 
+from frames.assembly.natural_modes import symmetric
+
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.coordinates import Basis
@@ -47,7 +49,7 @@ def with_matrix_damping(
     """
     basis = _with_lag(basis, damping, stiffness, still)
     to_b, to_e = basis.expand_b, basis.expand_e
-    own_b, own_e = (0.5 * (c + c.T) for c in (_of(to_b, damping, to_b), _of(to_e, damping, to_e)))
+    own_b, own_e = symmetric(_of(to_b, damping, to_b)), symmetric(_of(to_e, damping, to_e))
     between = _of(to_b, damping, to_e)
     basis = replace(basis, damping_b=basis.damping_b + own_b)
     alone = np.diag(own_e)
@@ -117,8 +119,7 @@ def _with_lag(
     work, own = _gross(shapes, damping), _gross(still, damping)
     if not (forces > _CONSISTENT * np.sqrt(np.outer(own, work))).any():
         return basis
-    block = _of(still, stiffness, still)
-    omega2, vectors = linalg.eigh(0.5 * (block + block.T))
+    omega2, vectors = linalg.eigh(symmetric(_of(still, stiffness, still)))
     more = still @ vectors
     none = np.zeros(count)
     return replace(

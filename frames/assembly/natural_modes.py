@@ -73,8 +73,8 @@ def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> Nat
     """
     size = len(k)
     scale = _scale(k)
-    scaled = _symmetric(k * np.outer(scale, scale))
-    inert = _symmetric(m * np.outer(scale, scale))
+    scaled = symmetric(k * np.outer(scale, scale))
+    inert = symmetric(m * np.outer(scale, scale))
     few = count is not None and 2 * count < size
     try:
         mu, y = linalg.eigh(
@@ -106,7 +106,7 @@ def _rest(
     if not rest.shape[1]:
         return np.zeros(0), rest
     rest = rest - done @ ((done.T @ (inert @ rest)) / mu[:, None])
-    values, turned = linalg.eigh(_symmetric(rest.T @ inert @ rest))
+    values, turned = linalg.eigh(symmetric(rest.T @ inert @ rest))
     return values[::-1], (rest @ turned)[:, ::-1]
 
 
@@ -114,7 +114,7 @@ def is_stable(k: FloatArray) -> bool:
     """Return whether a stiffness (n, n) is positive definite."""
     scale = _scale(k)
     try:
-        linalg.cholesky(_symmetric(k * np.outer(scale, scale)))
+        linalg.cholesky(symmetric(k * np.outer(scale, scale)))
     except linalg.LinAlgError:
         return False
     return True
@@ -123,7 +123,7 @@ def is_stable(k: FloatArray) -> bool:
 def weakest(k: FloatArray) -> FloatArray:
     """Return the displacements (n,) in which a stiffness is least, relative to its diagonal."""
     scale = _scale(k)
-    _, vectors = linalg.eigh(_symmetric(k * np.outer(scale, scale)), subset_by_index=(0, 0))
+    _, vectors = linalg.eigh(symmetric(k * np.outer(scale, scale)), subset_by_index=(0, 0))
     return np.asarray(scale * vectors[:, 0])
 
 
@@ -133,5 +133,6 @@ def _scale(k: FloatArray) -> FloatArray:
     return 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
 
 
-def _symmetric(matrix: FloatArray) -> FloatArray:
-    return 0.5 * (matrix + matrix.T)
+def symmetric(matrix: FloatArray) -> FloatArray:
+    """Return a matrix (n, n) without what round-off made unsymmetric."""
+    return np.ascontiguousarray(0.5 * (matrix + matrix.T))

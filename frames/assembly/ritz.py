@@ -20,11 +20,11 @@ from frames.assembly.basis import (
     bearing_rows,
     build_basis,
     mode_damping,
-    symmetric,
     touched_dofs,
 )
 from frames.assembly.coordinates import Basis
 from frames.assembly.matrix_damping import couples_massless, with_matrix_damping
+from frames.assembly.natural_modes import symmetric
 from frames.assembly.sparse_solver import Factors
 
 if TYPE_CHECKING:

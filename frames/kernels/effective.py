@@ -1,4 +1,4 @@
-"""Kernel of what a step of the time integration makes of mass, damping and stiffness."""
+"""Kernels of Newmark's rule: what a step makes of mass, damping and stiffness, and of rates."""
 
 from __future__ import annotations
 
@@ -16,3 +16,12 @@ def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
     c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
     c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)
     return c_m, c_c, 1.0 - settings.alpha_f
+
+
+@inlined
+def rates_after(
+    change: float, v: float, a: float, dt: float, beta: float, gamma: float
+) -> tuple[float, float]:
+    """Return velocity and acceleration after a step, from the change and the rates before it."""
+    after = (change / dt - v) / (beta * dt) - (0.5 / beta - 1.0) * a
+    return v + dt * ((1.0 - gamma) * a + gamma * after), after

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import expanded, inlined, kernel
 from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
-from frames.kernels.effective import effective
+from frames.kernels.effective import effective, rates_after
 from frames.kernels.ledger import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.part_works import commit_parts
 from frames.kernels.step_error import is_rough, keep_motion
@@ -81,7 +81,7 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
     known_a = (1.0 - am) * (0.5 / beta - 1.0) - am
     damp_v = (1.0 - af) * (1.0 - gamma / beta) + af
     damp_a = (1.0 - af) * dt * (1.0 - 0.5 * gamma / beta)
-    if run.clock[0].carry == 0:
+    if run.counts[0].steps % _CARRIED == 0:
         renew_products(model, run)
     for a in range(run.b.shape[0]):
         run.rhs_b[a] = model.load_b[a] - af * run.force_old[a] - run.held[a]
@@ -155,20 +155,17 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
             run.g_e[k] /= c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
     for k in range(run.e.shape[0]):
         run.e_new[k] = run.e[k] + run.g_e[k]
-        run.a_e_new[k] = (run.g_e[k] / dt - run.v_e[k]) / (beta * dt) - (
-            0.5 / beta - 1.0
-        ) * run.a_e[k]
-        run.v_e_new[k] = run.v_e[k] + dt * ((1.0 - gamma) * run.a_e[k] + gamma * run.a_e_new[k])
-        old, flow = run.flow_a[k], run.flow_v_new[k]
-        new = (flow / dt - run.flow_v[k]) / (beta * dt) - (0.5 / beta - 1.0) * old
-        run.flow_v_new[k] = run.flow_v[k] + dt * ((1.0 - gamma) * old + gamma * new)
-        run.flow_a_new[k] = new
+        run.v_e_new[k], run.a_e_new[k] = rates_after(
+            run.g_e[k], run.v_e[k], run.a_e[k], dt, beta, gamma
+        )
+        run.flow_v_new[k], run.flow_a_new[k] = rates_after(
+            run.flow_v_new[k], run.flow_v[k], run.flow_a[k], dt, beta, gamma
+        )
     for a in range(run.b.shape[0]):
         run.b_new[a] = run.b[a] + run.step[a]
-        run.a_b_new[a] = (run.step[a] / dt - run.v_b[a]) / (beta * dt) - (
-            0.5 / beta - 1.0
-        ) * run.a_b[a]
-        run.v_b_new[a] = run.v_b[a] + dt * ((1.0 - gamma) * run.a_b[a] + gamma * run.a_b_new[a])
+        run.v_b_new[a], run.a_b_new[a] = rates_after(
+            run.step[a], run.v_b[a], run.a_b[a], dt, beta, gamma
+        )
 
 
 @expanded
@@ -233,7 +230,6 @@ def accept_step(
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
         run.flow_v[k], run.flow_a[k] = run.flow_v_new[k], run.flow_a_new[k]
-    clock.carry = clock.carry + 1 if clock.carry + 1 < _CARRIED else 0
     clock.time += clock.dt
     clock.dt_before = clock.dt
     run.counts[0].steps += 1

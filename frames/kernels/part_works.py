@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.kernels.effective import rates_after
 from frames.kernels.hinges import place, set_forces
 from frames.parts_layout import (
     HERTZ,
@@ -74,9 +75,9 @@ def commit_parts(parts: Parts, beta: float, gamma: float, dt: float) -> None:
                 parts.load_e[k] += change * parts.to_e[i, k]
     for i in range(parts.d.shape[0]):
         way = parts.d[i] - parts.d_old[i]
-        a_new = (way / dt - parts.v_old[i]) / (beta * dt) - (0.5 / beta - 1.0) * parts.a_old[i]
-        parts.v_old[i] += dt * ((1.0 - gamma) * parts.a_old[i] + gamma * a_new)
-        parts.a_old[i] = a_new
+        parts.v_old[i], parts.a_old[i] = rates_after(
+            way, parts.v_old[i], parts.a_old[i], dt, beta, gamma
+        )
         parts.d_old[i] = parts.d[i]
         parts.g_before[i] = parts.g_old[i]
         parts.g_old[i] += parts.change[i]

@@ -166,7 +166,8 @@ def _searched(
     dt = found["best"]["dt"]
     if math.isfinite(dt):
         settings, _ = search(structure, bearing, kind, dt, SEARCHED * dt)
-        found["best"]["setting"] = asdict(settings[0]) if settings else found["best"]["setting"]
+        if settings:
+            found["best"]["setting"] = asdict(settings[0])
     return found
 
 

@@ -28,9 +28,9 @@ OWN = (PLAIN[2], RESILIENT[0])
 """Kinds that are this program's element inside OpenSees: they converge to its results."""
 CANDIDATES = 3
 """Settings that are run at all steps: a loose test may be cheap and keep the error at none."""
-FULL = 9
-"""Bearings, beyond which a full matrix is not tried: its cost is their cube."""
 SYSTEMS = ("BandGeneral", "SparseGeneral", "ProfileSPD", "FullGeneral")
+FULL = 9
+"""Bearings, beyond which a full matrix, the last of them, is not tried: its cost is their cube."""
 ALGORITHMS = (
     ("KrylovNewton",), ("ModifiedNewton",), ("ModifiedNewton", "-initial"), ("Newton", "-initial"),
 )  # fmt: skip
@@ -190,14 +190,12 @@ def search(
 
     best, least = USUAL, cost(USUAL)
     for part, values in (
-        ("system", SYSTEMS),
+        ("system", SYSTEMS if structure.bearings <= FULL else SYSTEMS[:-1]),
         ("algorithm", ALGORITHMS),
         ("numberer", NUMBERERS),
         ("criterion", TESTS),
     ):
         for value in values:
-            if value == "FullGeneral" and structure.bearings > FULL:
-                continue
             other = replace(best, **{part: value})  # type: ignore[arg-type]
             spent = cost(other)
             if spent < least:
