@@ -11,6 +11,7 @@ from scipy import linalg
 
 from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, moment_frame, shear_building
 from lir_element import CoulombFriction, Element, LIRBearing
+from validation.measurements.performance import near_fault
 
 # Such bearings are meant here.
 pytestmark = [
@@ -146,18 +147,6 @@ def history(data) -> np.ndarray:
     return data["bearing_displacement"].to_numpy()[::every, :, :2]
 
 
-def made_waves(scale: float) -> GroundMotion:
-    """Return waves of three components in a ramp, with noise."""
-    t = np.arange(0.0, 8.0, 0.01)
-    ramp = np.minimum(t / 2.0, 1.0) * np.minimum((8.0 - t) / 3.0, 1.0)
-    noise = np.random.default_rng(1).normal(size=(3, len(t)))
-    waves = [
-        scale * a * ramp * (np.sin(2.0 * np.pi * t / p) + 0.15 * n)
-        for (a, p), n in zip(((1.7, 1.6), (1.2, 2.1), (0.8, 0.25)), noise, strict=True)
-    ]
-    return GroundMotion(*waves, dt=0.01)
-
-
 @pytest.mark.parametrize("kind", ["mass", "mass on rims", "plain mass", "building"])
 def test_achieved_error_is_within_a_factor_of_three(run, newhall_bearing, kind):
     bearing = newhall_bearing.as_dcfp() if kind == "plain mass" else newhall_bearing
@@ -165,7 +154,7 @@ def test_achieved_error_is_within_a_factor_of_three(run, newhall_bearing, kind):
         model = moment_frame(bays=(1, 1), storeys=2, bearing=bearing)
     else:
         model = lumped_mass(bearing, MASS)
-    motion = made_waves(1.0 if kind == "mass on rims" else 0.5)
+    motion = near_fault(1.0 if kind == "mass on rims" else 0.5)
     fine = run(model, motion, dt=1e-4, record_every=100)
     assert (float(fine["rim_force"].max()) > 0.0) == (kind == "mass on rims")
     largest = np.hypot(*np.moveaxis(history(fine), -1, 0)).max()
