@@ -1,6 +1,7 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
 from frames._errors import AuditWarning as AuditWarning
+from frames._errors import CheckError as CheckError
 from frames._errors import ModelError as ModelError
 from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
@@ -18,6 +19,9 @@ from frames.analysis.recovery import support_reactions as support_reactions
 from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
+from frames.checks.check import Check as Check
+from frames.checks.check import Checks as Checks
+from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
@@ -61,6 +65,9 @@ __all__ = [
     "BatchProgress",
     "Bilinear",
     "BoucWen",
+    "Check",
+    "CheckError",
+    "Checks",
     "Features",
     "Finding",
     "Frame",
@@ -81,6 +88,7 @@ __all__ = [
     "Section",
     "Stop",
     "Tie",
+    "Trace",
     "ViscousDamper",
     "audit",
     "audit_report",

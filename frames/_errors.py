@@ -21,5 +21,9 @@ class MotionWarning(UserWarning):
     """A ground motion that can be used, with something that its user should know."""
 
 
+class CheckError(ValueError):
+    """A design check, or a number of it, that cannot be used; the message names the culprit."""
+
+
 class AuditWarning(AnalysisWarning):
     """An analysis that was completed, in which something that was left out or doubtful mattered."""

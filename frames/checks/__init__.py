@@ -1,0 +1,1 @@
+"""Design checks with their calculation, property bounds, equivalent-linear analysis by code."""

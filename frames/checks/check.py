@@ -1,0 +1,240 @@
+"""Design checks as values: demand, limit, clause, and the calculation that led to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Literal, overload
+
+from frames._errors import CheckError
+from frames.checks.rendering import quantity, scale, usual_unit
+from frames.checks.trace import Trace
+from lir_element.door import as_number, require_choice, require_type
+from lir_element.tables import html_table, text_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Bound = Literal["lower", "nominal", "upper", ""]
+CONFIRMED = "confirmed"
+TO_BE_CONFIRMED = "to be confirmed against the standard"
+_ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Check:
+    """A demand against its limit.
+
+    Parameters
+    ----------
+    clause : str
+        Standard and clause, or what else asks for it.
+    title : str
+        What is checked, in a few words.
+    demand, limit : float
+        In `unit`; infinite where there is none, as the capacity of a bearing without rims.
+    symbol : str
+        Symbol of the demand in the calculation.
+    unit : str
+        SI unit, "-" for a pure number.
+    relation : {"<=", ">="}
+        What the demand must be to the limit.
+    trace : Trace, optional
+        The calculation; what was entered later does not change the check.
+    standing : str
+        "confirmed", or "to be confirmed against the standard" where clause number, formula or
+        factor were not read in the standard itself.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings it holds for.
+    subject : str
+        Bearing or storey that it concerns; empty for the whole.
+    note : str
+        What else a reader should know.
+    shown : str
+        Unit to show it in; kN for forces, otherwise `unit`.
+
+    Raises
+    ------
+    CheckError, TypeError
+        If demand or limit is NaN, or a word is none of those allowed.
+
+    Examples
+    --------
+    >>> check = Check(clause="ASCE 7-22 17.5.6", title="storey drift", symbol="Delta",
+    ...               demand=0.030, limit=0.045, unit="m", shown="mm", subject="storey 2")
+    >>> check.passed, round(check.ratio, 3)
+    (True, 0.667)
+    """
+
+    clause: str
+    title: str
+    demand: float
+    limit: float
+    symbol: str = ""
+    unit: str = "-"
+    relation: Literal["<=", ">="] = "<="
+    trace: Trace = Trace()  # noqa: RUF009  (copied, never added to)
+    standing: str = CONFIRMED
+    bound: Bound = ""
+    subject: str = ""
+    note: str = ""
+    shown: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("demand", "limit"):
+            value = as_number(f"{name} of {self.title!r}", getattr(self, name), self.unit)
+            if math.isnan(value):
+                msg = f"{name} of {self.title!r} ({self.clause}) is not a number: see its trace"
+                raise CheckError(msg)
+            object.__setattr__(self, name, value)
+        if math.isinf(self.demand) and math.isinf(self.limit):
+            msg = f"demand and limit of {self.title!r} ({self.clause}) are infinite: give one"
+            raise CheckError(msg)
+        require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
+        require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
+        bounds = ("lower", "nominal", "upper", "")
+        require_choice("bound", self.bound, bounds, error=CheckError)
+        object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
+        try:
+            scale(self.unit, self.shown)
+        except KeyError as cause:
+            msg = f"{self.title!r} is in {self.unit}, which cannot be shown in {self.shown!r}"
+            raise CheckError(msg) from cause
+        object.__setattr__(self, "trace", self.trace.copy())
+
+    @property
+    def ratio(self) -> float:
+        """Utilisation [-]: at most 1 where the check passes, whichever the relation.
+
+        Of the two sides, the one that must be smaller over the other; 0 where a side that must
+        be at least 0 or less is beyond that, infinite where no factor would help.
+        """
+        below, above = self.demand, self.limit
+        if self.relation == ">=":
+            below, above = above, below
+        if above > 0.0:
+            return max(below / above, 0.0)
+        if above < 0.0:
+            return above / below if below < 0.0 else math.inf
+        return 0.0 if below <= 0.0 else math.inf
+
+    @property
+    def passed(self) -> bool:
+        """Whether demand and limit are as they must be, round-off (1e-9) aside."""
+        return self.ratio <= 1.0 + _ROUND_OFF
+
+    def __str__(self) -> str:
+        """Return the check on one line."""
+        where = ", ".join(part for part in (self.subject, self.bound) if part)
+        demand = quantity(self.demand, self.unit, self.shown)
+        limit = quantity(self.limit, self.unit, self.shown)
+        word = "passed" if self.passed else "FAILED"
+        return (
+            f"{self.title}{f' ({where})' if where else ''}: {demand} {self.relation} {limit}, "
+            f"ratio {self.ratio:.3g}, {word} [{self.clause}]"
+        )
+
+
+_HEAD = ("check", "concerns", "bound", "demand", "", "limit", "ratio", "", "clause")
+
+
+class Checks(Sequence[Check]):
+    """Design checks, in order.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        What it is made of.
+    """
+
+    def __init__(self, checks: Iterable[Check] = ()) -> None:
+        self._checks = tuple(checks)
+        for check in self._checks:
+            require_type("check", check, Check, "a Check")
+
+    @overload
+    def __getitem__(self, k: int) -> Check: ...
+    @overload
+    def __getitem__(self, k: slice) -> Checks: ...
+    def __getitem__(self, k: int | slice) -> Check | Checks:
+        return Checks(self._checks[k]) if isinstance(k, slice) else self._checks[k]
+
+    def __len__(self) -> int:
+        return len(self._checks)
+
+    def __add__(self, other: Iterable[Check]) -> Checks:
+        return Checks((*self, *other))
+
+    @property
+    def passed(self) -> bool:
+        """Whether there are checks and all of them pass."""
+        return bool(self._checks) and not self.failed
+
+    @property
+    def failed(self) -> Checks:
+        """Those that do not pass."""
+        return Checks(check for check in self if not check.passed)
+
+    @property
+    def governing(self) -> Check:
+        """The check of the largest ratio.
+
+        Raises
+        ------
+        CheckError
+            If there is none.
+        """
+        if not self._checks:
+            msg = "there are no checks: none governs"
+            raise CheckError(msg)
+        return max(self._checks, key=lambda check: check.ratio)
+
+    def of(self, clause: str = "", *, bound: Bound | None = None, subject: str = "") -> Checks:
+        """Return those whose clause and subject have these words, and that are of this bound."""
+        return Checks(
+            c
+            for c in self
+            if clause in c.clause and subject in c.subject and bound in {None, c.bound}
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a table with a row for each check, numbers in SI units."""
+        import pandas as pd
+
+        names = [f.name for f in fields(Check) if f.name not in {"trace", "shown"}]
+        rows = [
+            {**{name: getattr(c, name) for name in names}, "ratio": c.ratio, "passed": c.passed}
+            for c in self
+        ]
+        return pd.DataFrame(rows, columns=[*names, "ratio", "passed"])
+
+    def __str__(self) -> str:
+        """Return a table for people."""
+        return text_table(self._rows(), _HEAD, left=3) if self._checks else "no checks"
+
+    def __repr__(self) -> str:
+        """Return how many there are, and which governs."""
+        if not self._checks:
+            return "Checks: none"
+        worst = self.governing
+        return f"Checks: {len(self)}, {len(self.failed)} failed; governing: {worst}"
+
+    def _repr_html_(self) -> str:
+        return html_table(f"{len(self)} checks, {len(self.failed)} failed", self._rows(), _HEAD)
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        return [
+            (
+                c.title,
+                c.subject,
+                c.bound,
+                quantity(c.demand, c.unit, c.shown),
+                c.relation,
+                quantity(c.limit, c.unit, c.shown),
+                f"{c.ratio:.3f}",
+                "ok" if c.passed else "FAILS",
+                c.clause + ("" if c.standing == CONFIRMED else " *"),
+            )
+            for c in self
+        ]

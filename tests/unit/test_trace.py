@@ -1,0 +1,180 @@
+"""Calculations with a trace: what is shown is what was computed; design checks as values."""
+
+import math
+from xml.dom.minidom import parseString  # noqa: S408
+
+import pytest
+
+from frames import Check, CheckError, Checks, Trace
+from frames.checks.rendering import number
+
+
+def test_a_formula_is_shown_as_it_is_computed() -> None:
+    t = Trace()
+    t.given("g", 9.81, "m/s2")
+    t.given("S_M1", 0.9)
+    t.given("T_M", 2.9161, "s")
+    t.given("B_M", 1.1966)
+    found = t("D_M", "g * S_M1 * T_M / (4 * pi**2 * B_M)", "m", source="(17.5-1)")
+    assert found == pytest.approx(9.81 * 0.9 * 2.9161 / (4.0 * math.pi**2 * 1.1966), rel=1e-14)
+    assert t["D_M"].text() == (
+        "D_M = g S_M1 T_M / (4 π² B_M) = 9.81 · 0.9 · 2.916 / (4 π² · 1.197) = 0.545 m"
+    )
+    assert [e.symbol for e in t["D_M"].entered] == ["g", "S_M1", "T_M", "B_M"]
+    assert "[(17.5-1)]" in t.text()
+    # The numbers as they are shown give the value as it is shown.
+    shown = "9.81 * 0.9 * 2.916 / (4 * math.pi**2 * 1.197)"
+    assert eval(shown) == pytest.approx(0.545, abs=6e-4)  # noqa: S307
+
+
+@pytest.mark.parametrize(
+    ("formula", "value", "text"),
+    [
+        ("a - (b - c)", 2.0, "a - (b - c)"),
+        ("a / (b / c)", 4.0 / 3.0 * 1.0, "a / (b / c)"),
+        ("a / b / c", 4.0 / 3.0, "a / b / c"),
+        ("a / b * c", 4.0 / 3.0, "a / b · c"),
+        ("-a**2", -16.0, "-a²"),
+        ("(-a)**2", 16.0, "(-a)²"),
+        ("(a + b) * c", 7.0, "(a + b) c"),
+        ("a ** (1 / 2)", 2.0, "a^(1 / 2)"),
+        ("sqrt(a * c)", 2.0, "√(a c)"),
+        ("min(a, b, c) + max(a, b)", 5.0, "min(a, b, c) + max(a, b)"),
+        ("abs(b - a) * exp(-c) * log(a)", math.log(4) / math.e, "|b - a| exp(-c) log(a)"),
+        ("2 * a * 3", 24.0, "2 a · 3"),
+    ],
+)
+def test_precedence_is_kept(formula: str, value: float, text: str) -> None:
+    t = Trace()
+    for name, v in {"a": 4.0, "b": 3.0, "c": 1.0}.items():
+        t.given(name, v)
+    assert t("x", formula) == pytest.approx(value, rel=1e-14)
+    assert t["x"].text().split(" = ")[1] == text
+    assert parseString(t["x"].mathml()).documentElement.tagName == "math"  # noqa: S318
+
+
+def test_several_values_are_summed_and_none_is_dropped() -> None:
+    t = Trace()
+    t.given_each("W", [100e3, 200e3, 300e3, 400e3, 500e3], "N")
+    t.given_each("mu", [0.1, 0.2, 0.1, 0.2, 0.1])
+    assert t.each("F", "mu * W", "N") == pytest.approx((10e3, 40e3, 30e3, 80e3, 50e3))
+    assert t("V", "sum(F)", "N") == pytest.approx(210e3)
+    assert t("F_min", "min(F)", "N") == pytest.approx(10e3)
+    assert t["F"].text() == "F = μ W = (10, 40, …, 50) kN"
+    assert t["V"].text() == "V = Σ(F) = 210 kN"
+    with pytest.raises(CheckError, match="5 values: take sum"):
+        t("G", "2 * F", "N")
+    with pytest.raises(CheckError, match="has one value"):
+        t.each("H", "2 * V", "N")
+
+
+def test_a_calculation_of_some_symbols_has_what_they_follow_from() -> None:
+    t = Trace()
+    t.given("a", 1.0)
+    t.given("b", 2.0)
+    t("c", "2 * a")
+    t("d", "b + 1")
+    t.looked_up("e", 1.5, ["c"], source="Table 1")
+    assert [step.symbol for step in t.of("e")] == ["a", "c", "e"]
+    assert t["e"].text() == "e = 1.5 at c = 2"
+    later = t.copy()
+    later("f", "e + d")
+    assert "f" not in t
+
+
+@pytest.mark.parametrize(
+    ("formula", "words"),
+    [
+        ("a +", "cannot be read"),
+        ("a if a else b", "use numbers, names"),
+        ("__import__('os')", "use numbers, names"),
+        ("a.real", "use numbers, names"),
+        ("a < b", "use numbers, names"),
+        ("sqrt + a", "use numbers, names"),
+        ("sqrt(a, b)", "use numbers, names"),
+        ("unknown * a", "no 'unknown' in the calculation"),
+        ("a / b", "no finite value at a = 1, b = 0"),
+        ("log(b)", "no finite value"),
+        ("sqrt(b - a)", "no finite value"),
+    ],
+)
+def test_what_is_no_formula_is_refused(formula: str, words: str) -> None:
+    t = Trace()
+    t.given("a", 1.0)
+    t.given("b", 0.0)
+    with pytest.raises(CheckError, match=words):
+        t("x", formula)
+
+
+def test_symbols_units_and_numbers_are_checked_at_the_door() -> None:
+    t = Trace()
+    t.given("a", 1.0)
+    for symbol in ("a", "pi", "2a", "D M"):
+        with pytest.raises(CheckError, match="symbol"):
+            t.given(symbol, 1.0)
+    with pytest.raises(CheckError, match="not a number"):
+        t.given("b", math.nan)
+    with pytest.raises(CheckError, match="cannot be shown in 'kN'"):
+        t.given("b", 1.0, "m", shown="kN")
+
+
+def test_numbers_have_four_digits() -> None:
+    shown = [number(v) for v in (0.0, 1234567.0, 12345.6, 0.054616, 1.5e-6, -2e9, 0.3)]
+    assert shown == ["0", "1.235·10⁶", "12346", "0.05462", "1.5·10⁻⁶", "-2·10⁹", "0.3"]
+
+
+@pytest.mark.parametrize(
+    ("demand", "relation", "limit", "ratio"),
+    [
+        (1.0, "<=", 2.0, 0.5),
+        (3.0, "<=", 2.0, 1.5),
+        (2.0, ">=", 1.0, 0.5),
+        (1.0, ">=", 2.0, 2.0),
+        (-1.0, "<=", 2.0, 0.0),
+        (0.0, "<=", 0.0, 0.0),
+        (1.0, "<=", 0.0, math.inf),
+        (-4.0, "<=", -2.0, 0.5),
+        (-1.0, "<=", -2.0, 2.0),
+        (-1.0, ">=", 0.0, math.inf),
+        (-1.0, ">=", -2.0, 0.5),
+        (0.0, ">=", 1.0, math.inf),
+        (math.inf, ">=", 0.5, 0.0),
+        (0.5, "<=", math.inf, 0.0),
+    ],
+)
+def test_a_ratio_of_one_at_most_is_a_check_that_passes(
+    demand: float, relation: str, limit: float, ratio: float
+) -> None:
+    check = Check(clause="", title="t", demand=demand, limit=limit, relation=relation)
+    assert check.ratio == pytest.approx(ratio)
+    assert check.passed == (demand <= limit if relation == "<=" else demand >= limit)
+
+
+def test_what_cannot_be_judged_is_refused() -> None:
+    for demand, limit in ((math.nan, 1.0), (1.0, math.nan), (math.inf, math.inf)):
+        with pytest.raises(CheckError):
+            Check(clause="c", title="t", demand=demand, limit=limit)
+    with pytest.raises(CheckError, match="relation"):
+        Check(clause="c", title="t", demand=1.0, limit=1.0, relation="<")
+
+
+def test_checks_know_which_governs() -> None:
+    t = Trace()
+    t.given("F", 100e3, "N")
+    one = Check(clause="A 1", title="force", demand=100e3, limit=80e3, unit="N", trace=t)
+    two = Check(clause="A 2", title="drift", demand=0.01, limit=0.015, bound="lower", subject="s1")
+    t.given("late", 1.0)
+    assert "late" not in one.trace
+    checks = Checks([two]) + Checks([one])
+    assert not checks.passed
+    assert Checks([two]).passed
+    assert not Checks().passed
+    assert checks.governing is one
+    assert list(checks.failed) == [one]
+    assert list(checks.of(bound="lower")) == list(checks.of("A 2")) == [two]
+    table = checks.to_dataframe()
+    assert table["ratio"].tolist() == pytest.approx([2.0 / 3.0, 1.25])
+    assert "100 kN" in str(checks)
+    assert "FAILS" in checks._repr_html_()
+    with pytest.raises(CheckError, match="none governs"):
+        Checks().governing  # noqa: B018
