@@ -137,7 +137,7 @@ class Trace:
     >>> mu = t.given("mu", 0.06)
     >>> F = t("F", "W * (D / R + mu)", "N", source="force of a friction pendulum")
     >>> print(t["F"].text())
-    F = W (D / R + μ) = 1500 kN · (0.3 m / 2.5 m + 0.06) = 270 kN
+    F = W · (D / R + μ) = 1500 kN · (0.3 m / 2.5 m + 0.06) = 270 kN
     """
 
     def __init__(self, steps: Iterable[Step] = ()) -> None:
