@@ -26,6 +26,7 @@ _ONE: dict[str, Callable[[FloatArray], FloatArray]] = {
     "abs": np.abs,
     "exp": np.exp,
     "log": np.log,
+    "acos": np.arccos,
     "sum": np.sum,
 }
 _MANY: dict[str, np.ufunc] = {"min": np.minimum, "max": np.maximum}
@@ -40,7 +41,7 @@ def parse(formula: str) -> ast.expr:
     ----------
     formula : str
         In Python's notation: numbers, names, ``+ - * / **``, ``pi`` and the functions ``sqrt``,
-        ``abs``, ``exp``, ``log``, ``min``, ``max``; ``sum``, and ``min`` and ``max`` of one
+        ``abs``, ``exp``, ``log``, ``acos``, ``min``, ``max``; ``sum``, and ``min`` and ``max`` of one
         argument, go over what there are several of.
 
     Returns
