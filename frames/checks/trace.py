@@ -289,6 +289,10 @@ class Trace:
         """Return the number of a symbol."""
         return _single(self[symbol])
 
+    def values(self, symbol: str) -> tuple[float, ...]:
+        """Return the numbers of a symbol of several."""
+        return _several(self[symbol])
+
     def text(self) -> str:
         """Return all lines, each with its source and note."""
         return "\n".join(
