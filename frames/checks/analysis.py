@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from frames._errors import CheckError
 from frames.checks.asce7 import ASCE7
-from frames.checks.bounds import PropertyBounds, bounded
-from frames.checks.check import Bound, Checks
+from frames.checks.bounds import ENDS, BoundName, PropertyBounds, bounded
+from frames.checks.check import Checks
 from frames.checks.en1998 import EN1998
-from frames.checks.isolation import Extremes, IsolationSystem
 from frames.checks.interface import slip_threshold
+from frames.checks.isolation import Extremes, IsolationSystem
 from frames.checks.nch2745 import NCh2745
-from frames.checks.outcome import EquivalentLinear
+from frames.checks.outcome import BoundResult, EquivalentLinear
 from lir_element.door import require_type
 
 if TYPE_CHECKING:
@@ -75,14 +75,11 @@ def equivalent_linear(
             f"{1e-3 * system.seismic_weight:.4g} kN: give the storeys above the base level alone"
         )
         raise CheckError(msg)
-    at: dict[Bound, IsolationSystem] = {"nominal": system}
+    at: dict[BoundName, IsolationSystem] = {"nominal": system}
     if bounds is not None:
-        at: dict[Bound, IsolationSystem] = {
-            "lower": bounded(system, "lower", bounds),
-            "upper": bounded(system, "upper", bounds),
-        }
+        at = {name: bounded(system, name, bounds) for name in ENDS}
     extremes = Extremes(system, at.get("upper", system))
-    results = {
+    results: dict[str, BoundResult] = {
         name: chosen.analyse(each, spectrum, name, superstructure, extremes)
         for name, each in at.items()
     }

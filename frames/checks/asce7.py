@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, ClassVar
 from frames.checks.check import Bound, Check, Checks
 from frames.checks.equivalent import Judge, enter_system, secant, settle
 from frames.checks.outcome import BoundResult, Symbols
-from frames.checks.plan import capacity_check, drifts, eccentricities, overturning, vertical_checks
+from frames.checks.plan import (
+    capacity_check,
+    drift_checks,
+    eccentricities,
+    overturning,
+    vertical_checks,
+)
 
 if TYPE_CHECKING:
     from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
@@ -41,6 +47,8 @@ class ASCE7:
     longest_period, most_damping, period_ratio, stiffness_ratio, storeys, height : float
         Limits of the procedure (17.4.1): T_M [s], beta_M, T_M over T_fb, k(D_M) over k(0.2 D_M);
         storeys and height [m] count unless `no_tension`.
+    irregular : bool
+        Whether the structure is irregular: time histories then keep 80 % of V_s, not 60 (17.6.4).
     no_tension : bool
         Whether analysis shows that no bearing is pulled or lifts, so that height is free.
     orthogonal : float
@@ -63,6 +71,7 @@ class ASCE7:
     stiffness_ratio: float = 1.0 / 3.0
     storeys: float = 4.0
     height: float = 19.8
+    irregular: bool = False
     no_tension: bool = False
     orthogonal: float = 0.3
     pressure_limit: float | None = None
@@ -141,7 +150,7 @@ class ASCE7:
                 f"D_T{along}",
                 f"D_M * max(1 + abs({across} - {across}_R) / P_T**2 * 12 * e_{across} "
                 "/ (b**2 + d**2), a_T)",
-                "m", source=source, shown="mm", note=f"of each bearing, ground motion along {along}",
+                "m", source=source, shown="mm", note=f"of each bearing, motion along {along}",
             )  # fmt: skip
         t.each("D_T", "max(D_Tx, D_Ty)", "m", shown="mm")
         t("D_TM", "max(D_T)", "m", source=source, shown="mm")
@@ -206,6 +215,18 @@ class ASCE7:
         t.each("F_x", "C_vx * V_s", "N", source="ASCE 7-22 (17.5-9)")
         t("M_o", "sum(C_vx * V_st * h_x)", "N m", note="overturning, unreduced")
         t.given("o", self.orthogonal, note="share of the other direction")
+        self._dynamic_minima(t)
+
+    def _dynamic_minima(self, t: Trace) -> None:
+        source = "ASCE 7-22 17.6.4"
+        t.given("a_dyn", 0.8 if self.irregular else 0.6, source=source)
+        t("D_prime_M", "D_M / sqrt(1 + (T_fb / T_M)**2)", "m", source="ASCE 7-22 (17.6-1)",
+          shown="mm")  # fmt: skip
+        note = "least of a time history"
+        formula = "0.8 * D_TM * D_prime_M / D_M"
+        t("D_TM_dyn", formula, "m", source=source, note=note, shown="mm")
+        t("V_b_dyn", "0.9 * V_b", "N", source=source, note=note)
+        t("V_s_dyn", "a_dyn * V_s", "N", source=source, note=note)
 
     def _structure_checks(self, t: Trace, above: Superstructure, judge: Judge) -> Checks:
         limits = "ASCE 7-22 17.4.1"
@@ -219,10 +240,6 @@ class ASCE7:
             t.given("h_lim", self.height, "m")
             found.append(judge(limits, "storeys", "n", "<=", "n_lim"))
             found.append(judge(limits, "height", "h_n", "<=", "h_lim"))
-        if above.storey_stiffness is not None:
-            drifts(t, above, self.drift, "R_I")
-            names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
-            clause = "ASCE 7-22 17.5.6"
-            check = judge.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)
-            found.append(check)
-        return Checks(found)
+        clause = "ASCE 7-22 17.5.6"
+        drift = drift_checks(t, above, judge, clause, limit=self.drift, factor="R_I")
+        return Checks([*found, *drift])

@@ -23,6 +23,8 @@ BoundName = Literal["lower", "nominal", "upper"]
 Bounded = TypeVar("Bounded", LIRBearing, FrictionPendulum, IsolationSystem, Frame)
 Device = TypeVar("Device", bound=LIRBearing)
 Pendulum = TypeVar("Pendulum", bound=FrictionPendulum)
+ENDS: tuple[BoundName, BoundName] = ("lower", "upper")
+"""Bounds that a design is made with."""
 _BOUNDS = ("lower", "nominal", "upper")
 _AS_IT_IS = (1.0, 1.0)
 _IMPORTANCE = {"I": 0.60, "II": 0.70, "III": 0.90}

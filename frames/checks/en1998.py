@@ -11,7 +11,7 @@ from frames.checks.equivalent import Judge, enter_system, secant, settle
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
     capacity_check,
-    drifts,
+    drift_checks,
     eccentricities,
     overturning,
     vertical_checks,
@@ -56,8 +56,9 @@ class EN1998:
         Distance of the nearest fault of magnitude 6.5 and more [m], for these limits.
     least_distance, largest_side, longest_period, period_ratio, vertical_period : float
         These limits: distance [m], side of the plan [m], T_eff [s], T_eff over T_f, T_v [s].
-    drift : float
-        Limit of storey drift over height times nu, under the design forces without q.
+    drift, reduction : float
+        Limit of storey drift over height, 0.005 with brittle elements up to 0.010, and factor nu
+        on the drift for the more frequent earthquake (EN 1998-1 4.4.3.2).
     orthogonal : float
         Share of the other direction's overturning that acts with it (EN 1998-1 4.3.3.5).
     pressure_limit : float, optional
@@ -81,7 +82,8 @@ class EN1998:
     longest_period: float = 3.0
     period_ratio: float = 3.0
     vertical_period: float = 0.1
-    drift: float = 0.010
+    drift: float = 0.005
+    reduction: float = 0.5
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "EN 1998"
@@ -123,7 +125,10 @@ class EN1998:
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure)
-            checks += self._structure_checks(t, superstructure, judge)
+            t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
+            clause = "EN 1998-1 4.4.3.2"
+            limit = self.drift
+            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
             checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
@@ -196,16 +201,6 @@ class EN1998:
         t.given("T_f", above.fixed_base_period, "s")
         t("M_o", "sum(f_x * h_x)", "N m", note="overturning, q = 1")
         t.given("o", self.orthogonal, source="EN 1998-1 4.3.3.5")
-
-    def _structure_checks(self, t: Trace, above: Superstructure, judge: Judge) -> Checks:
-        if above.storey_stiffness is None:
-            return Checks()
-        drifts(t, above, self.drift, "q")
-        names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
-        clause = "EN 1998-1 4.4.3"
-        return Checks(
-            [judge.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)]
-        )
 
     def _require_simplified(self, above: Superstructure | None) -> None:
         vertical = None if above is None else above.vertical_period

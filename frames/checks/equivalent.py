@@ -151,7 +151,7 @@ class Judge:
                 self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
                 for k, subject in enumerate(subjects)
             ),
-            key=lambda check: check.ratio,
+            key=lambda check: (check.ratio, abs(check.limit) - abs(check.demand)),
         )
 
     def _made(

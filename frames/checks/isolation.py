@@ -105,6 +105,7 @@ class IsolationSystem:
         cls,
         frame: Frame,
         *,
+        s_ms: float | None = None,
         combinations: Mapping[str, Mapping[str, float]] | None = None,
         plan: tuple[float, float] | None = None,
         weight: float | None = None,
@@ -116,10 +117,13 @@ class IsolationSystem:
         ----------
         frame : Frame
             The model, with its load cases.
+        s_ms : float, optional
+            S_MS [g]: the combinations are those of `isolator_combinations`, with the vertical
+            earthquake 0.2 S_MS D.
         combinations : mapping of str to mapping of str to float, optional
-            Factors of the load cases by combination, "average" among them; those of
-            `isolator_combinations` without the vertical earthquake if None. Each costs an
-            equilibrium.
+            Factors of the load cases by combination instead, "average" among them. Each costs an
+            equilibrium. Without `s_ms` and this there is the average combination of
+            `isolator_combinations` alone, and no check of axial loads.
         plan : (float, float), optional
             Sides of the structure's plan [m]; the extent of the frame's nodes if None.
         weight : float, optional
@@ -139,7 +143,10 @@ class IsolationSystem:
         ModelError
             If there is no equilibrium, or a load case has no factor.
         """
-        chosen = isolator_combinations() if combinations is None else combinations
+        chosen = combinations
+        if chosen is None:
+            chosen = isolator_combinations(s_ms or 0.0)
+            chosen = chosen if s_ms is not None else {AVERAGE: chosen[AVERAGE]}
         if AVERAGE not in chosen:
             msg = f'combinations {", ".join(chosen)}: give "average" as well, it has the friction'
             raise CheckError(msg)

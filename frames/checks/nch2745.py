@@ -10,7 +10,7 @@ from frames.checks.equivalent import Judge, enter_system, secant, settle
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
     capacity_check,
-    drifts,
+    drift_checks,
     eccentricities,
     overturning,
     vertical_checks,
@@ -43,7 +43,7 @@ class NCh2745:
     restoring : float
         Force that the second half of the displacement must add, over W.
     activation : float
-        Factor on the force that starts sliding, as least V_s.
+        Factor on the nominal force that starts sliding, as least V_s.
     drift : float
         Limit of storey drift over height, static analysis.
     orthogonal : float
@@ -98,12 +98,8 @@ class NCh2745:
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, extremes)
-            if superstructure.storey_stiffness is not None:
-                drifts(t, superstructure, self.drift, "R_1")
-                names = tuple(f"storey {k + 1}" for k in range(len(t.values("w_x"))))
-                clause, title = "NCh2745 7.6", "storey drift"
-                check = judge.worst(clause, title, "Delta", "<=", "Delta_a", subjects=names)
-                checks += Checks([check])
+            clause, limit = "NCh2745 7.6", self.drift
+            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
             checks += vertical_checks(t, system, judge, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
@@ -151,9 +147,10 @@ class NCh2745:
         t.given("R_max", self.largest_reduction)
         t("R_1", "max(min(R, R_max), 1)", source="NCh2745 7.4")
         t.given("V_wind", above.wind_shear, "N", source="NCh2745 7.4")
+        t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
         t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
         t.given("a_Q", self.activation)
-        t("V_s", "max(V_b / R_1, V_wind, a_Q * Q_up)", "N", source="NCh2745 7.4")
+        t("V_s", "max(V_b / R_1, V_wind, Q_up, a_Q * Q_nom)", "N", source="NCh2745 7.4")
         t.each("F_x", "V_s * w_x * h_x / sum(w_x * h_x)", "N", source="NCh2745 7.5")
         t("F_1", "V_b / R_1 * (1 - sum(w_x) / W)", "N", note="at the base level")
         t("M_o", "sum(w_x * h_x**2) / sum(w_x * h_x) * V_b", "N m", note="overturning, unreduced")

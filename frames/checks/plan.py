@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from frames._errors import CheckError
 from frames.checks.check import Check, Checks
 from frames.checks.equivalent import Judge
+from lir_element.device.bearing import LIRBearing
 
 if TYPE_CHECKING:
     from frames.checks.isolation import IsolationSystem, Superstructure
@@ -97,13 +99,21 @@ def vertical_checks(
     -------
     Checks
         For each combination the bearing that is worst.
+
+    Raises
+    ------
+    CheckError
+        If pressure is to be checked of something that has no slider.
     """
     found: list[Check] = []
-    areas = [getattr(b, "slider_radius", None) for b in system.bearings]
+    sliders = [b.slider_radius for b in system.bearings if isinstance(b, LIRBearing)]
     if system.combinations:
         t.given("N_0", 0.0, "N")
-    if pressure_limit is not None and None not in areas and system.combinations:
-        t.given_each("r_s", areas, "m", note="radius of the sliders")
+    if pressure_limit is not None and system.combinations:
+        if len(sliders) < len(system.bearings):
+            msg = "pressure_limit needs bearings with a slider_radius: give LIRBearing for all"
+            raise CheckError(msg)
+        t.given_each("r_s", sliders, "m", note="radius of the sliders")
         t.given("p_lim", pressure_limit, "Pa")
     for name, loads in system.combinations.items():
         word = name if name.isidentifier() else f"c{len(found)}"
@@ -162,8 +172,10 @@ def capacity_check(
     return judge.worst(clause, check.title, demand, "<=", "d_rim", subjects=system.names, note=note)
 
 
-def drifts(t: Trace, above: Superstructure, limit: float, factor: str) -> None:
-    """Enter storey drifts under the floors' forces F_x, times a factor, and their limit.
+def drift_checks(
+    t: Trace, above: Superstructure, judge: Judge, clause: str, *, limit: float, factor: str
+) -> Checks:
+    """Return the check of storey drifts under the floors' forces F_x, for the worst storey.
 
     Parameters
     ----------
@@ -171,13 +183,27 @@ def drifts(t: Trace, above: Superstructure, limit: float, factor: str) -> None:
         With the forces.
     above : Superstructure
         With the stiffness of its storeys.
+    judge : Judge
+        Makes the check.
+    clause : str
+        Clause.
     limit : float
         Drift over height [-].
     factor : str
-        Symbol of the factor.
+        What the drifts are multiplied by, a formula.
+
+    Returns
+    -------
+    Checks
+        One check; none where the storeys' stiffness is not known.
     """
-    t.given_each("k_x", above.storey_stiffness or (), "N/m")
+    if above.storey_stiffness is None:
+        return Checks()
+    t.given_each("k_x", above.storey_stiffness, "N/m")
     t.given_each("h_s", above.storey_heights, "m")
     t.given("a_d", limit)
-    t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm")
+    note = "above: sum over the storey and those above it"
+    t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm", note=note)
     t.each("Delta_a", "a_d * h_s", "m", shown="mm")
+    names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
+    return Checks([judge.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])
