@@ -28,6 +28,7 @@ _ONE: dict[str, Callable[[FloatArray], FloatArray]] = {
     "log": np.log,
     "acos": np.arccos,
     "sum": np.sum,
+    "above": lambda values: np.cumsum(values[::-1])[::-1],
 }
 _MANY: dict[str, np.ufunc] = {"min": np.minimum, "max": np.maximum}
 RESERVED = frozenset({"pi", *_ONE, *_MANY})
@@ -41,8 +42,8 @@ def parse(formula: str) -> ast.expr:
     ----------
     formula : str
         In Python's notation: numbers, names, ``+ - * / **``, ``pi`` and the functions ``sqrt``,
-        ``abs``, ``exp``, ``log``, ``acos``, ``min``, ``max``; ``sum``, and ``min`` and ``max`` of one
-        argument, go over what there are several of.
+        ``abs``, ``exp``, ``log``, ``acos``, ``min``, ``max``. Of several values ``sum``, and
+        ``min`` and ``max`` of one argument, go over all; ``above`` sums each with those after it.
 
     Returns
     -------

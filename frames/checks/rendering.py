@@ -5,11 +5,25 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 from html import escape
+from typing import NamedTuple
 
 from frames.checks.formula import Value, call
 
-Show = Callable[[str], str]
-"""What stands for a name: its symbol, or its number."""
+
+class Style(NamedTuple):
+    """How a formula is written.
+
+    Attributes
+    ----------
+    show : callable
+        What stands for a name: its symbol, or its number.
+    dots : bool
+        Whether products have a dot, as between numbers.
+    """
+
+    show: Callable[[str], str]
+    dots: bool
+
 
 _GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -71,66 +85,66 @@ def symbol_mathml(name: str) -> str:
     return f"<msub>{plain}<mi>{escape(tail.replace('_', ','))}</mi></msub>" if tail else plain
 
 
-def text(tree: ast.expr, show: Show) -> str:
+def text(tree: ast.expr, style: Style) -> str:
     """Return a formula as a line of text.
 
     Parameters
     ----------
     tree : ast.expr
         The formula.
-    show : callable
-        What stands for a name.
+    style : Style
+        How.
 
     Returns
     -------
     str
         As in "g T² / (4 π²)".
     """
-    return _text(tree, show)[0]
+    return _text(tree, style)[0]
 
 
-def _text(node: ast.expr, show: Show) -> tuple[str, int]:
+def _text(node: ast.expr, style: Style) -> tuple[str, int]:
     # What stands for a part, and how strongly it holds together.
     if isinstance(node, ast.Constant):
         return number(float(str(node.value))), _ATOM
     if isinstance(node, ast.Name):
-        found = "π" if node.id == "pi" else show(node.id)
+        found = "π" if node.id == "pi" else style.show(node.id)
         return found, _POWER if found.startswith("-") or "·" in found or " " in found else _ATOM
     if isinstance(node, ast.UnaryOp):
-        return f"-{_held(node.operand, show, _SIGN)}", _SIGN
+        return f"-{_held(node.operand, style, _SIGN)}", _SIGN
     if isinstance(node, ast.BinOp):
-        return _operation(node, show)
+        return _operation(node, style)
     name, arguments = call(node)
-    inner = ", ".join(text(argument, show) for argument in arguments)
+    inner = ", ".join(text(argument, style) for argument in arguments)
     if name in {"abs", "sqrt", "sum"}:
         around = {"abs": "|{}|", "sqrt": "√({})", "sum": "Σ({})"}[name]
         return around.format(inner), _ATOM
     return f"{name}({inner})", _ATOM
 
 
-def _held(node: ast.expr, show: Show, least: int) -> str:
-    found, strength = _text(node, show)
+def _held(node: ast.expr, style: Style, least: int) -> str:
+    found, strength = _text(node, style)
     return found if strength >= least else f"({found})"
 
 
-def _operation(node: ast.BinOp, show: Show) -> tuple[str, int]:
+def _operation(node: ast.BinOp, style: Style) -> tuple[str, int]:
     if isinstance(node.op, (ast.Add, ast.Sub)):
         sign = "+" if isinstance(node.op, ast.Add) else "-"
         least = _SUM if sign == "+" else _PRODUCT
-        right = _held(node.right, show, least)
+        right = _held(node.right, style, least)
         right = f"({right})" if right.startswith("-") else right
-        return f"{_held(node.left, show, _SUM)} {sign} {right}", _SUM
+        return f"{_held(node.left, style, _SUM)} {sign} {right}", _SUM
     if isinstance(node.op, ast.Mult):
-        left, right = _held(node.left, show, _PRODUCT), _held(node.right, show, _PRODUCT)
+        left, right = _held(node.left, style, _PRODUCT), _held(node.right, style, _PRODUCT)
         right = f"({right})" if right.startswith("-") else right
         divides = isinstance(node.left, ast.BinOp) and isinstance(node.left.op, ast.Div)
-        dot = divides or right[0].isdigit() or right[0] == "("
+        dot = style.dots or divides or right[0].isdigit() or right[0] == "("
         return f"{left}{' · ' if dot else ' '}{right}", _PRODUCT
     if isinstance(node.op, ast.Div):
-        return f"{_held(node.left, show, _PRODUCT)} / {_held(node.right, show, _SIGN)}", _PRODUCT
-    base = _held(node.left, show, _ATOM)
+        return f"{_held(node.left, style, _PRODUCT)} / {_held(node.right, style, _SIGN)}", _PRODUCT
+    base = _held(node.left, style, _ATOM)
     whole = isinstance(node.right, ast.Constant) and float(str(node.right.value)).is_integer()
-    exponent = text(node.right, show)
+    exponent = text(node.right, style)
     return f"{base}{exponent.translate(_RAISED) if whole else f'^({exponent})'}", _POWER
 
 

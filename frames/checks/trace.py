@@ -11,6 +11,7 @@ from typing import NamedTuple
 from frames._errors import CheckError
 from frames.checks.formula import RESERVED, Value, evaluate, names, parse
 from frames.checks.rendering import (
+    Style,
     mathml,
     quantity,
     scale,
@@ -107,8 +108,10 @@ class Step:
                 return symbol_text(name)
             return quantity(e.value, e.unit, e.shown, units=units)
 
-        lines = [symbol_text(self.symbol), text(tree, symbol_text), text(tree, shown)]
-        lines.append(str(self.result))
+        lines = [symbol_text(self.symbol), text(tree, Style(symbol_text, False))]
+        lines += [text(tree, Style(shown, True)), str(self.result)]
+        if all(isinstance(e.value, tuple) for e in self.entered):
+            del lines[2]
         return " = ".join(dict.fromkeys(lines))
 
     def mathml(self) -> str:
@@ -288,6 +291,10 @@ class Trace:
     def value(self, symbol: str) -> float:
         """Return the number of a symbol."""
         return _single(self[symbol])
+
+    def values(self, symbol: str) -> tuple[float, ...]:
+        """Return the numbers of a symbol of several."""
+        return _several(self[symbol])
 
     def text(self) -> str:
         """Return all lines, each with its source and note."""

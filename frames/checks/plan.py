@@ -1,0 +1,209 @@
+"""What the codes share of torsion, overturning, vertical loads, rims and drifts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames._errors import CheckError
+from frames.checks.check import Check, Checks
+from frames.checks.equivalent import Judge
+from lir_element.device.bearing import LIRBearing
+
+if TYPE_CHECKING:
+    from frames.checks.isolation import IsolationSystem, Superstructure
+    from frames.checks.trace import Trace
+
+
+def eccentricities(
+    t: Trace, system: IsolationSystem, accidental: str, source: str, *, by_direction: bool
+) -> None:
+    """Enter plan, distances from the centres, and eccentricities e_x and e_y.
+
+    Parameters
+    ----------
+    t : Trace
+        With loads P and forces F of the bearings.
+    system : IsolationSystem
+        The system.
+    accidental : str
+        Symbol of the accidental eccentricity over the side.
+    source : str
+        Clause.
+    by_direction : bool
+        Whether the accidental eccentricity along an axis goes by the side along that axis, or by
+        the longest side whichever the axis.
+    """
+    t.given("b", system.plan[0], "m", note="side of the plan along x")
+    t.given("d", system.plan[1], "m", note="side of the plan along y")
+    for k, axis in enumerate("xy"):
+        t.given_each(axis, [place[k] for place in system.positions], "m")
+        t(f"{axis}_R", f"sum(F * {axis}) / sum(F)", "m", note="centre of stiffness")
+        if system.eccentricity is None:
+            t(f"{axis}_M", f"sum(P * {axis}) / sum(P)", "m", note="centre of mass")
+        else:
+            t.given(f"e_{axis}0", system.eccentricity[k], "m", note="as given")
+            t(f"{axis}_M", f"{axis}_R + e_{axis}0", "m", note="centre of mass")
+    sides = {"x": "b", "y": "d"} if by_direction else dict.fromkeys("xy", "max(b, d)")
+    for axis, side in sides.items():
+        t(f"e_{axis}", f"abs({axis}_M - {axis}_R) + {accidental} * {side}", "m", source=source)
+
+
+def overturning(t: Trace, moment: str, share: str) -> None:
+    """Enter N_E, axial loads of the bearings from an overturning moment in any direction.
+
+    The base is rigid: loads go by the distance from the bearings' centre; `share` of what the
+    other direction gives adds. A direction in which all bearings stand in one line has no lever
+    and is left out.
+
+    Parameters
+    ----------
+    t : Trace
+        With the bearings' places x and y.
+    moment, share : str
+        Symbols of the moment, and of the share.
+    """
+    t.given("n_b", float(len(t.values("x"))), note="bearings")
+    loads: list[str] = []
+    for axis in "xy":
+        t.each(f"l_{axis}", f"{axis} - sum({axis}) / n_b", "m", note="levers")
+        if t(f"I_{axis}", f"sum(l_{axis}**2)", "m2") > 0.0:
+            loads.append(f"N_E{axis}")
+            t.each(loads[-1], f"{moment} * abs(l_{axis}) / I_{axis}", "N")
+    if len(loads) == 2:
+        one, two = loads
+        formula = f"max({one} + {share} * {two}, {share} * {one} + {two})"
+    else:
+        formula = loads[0] if loads else f"0 * {moment} * x"
+    t.each("N_E", formula, "N", note="axial loads from overturning, rigid base")
+
+
+def vertical_checks(
+    t: Trace, system: IsolationSystem, judge: Judge, clause: str, pressure_limit: float | None
+) -> Checks:
+    """Return the checks of axial loads: no uplift, and pressure on the sliders.
+
+    Parameters
+    ----------
+    t : Trace
+        With axial loads N_E from overturning; the loads of all combinations are entered.
+    system : IsolationSystem
+        The system with its combinations.
+    judge : Judge
+        Makes the checks.
+    clause : str
+        Clause.
+    pressure_limit : float, optional
+        Pressure that sliders stand at the largest displacement [Pa]; not checked if None.
+
+    Returns
+    -------
+    Checks
+        For each combination the bearing that is worst.
+
+    Raises
+    ------
+    CheckError
+        If pressure is to be checked of something that has no slider.
+    """
+    found: list[Check] = []
+    sliders = [b.slider_radius for b in system.bearings if isinstance(b, LIRBearing)]
+    if system.combinations:
+        t.given("N_0", 0.0, "N")
+    if pressure_limit is not None and system.combinations:
+        if len(sliders) < len(system.bearings):
+            msg = "pressure_limit needs bearings with a slider_radius: give LIRBearing for all"
+            raise CheckError(msg)
+        t.given_each("r_s", sliders, "m", note="radius of the sliders")
+        t.given("p_lim", pressure_limit, "Pa")
+    for name, loads in system.combinations.items():
+        word = name if name.isidentifier() else f"c{len(found)}"
+        t.given_each(f"N_{word}", loads, "N", note=f"combination {name}, without earthquake")
+        t.each(f"N_least_{word}", f"N_{word} - N_E", "N")
+        found.append(
+            judge.worst(
+                clause, f"no uplift, {name}", f"N_least_{word}", ">=", "N_0",
+                subjects=system.names,
+            )
+        )  # fmt: skip
+        if "p_lim" in t:
+            t.each(f"p_{word}", f"(N_{word} + N_E) / (pi * r_s**2)", "Pa")
+            found.append(
+                judge.worst(
+                    clause, f"pressure on the slider, {name}", f"p_{word}", "<=", "p_lim",
+                    subjects=system.names,
+                )
+            )  # fmt: skip
+    return Checks(found)
+
+
+def capacity_check(
+    t: Trace, system: IsolationSystem, judge: Judge, clause: str, demand: str
+) -> Check:
+    """Return the check of the rims' displacement against the demand, for the worst bearing.
+
+    Parameters
+    ----------
+    t : Trace
+        With the demand of each bearing.
+    system : IsolationSystem
+        The system.
+    judge : Judge
+        Makes the check.
+    clause, demand : str
+        Clause, and symbol of the demand.
+
+    Returns
+    -------
+    Check
+        Its note says where the rim is met.
+    """
+    t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
+                 note="displacement at the first rim contact")  # fmt: skip
+    check = judge.worst(
+        clause, "rims free at the total displacement", demand, "<=", "d_rim",
+        subjects=system.names,
+    )  # fmt: skip
+    if check.passed:
+        return check
+    note = (
+        f"the rim is met at {100.0 / check.ratio:.0f} % of the displacement: equivalent-linear "
+        "analysis does not hold, do a time history with the rims modelled"
+    )
+    return judge.worst(clause, check.title, demand, "<=", "d_rim", subjects=system.names, note=note)
+
+
+def drift_checks(
+    t: Trace, above: Superstructure, judge: Judge, clause: str, *, limit: float, factor: str
+) -> Checks:
+    """Return the check of storey drifts under the floors' forces F_x, for the worst storey.
+
+    Parameters
+    ----------
+    t : Trace
+        With the forces.
+    above : Superstructure
+        With the stiffness of its storeys.
+    judge : Judge
+        Makes the check.
+    clause : str
+        Clause.
+    limit : float
+        Drift over height [-].
+    factor : str
+        What the drifts are multiplied by, a formula.
+
+    Returns
+    -------
+    Checks
+        One check; none where the storeys' stiffness is not known.
+    """
+    if above.storey_stiffness is None:
+        return Checks()
+    t.given_each("k_x", above.storey_stiffness, "N/m")
+    t.given_each("h_s", above.storey_heights, "m")
+    t.given("a_d", limit)
+    note = "above: sum over the storey and those above it"
+    t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm", note=note)
+    t.each("Delta_a", "a_d * h_s", "m", shown="mm")
+    names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
+    return Checks([judge.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])
