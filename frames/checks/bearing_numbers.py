@@ -42,19 +42,21 @@ def enter_geometry(bearing: LIRBearing) -> Trace:
 
 
 def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
-    """Return a calculation with a bearing's geometry, frictions and factors.
+    """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips.
 
     Parameters
     ----------
     bearing : LIRBearing
         A bearing with rims, its slider in two pieces, friction nominal.
     bounds : PropertyBounds or None
-        Factors of its friction; 1 if None.
+        Factors of its friction; that of the bearing alone if None.
 
     Returns
     -------
     Trace
-        The calculation.
+        The calculation: R_1, R_2, h, L, d_rim_1, d_rim_2, U_cap, a; h_1 and h_2, the heights of
+        the bottom and the top slider; mu_1, mu_2 and mu_h with _U and _L, upper and lower;
+        mu_e, sliding force over load; s_star, s_cap, and s_lim, the smaller of both.
 
     Raises
     ------
@@ -70,34 +72,38 @@ def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
     height = float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
     t.given("h_1", height, "m", shown="mm", note="interface above the bottom vertex")
     t("h_2", "h - h_1", "m", shown="mm")
-    for k, law in enumerate(bearing.frictions, start=1):
-        t.given(f"mu_{k}", law.f_max, note="high speed")
-        t.given(f"mu_{k}_0", law.f_min, note="no speed")
-    t.given("mu_h", bearing.interface_friction)
-    parts = (None, None) if bounds is None else (bounds.friction, bounds.interface_factors)
-    for name, factors in zip(("d", "h"), parts, strict=True):
-        t.given(f"lambda_{name}_min", 1.0 if factors is None else factors.lower)
-        t.given(f"lambda_{name}_max", 1.0 if factors is None else factors.upper)
+    _enter_frictions(t, bearing, bounds)
+    t("mu_e", "(mu_1_U * R_1 + mu_2_U * R_2) / L", source="docs/theory.md, section 2")
+    source = "docs/theory.md (2.7)"
+    t("s_star", "L * mu_h_L - mu_1_U * R_1 - mu_2_U * R_2", "m", shown="mm", source=source,
+      note="slip that holds")  # fmt: skip
+    note = "slip at which the sliders' overlap ends"
+    t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)
+    t("s_lim", "max(min(s_cap, s_star), 0)", "m", shown="mm")
     return t
 
 
-def enter_bounds(t: Trace) -> None:
-    """Enter the frictions at their bounds: high speed at the upper, no speed at the lower one."""
-    for k in (1, 2):
-        t(f"mu_{k}_U", f"lambda_d_max * mu_{k}")
-        t(f"mu_{k}_L", f"lambda_d_min * mu_{k}_0")
-    t("mu_h_L", "lambda_h_min * mu_h")
-    t("mu_h_U", "lambda_h_max * mu_h")
-    t("mu_e", "(mu_1_U * R_1 + mu_2_U * R_2) / L", source="docs/theory.md, section 2")
+def _enter_frictions(t: Trace, bearing: LIRBearing, bounds: PropertyBounds | None) -> None:
+    # Upper friction of the surfaces is that of high speed, lower one that of no speed.
+    nominal = {f"mu_{k}": law for k, law in enumerate(bearing.frictions, start=1)}
+    values = {f"{name}_U": law.f_max for name, law in nominal.items()}
+    values |= {f"{name}_L": law.f_min for name, law in nominal.items()}
+    values |= dict.fromkeys(("mu_h_U", "mu_h_L"), bearing.interface_friction)
+    for symbol, value in values.items():
+        at = "upper" if symbol.endswith("U") else "lower"
+        if bounds is None:
+            t.given(symbol, value)
+            continue
+        inner = symbol.startswith("mu_h")
+        factors = bounds.interface_factors if inner else bounds.friction
+        factor = f"lambda_{'h' if inner else 'd'}_{at}"
+        if factor not in t:
+            t.given(factor, factors.at("upper" if at == "upper" else "lower"))
+        t.given(f"{symbol}0", value, note="nominal")
+        t(symbol, f"{factor} * {symbol}0")
 
 
 def enter_length(t: Trace, symbol: str, value: float, note: str = "") -> None:
     """Enter a length that must not be negative [m]."""
     found = require_non_negative(symbol, value, "m", error=CheckError)
     t.given(symbol, found, "m", shown="mm", note=note)
-
-
-def enter_stability(t: Trace) -> None:
-    """Enter s*, the slip that holds without rims, low friction upper and interface lower bound."""
-    t("s_star", "L * mu_h_L - mu_1_U * R_1 - mu_2_U * R_2", "m", shown="mm",
-      source="docs/theory.md (2.7)")  # fmt: skip

@@ -11,10 +11,8 @@ from frames.checks.bearing_numbers import (
     NO_CODE,
     SURFACES,
     enter_bearing,
-    enter_bounds,
     enter_geometry,
     enter_length,
-    enter_stability,
     require_rims,
 )
 from frames.checks.check import CONFIRMED, Bound, Checks
@@ -66,11 +64,6 @@ def capacity_checks(
     t = enter_bearing(bearing, bounds)
     enter_length(t, "D", displacement)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
-    enter_bounds(t)
-    enter_stability(t)
-    note = "slip at which the sliders' overlap ends"
-    t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)
-    t("s_lim", "max(min(s_cap, s_star), 0)", "m", shown="mm")
     t("U_slide", "min(D, U_cap)", "m", shown="mm", note="both surfaces, as the slider tilts")
     t("s_D", "max(D - U_cap, 0) + s_left", "m", shown="mm")
     t("U_max", "U_cap + s_lim - s_left", "m", shown="mm")

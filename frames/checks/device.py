@@ -9,13 +9,11 @@ from frames.checks.bearing_numbers import (
     NO_CODE,
     SURFACES,
     enter_bearing,
-    enter_bounds,
     enter_length,
-    enter_stability,
 )
 from frames.checks.check import CONFIRMED, Check, Checks
 from frames.checks.equivalent import Judge
-from frames.checks.limits import DeviceLimits
+from frames.checks.limits import DesignLimits
 from frames.checks.overlap import pressure
 from lir_element.door import require_positive
 
@@ -33,7 +31,7 @@ def device_checks(
     slip: float,
     slip_left: float = 0.0,
     bounds: PropertyBounds | None = None,
-    limits: DeviceLimits | None = None,
+    limits: DesignLimits | None = None,
 ) -> Checks:
     """Check a bearing by what its geometry and friction alone decide.
 
@@ -51,7 +49,7 @@ def device_checks(
         Bounds of friction; nominal friction if None. The low friction is taken at its upper bound
         and that of the interface at its lower one where the interface must hold, the other way
         round where it must slip.
-    limits : DeviceLimits, optional
+    limits : DesignLimits, optional
         What it may be asked for.
 
     Returns
@@ -72,14 +70,13 @@ def device_checks(
     centres, in a plane, the plates parallel. Friction counts at high speed where it loads the
     interface, and at low speed where it relieves a rim.
     """
-    limits = DeviceLimits() if limits is None else limits
+    limits = DesignLimits() if limits is None else limits
     least, most = _ordered(loads)
     t = enter_bearing(bearing, bounds)
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
     t.given("N_min", least, "N")
     t.given("N_max", most, "N")
-    enter_bounds(t)
     judge = Judge(t, "", CONFIRMED)
     return Checks([
         *_holds(judge, limits), _stable(judge), *_rims(judge, bearing, limits),
@@ -95,7 +92,7 @@ def _ordered(loads: tuple[float, float]) -> tuple[float, float]:
     return least, most
 
 
-def _holds(judge: Judge, limits: DeviceLimits) -> list[Check]:
+def _holds(judge: Judge, limits: DesignLimits) -> list[Check]:
     # Below the rims L F_h = N s + mu_1 N R_1 + mu_2 N R_2.
     t, found = judge.t, []
     t.given("gamma", limits.margin, note="margin; a proposal")
@@ -111,12 +108,11 @@ def _holds(judge: Judge, limits: DeviceLimits) -> list[Check]:
 
 
 def _stable(judge: Judge) -> Check:
-    enter_stability(judge.t)
     note = "low friction at its upper bound, the interface's at its lower"
     return judge(f"{NO_CODE} (2.7)", "slip that holds", "s", "<=", "s_star", note=note)
 
 
-def _rims(judge: Judge, bearing: LIRBearing, limits: DeviceLimits) -> list[Check]:
+def _rims(judge: Judge, bearing: LIRBearing, limits: DesignLimits) -> list[Check]:
     # At slip L mu_h N = -N s_left + sum of R (F + P cos theta), s_left against the motion.
     if limits.rim_strength is None:
         return []
@@ -139,7 +135,7 @@ def _rims(judge: Judge, bearing: LIRBearing, limits: DeviceLimits) -> list[Check
     return found
 
 
-def _eccentricity(judge: Judge, limits: DeviceLimits) -> Check:
+def _eccentricity(judge: Judge, limits: DesignLimits) -> Check:
     # Of the resultant in the interface from both sliders' axes, (10.2): rims free, then each alone.
     t = judge.t
     t("e_1", "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U", "m", shown="mm", note="rims free")
@@ -152,7 +148,7 @@ def _eccentricity(judge: Judge, limits: DeviceLimits) -> Check:
     return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
 
 
-def _pressures(judge: Judge, limits: DeviceLimits) -> list[Check]:
+def _pressures(judge: Judge, limits: DesignLimits) -> list[Check]:
     t, found, clause = judge.t, [], "no code: liner's maker"
     if limits.interface_pressure is not None:
         t.given("p_i_lim", limits.interface_pressure, "Pa")
@@ -171,7 +167,7 @@ def _pressures(judge: Judge, limits: DeviceLimits) -> list[Check]:
     return found
 
 
-def _lateral(judge: Judge, limits: DeviceLimits) -> list[Check]:
+def _lateral(judge: Judge, limits: DesignLimits) -> list[Check]:
     if limits.lateral_force is None:
         return []
     t = judge.t

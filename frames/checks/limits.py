@@ -10,7 +10,7 @@ from lir_element.door import require_between, require_positive
 
 
 @dataclass(frozen=True, kw_only=True)
-class DeviceLimits:
+class DesignLimits:
     """What a bearing and what stands on it may be asked for, by the engineer who designs them.
 
     Where a limit is None, what it bounds is not checked, unless it says otherwise.

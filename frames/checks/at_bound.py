@@ -1,0 +1,233 @@
+"""Checks of time histories at one bound of the bearings' properties."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from frames._errors import CheckError
+from frames.checks.bearing_demands import BearingDemands, devices_of
+from frames.checks.capacity import engagement_checks
+from frames.checks.check import TO_BE_CONFIRMED, Bound, Check
+from frames.checks.equivalent import Judge
+from frames.checks.suite import audit_notes, names_of, reached, suite_of
+from frames.checks.trace import Trace
+from frames.checks.worst import Calculation, WorstOf
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.checks.history_rules import HistoryRules
+    from frames.checks.limits import DesignLimits
+    from frames.checks.outcome import EquivalentLinear
+    from frames.checks.suite import Suite
+    from frames.frame import Frame
+
+_LEAST = "least one, of the equivalent-linear analysis"
+
+
+@dataclass(frozen=True)
+class AtBound:
+    """Makes the checks of the runs at one bound.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    frame : Frame
+        The structure at that bound.
+    rules : HistoryRules
+        The code's.
+    bound : {"lower", "nominal", "upper", ""}
+        The bound.
+    limits : DesignLimits
+        What bearings and structure may be asked for.
+    equivalent : EquivalentLinear, optional
+        Analysis that has least values.
+    """
+
+    data: xr.Dataset
+    frame: Frame
+    rules: HistoryRules
+    bound: Bound
+    limits: DesignLimits
+    equivalent: EquivalentLinear | None
+
+    def checks(self) -> list[Check]:
+        """Return all of them.
+
+        Returns
+        -------
+        list of Check
+            Motions and failed runs, bearings, structure.
+
+        Raises
+        ------
+        CheckError
+            If runs and frame do not belong together, or there are no minima.
+        """
+        rules, bearings = self.rules, self._bearings
+        clause = self._clause(rules.displacement_clause)
+        moved = bearings.displacement(
+            clause, rules.displacement_factor, self._least("D_TM_dyn"), TO_BE_CONFIRMED
+        )
+        return [
+            self._motions(), self._failed(), *moved, *self._engagement(moved), *bearings.slips(),
+            *bearings.forces(), *self._uplift(), *self._base_shear(), *self._drift(),
+            *self._acceleration(),
+        ]  # fmt: skip
+
+    @cached_property
+    def _suite(self) -> Suite:
+        return suite_of(self.data, self.rules)
+
+    @cached_property
+    def _audit(self) -> str:
+        return audit_notes(self.data)
+
+    @property
+    def _note(self) -> str:
+        # With each check: why there is no value, or that there is more to read.
+        marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
+        more = f"audits of {marked} runs mark something: see the check of runs" if marked else ""
+        return "; ".join(part for part in (self._suite.reason, more) if part)
+
+    @property
+    def _bearings(self) -> BearingDemands:
+        devices = devices_of(self.data, self.frame)
+        return BearingDemands(self.data, self._suite, devices, self.limits, self.bound, self._note)
+
+    def _motions(self) -> Check:
+        t = Trace()
+        t.given("n", float(self.data.sizes["run"]), note="motions")
+        t.given("n_least", float(self.rules.least))
+        clause, judge = self._clause(self.rules.statistic_clause), Judge(t, self.bound)
+        note = f"{self._suite.statistic} of the motions counts"
+        return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
+
+    def _failed(self) -> Check:
+        t = Trace()
+        t.given("n_failed", float(sum(self._suite.failed)), note="runs that failed")
+        allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
+        t.given("n_allowed", float(allowed))
+        clause, judge = self._clause(self.rules.statistic_clause), Judge(t, self.bound)
+        note = "; ".join(part for part in (self._suite.reason, self._audit) if part)
+        return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
+
+    def _engagement(self, moved: list[Check]) -> list[Check]:
+        if self.rules.engagement is None or not moved or not math.isfinite(moved[0].demand):
+            return []
+        bearing = self.frame.bearings[moved[0].subject].bearing
+        least, of = self.rules.engagement, {self.bound: moved[0].demand}
+        found = engagement_checks(bearing, of, least=least)
+        return [replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found]
+
+    def _uplift(self) -> list[Check]:
+        found = []
+        if not self.rules.uplift_allowed:
+            t = Trace()
+            lasts = float(reached(self.data, "time_lifted").max())
+            t.given("t_up", lasts, "s", note="longest of a bearing in a run")
+            t.given("t_allowed", 0.0, "s")
+            judge = Judge(t, self.bound)
+            clause = self._clause(self.rules.force_clause)
+            found.append(judge(clause, "time lifted off", "t_up", "<=", "t_allowed"))
+        if self.limits.uplift_gap is not None:
+            found += self._worst("", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap)
+        return found
+
+    def _base_shear(self) -> list[Check]:
+        limit = self.limits.base_shear
+        if limit is None:
+            return []
+
+        def fill(values: FloatArray) -> Trace:
+            t = Trace()
+            self._suite.enter(t, "V", values, "N")
+            t.given(
+                "V_least", self._least("V_b_dyn"), "N", note="of the equivalent-linear analysis"
+            )
+            self._suite.form(t, "V_d", "max(V, V_least)", "N")
+            return t
+
+        return self._worst(self.rules.force_clause, "base shear", "base_shear", "V_d", "N", limit,
+                           fill=fill)  # fmt: skip
+
+    def _drift(self) -> list[Check]:
+        limit = self.rules.drift if self.limits.drift is None else self.limits.drift
+        if limit is None or len(self.frame.levels) < 2:
+            return []
+        shear, least = reached(self.data, "base_shear"), self._least("V_b_dyn")
+
+        def fill(values: FloatArray) -> Trace:
+            t = Trace()
+            self._suite.enter(t, "theta", values, "-", "%")
+            if least > 0.0:
+                self._suite.enter(t, "V", shear, "N")
+                t.given("V_least", least, "N", note=_LEAST)
+            factor = " * max(V_least / V, 1)" if least > 0.0 else ""
+            self._suite.form(t, "theta_d", f"theta{factor}", "-", "%")
+            return t
+
+        clause, title = self.rules.drift_clause, "storey drift ratio"
+        kinds = [name for name in ("drift", "line_drift") if f"reached_{name}" in self.data]
+        found = [
+            check
+            for kind in kinds
+            for check in self._worst(
+                clause, title, kind, "theta_d", "-", limit, shown="%", fill=fill
+            )
+        ]
+        return [max(found, key=lambda check: check.ratio)] if found else []
+
+    def _acceleration(self) -> list[Check]:
+        limit = self.limits.floor_acceleration
+        if limit is None or not self.frame.levels:
+            return []
+        title = "floor acceleration in plan"
+        return self._worst("", title, "floor_plan", "A", "m/s2", limit)
+
+    def _worst(
+        self,
+        clause: str,
+        title: str,
+        name: str,
+        symbol: str,
+        unit: str,
+        limit: float,
+        *,
+        shown: str = "",
+        fill: Callable[[FloatArray], Trace] | None = None,
+    ) -> list[Check]:
+        # The worst of what a quantity is reached by.
+        values = reached(self.data, name)
+        values = values.reshape(len(values), -1)
+        each = {}
+        for k, label in enumerate(names_of(self.data, name)):
+            t = Trace() if fill is None else fill(values[:, k])
+            if fill is None:
+                self._suite.enter(t, symbol, values[:, k], unit, shown)
+            t.given(f"{symbol}_lim", limit, unit, shown=shown)
+            each[label] = Calculation(t, symbol, f"{symbol}_lim")
+        where = self._clause(clause) if clause else "no code: limit as given"
+        return WorstOf(self.bound, note=self._note)(where, title, each)
+
+    def _least(self, symbol: str) -> float:
+        # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.
+        if self.equivalent is None or self.bound not in self.equivalent.bounds:
+            return 0.0
+        trace = self.equivalent.bounds[self.bound].trace
+        if not self.rules.has_minima or symbol not in trace:
+            msg = (
+                f"equivalent has no minima of time histories ({symbol}): give that of ASCE 7-22 "
+                "with a superstructure, or leave it out"
+            )
+            raise CheckError(msg)
+        return trace.value(symbol)
+
+    def _clause(self, clause: str) -> str:
+        return f"{self.rules.code} {clause}".strip()

@@ -1,0 +1,225 @@
+"""Checks of what runs asked of bearings: displacement, slip, rims, overlap, what they left."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames._errors import CheckError
+from frames.checks.bearing_numbers import NO_CODE, enter_bearing
+from frames.checks.check import CONFIRMED, Bound, Check
+from frames.checks.overlap import pressure
+from frames.checks.suite import names_of, reached
+from frames.checks.trace import Trace
+from frames.checks.worst import Calculation, WorstOf
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.checks.limits import DesignLimits
+    from frames.checks.suite import Suite
+    from frames.frame import Frame
+    from lir_element import LIRBearing
+
+Fill = Callable[[int], Calculation]
+"""Returns the calculation of the bearing of a place."""
+
+
+def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
+    """Return the bearings of a frame by name.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Its runs.
+    frame : Frame
+        The frame.
+
+    Returns
+    -------
+    dict of str to LIRBearing
+        The bearings.
+
+    Raises
+    ------
+    CheckError
+        If the runs have others.
+    """
+    devices = {name: link.bearing for name, link in frame.bearings.items()}
+    odd = sorted(set(names_of(data, "displacement")) ^ set(devices))
+    if odd:
+        msg = f"bearing {odd[0]!r} is in the runs or in the frame alone: give the runs' frame"
+        raise CheckError(msg)
+    return devices
+
+
+@dataclass(frozen=True)
+class BearingDemands:
+    """Makes checks of bearings from what runs reached.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    suite : Suite
+        How they are taken together.
+    bearings : mapping of str to LIRBearing
+        The bearings as they were in these runs.
+    limits : DesignLimits
+        What they may be asked for.
+    bound : {"lower", "nominal", "upper", ""}
+        Bound of their properties.
+    note : str
+        Goes with each check.
+    """
+
+    data: xr.Dataset
+    suite: Suite
+    bearings: Mapping[str, LIRBearing]
+    limits: DesignLimits
+    bound: Bound
+    note: str = ""
+
+    def displacement(
+        self, clause: str, factor: float = 1.0, least: float = 0.0, standing: str = CONFIRMED
+    ) -> list[Check]:
+        """Return the check of the displacement against what rims and overlap allow.
+
+        Parameters
+        ----------
+        clause : str
+            Clause.
+        factor : float
+            On the displacement [-].
+        least : float
+            Displacement that is taken at least [m].
+        standing : str
+            Of the check.
+
+        Returns
+        -------
+        list of Check
+            That of the worst bearing; none without rims.
+        """
+        values = reached(self.data, "displacement")
+
+        def fill(k: int) -> Calculation:
+            bearing, t = self._at(k), Trace()
+            if bearing.is_dcfp:
+                t.given("U_max", bearing.lateral_capacity, "m", shown="mm", note="a rim is met")
+            else:
+                t = enter_bearing(bearing, None)
+                t("U_max", "U_cap + s_lim", "m", shown="mm")
+            self.suite.enter(t, "D", values[:, k], "m", "mm")
+            t.given("gamma_x", factor)
+            t.given("D_least", least, "m", shown="mm", note="of the equivalent-linear analysis")
+            self.suite.form(t, "D_d", "max(gamma_x * D, D_least)", "m", "mm")
+            return Calculation(t, "D_d", "U_max")
+
+        places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
+        return self._worst(clause, "isolator displacement", fill, places, standing)
+
+    def slips(self) -> list[Check]:
+        """Return the checks of slip over overlap, over the slip that holds, and of what is left."""
+        most, left = reached(self.data, "slip"), reached(self.data, "slip_left")
+
+        def of(symbol: str, values: FloatArray, limit: str) -> Fill:
+            def fill(k: int) -> Calculation:
+                t = enter_bearing(self._at(k), None)
+                self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                if limit not in t and self.limits.slip_left is not None:
+                    t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
+                return Calculation(t, symbol, limit)
+
+            return fill
+
+        after = "s_star" if self.limits.slip_left is None else "s_allowed"
+        holds = f"{NO_CODE} (2.7)"
+        return [
+            *self._worst(f"{NO_CODE}, section 2", "slip over the overlap",
+                         of("s", most, "s_cap"), self._lir),
+            *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
+            *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
+        ]  # fmt: skip
+
+    def forces(self) -> list[Check]:
+        """Return the checks of rim force, eccentricity and pressures, where they have limits."""
+        found, limits = [], self.limits
+        if limits.rim_strength is not None:
+            found += self._against("rim force", "rim_force", "P", limits.rim_strength, "N")
+        title = "resultant between the sliders, over their radius"
+        found += self._against(title, "eccentricity", "epsilon", limits.eccentricity, "-")
+        if limits.lateral_force is not None:
+            title = "lateral force of a bearing"
+            found += self._against(title, "force", "H", limits.lateral_force, "N")
+        if limits.displacement_left is not None:
+            name, limit = "displacement_left", limits.displacement_left
+            found += self._against("displacement left", name, "D_left", limit, "m", "mm")
+        if limits.interface_pressure is not None:
+            found += self._pressure("pressure on the sliders' overlap", limits.interface_pressure)
+        return found
+
+    def _pressure(self, title: str, limit: float) -> list[Check]:
+        load, slip = reached(self.data, "axial_force"), reached(self.data, "slip")
+
+        def fill(k: int) -> Calculation:
+            t = Trace()
+            t.given("a", self._at(k).slider_radius, "m", shown="mm")
+            t.given("p_lim", limit, "Pa", note="as given")
+            self.suite.enter(t, "N", load[:, k], "N")
+            self.suite.enter(t, "s", slip[:, k], "m", "mm")
+            pressure(t, "p", "N", "s")
+            return Calculation(t, "p", "p_lim")
+
+        note = "largest load and largest slip taken together"
+        return self._worst("no code: liner's maker", title, fill, self._lir, note=note)
+
+    def _against(
+        self, title: str, name: str, symbol: str, limit: float, unit: str, shown: str = ""
+    ) -> list[Check]:
+        values = reached(self.data, name)
+
+        def fill(k: int) -> Calculation:
+            t = Trace()
+            self.suite.enter(t, symbol, values[:, k], unit, shown)
+            t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
+            return Calculation(t, symbol, f"{symbol}_lim")
+
+        return self._worst("no code: limit as given", title, fill, self._all)
+
+    def _worst(
+        self,
+        clause: str,
+        title: str,
+        fill: Fill,
+        places: list[int],
+        standing: str = CONFIRMED,
+        note: str = "",
+    ) -> list[Check]:
+        words = "; ".join(part for part in (note, self.note) if part)
+        places_of = {self._names[k]: k for k in places}
+        judge = WorstOf(self.bound, standing, words)
+        return judge(clause, title, {name: fill(k) for name, k in places_of.items()})
+
+    def _at(self, k: int) -> LIRBearing:
+        return self.bearings[self._names[k]]
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return names_of(self.data, "displacement")
+
+    @property
+    def _all(self) -> list[int]:
+        return list(range(len(self._names)))
+
+    @property
+    def _lir(self) -> list[int]:
+        # Those with an interface, and with rims.
+        return [
+            k
+            for k in self._all
+            if not self._at(k).is_dcfp and math.isfinite(self._at(k).lateral_capacity)
+        ]

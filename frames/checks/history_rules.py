@@ -1,0 +1,87 @@
+"""How codes count time histories: number of motions, mean or largest, what a failed run is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from frames._errors import CheckError
+from lir_element.door import require_between, require_non_negative, require_positive
+
+
+@dataclass(frozen=True, kw_only=True)
+class HistoryRules:
+    """Rules of a code for time histories; clause numbers to be confirmed against the standard.
+
+    `HISTORY_RULES` has those of three codes; `dataclasses.replace` changes a factor.
+
+    Parameters
+    ----------
+    code : str
+        Standard, as clauses begin.
+    least : int
+        Least number of motions.
+    mean_from : int
+        Number of motions from which on the mean of their largest values counts, below it the
+        largest.
+    drift : float, optional
+        Limit of the storey drift ratio [-]; None where the code has none for this level of motion.
+    displacement_factor : float
+        On the isolators' displacement [-].
+    uplift_allowed : bool
+        Whether bearings may lift off; where not, a run in which one does is unacceptable.
+    unacceptable_allowed : int
+        How many runs may fail while the mean of the others stands for all: then the median of all
+        times `median_factor` is its lower bound.
+    median_factor : float
+        That factor [-].
+    engagement : float, optional
+        Share of the displacement below which rims must not engage [-]; not checked if None.
+    has_minima : bool
+        Whether an equivalent-linear analysis gives least values.
+    statistic_clause, displacement_clause, drift_clause, force_clause : str
+        Clauses.
+    """
+
+    code: str
+    least: int
+    mean_from: int
+    drift: float | None = None
+    displacement_factor: float = 1.0
+    uplift_allowed: bool = False
+    unacceptable_allowed: int = 0
+    median_factor: float = 1.2
+    engagement: float | None = None
+    has_minima: bool = False
+    statistic_clause: str = ""
+    displacement_clause: str = ""
+    drift_clause: str = ""
+    force_clause: str = ""
+
+    def __post_init__(self) -> None:
+        require_between("least", self.least, 1, 1000, "-", error=CheckError)
+        require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
+        require_between("displacement_factor", self.displacement_factor, 1.0, 10.0, "-",
+                        error=CheckError)  # fmt: skip
+        require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
+        for name in ("drift", "engagement"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name), "-", error=CheckError)
+
+
+HISTORY_RULES = {
+    "ASCE 7-22": HistoryRules(
+        code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True, engagement=0.60,
+        has_minima=True, statistic_clause="17.3.3", displacement_clause="17.6.4.1",
+        drift_clause="17.6.4.4", force_clause="17.6.4.2",
+    ),
+    "EN 1998-1": HistoryRules(
+        code="EN 1998-1", least=3, mean_from=7, displacement_factor=1.2,
+        statistic_clause="4.3.3.4.3(3)", displacement_clause="10.3(2)", drift_clause="4.4.3.2",
+        force_clause="10.10",
+    ),
+    "NCh2745": HistoryRules(
+        code="NCh2745", least=3, mean_from=7, drift=0.003, statistic_clause="8.4",
+        displacement_clause="8.5", drift_clause="8.8", force_clause="8.5",
+    ),
+}  # fmt: skip
+"""Rules by code."""

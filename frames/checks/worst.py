@@ -1,0 +1,63 @@
+"""The check of the worst of several: bearings, storeys, levels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames.checks.check import TO_BE_CONFIRMED, Bound, Check
+from frames.checks.equivalent import Judge
+
+if TYPE_CHECKING:
+    from frames.checks.trace import Trace
+
+
+class Calculation(NamedTuple):
+    """A calculation with its symbols of demand and limit."""
+
+    trace: Trace
+    demand: str
+    limit: str
+
+
+@dataclass(frozen=True)
+class WorstOf:
+    """Makes the check of what is worst.
+
+    Parameters
+    ----------
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings that it is for.
+    standing : str
+        Of its checks.
+    note : str
+        Goes with its checks.
+    """
+
+    bound: Bound
+    standing: str = TO_BE_CONFIRMED
+    note: str = ""
+
+    def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
+        """Return the check of the largest ratio.
+
+        Parameters
+        ----------
+        clause, title : str
+            Of the check.
+        each : mapping of str to Calculation
+            By name of what it is of; the demand must not exceed the limit.
+
+        Returns
+        -------
+        list of Check
+            One; none of nothing.
+        """
+        found = [
+            Judge(c.trace, self.bound, self.standing).worst(
+                clause, title, c.demand, "<=", c.limit, subjects=(name,), note=self.note
+            )
+            for name, c in each.items()
+        ]
+        return [max(found, key=lambda check: check.ratio)] if found else []
