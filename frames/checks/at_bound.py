@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from frames._errors import CheckError
 from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.capacity import engagement_checks
-from frames.checks.check import TO_BE_CONFIRMED, Bound, Check
+from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
 from frames.checks.equivalent import Judge
 from frames.checks.suite import audit_notes, names_of, reached, suite_of
 from frames.checks.trace import Trace
@@ -137,7 +137,9 @@ class AtBound:
             clause = self._clause(self.rules.force_clause)
             found.append(judge(clause, "time lifted off", "t_up", "<=", "t_allowed"))
         if self.limits.uplift_gap is not None:
-            found += self._worst("", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap)
+            found += self._worst(
+                "", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap, shown="mm"
+            )
         return found
 
     def _base_shear(self) -> list[Check]:
@@ -214,7 +216,8 @@ class AtBound:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else "no code: limit as given"
-        return WorstOf(self.bound, note=self._note)(where, title, each)
+        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        return WorstOf(self.bound, standing, self._note)(where, title, each)
 
     def _least(self, symbol: str) -> float:
         # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 _BOUNDS: tuple[BoundName, ...] = ("lower", "nominal", "upper")
+_COUNTED = frozenset({"uplifts", "time_lifted", "gap"})  # the largest counts, never a mean
 _TABLE = (
     ("isolator displacement", "displacement", "m", 1.0),
     ("displacement left", "displacement_left", "m", 1.0),
@@ -184,12 +186,14 @@ def history_demands(
             if f"reached_{name}" not in data:
                 continue
             suite, values = suite_of(data, rules), reached(data, name)
+            if name in _COUNTED:
+                suite = replace(suite, statistic="largest")
             columns = values.reshape(len(values), -1).T
             each = [suite.value(column) for column in columns]
             k = int(np.argmax(each))
             row[bound or "value"] = sign * each[k]
             if each[k] > worst:
-                worst, where = each[k], names_of(data, name)[k]
+                worst, where = each[k], names_of(data, name)[k] if suite.is_usable else ""
         if len(row) > 2:
             rows.append(row | {"envelope": sign * worst, "where": where})
     return pd.DataFrame(rows).set_index("quantity")

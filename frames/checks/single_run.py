@@ -172,9 +172,8 @@ def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Che
 
 def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> Calculation:
     t = Trace()
-    note = f"largest before; at the impact {row['ratio']:.3g} times that"
-    t.given(f"{symbol}_0", float(row["before"]), unit, shown=shown, note=note)
-    t.given(symbol, float(row["at_impact"]), unit, shown=shown, note=f"t = {row['time']:.4g} s")
+    note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
+    t.given(symbol, float(row["at_impact"]), unit, shown=shown, note=note)
     t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
     return Calculation(t, symbol, f"{symbol}_lim")
 
@@ -194,8 +193,7 @@ def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]
             continue
         row = rows.loc[rows[column].idxmax()]
         t = Trace()
-        t.given("t_up", float(row["duration"]), "s", note="time in the air")
-        when = f"after the lift-off at t = {row['begin']:.4g} s"
+        when = f"lifted off at t = {row['begin']:.4g} s for {row['duration']:.4g} s"
         t.given(symbol, float(row[column]), unit, shown=shown, note=when)
         t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
         each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -54,10 +55,13 @@ class WorstOf:
         list of Check
             One; none of nothing.
         """
+        # where no value is finite none is the worst
+        known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
         found = [
             Judge(c.trace, self.bound, self.standing).worst(
-                clause, title, c.demand, "<=", c.limit, subjects=(name,), note=self.note
+                clause, title, c.demand, "<=", c.limit, subjects=(name if known else "",),
+                note=self.note,
             )
             for name, c in each.items()
-        ]
+        ]  # fmt: skip
         return [max(found, key=lambda check: check.ratio)] if found else []
