@@ -40,7 +40,8 @@ def device_checks(
     bearing : LIRBearing
         The bearing, friction nominal. A slider in two pieces, with rims.
     loads : (float, float)
-        Least and largest axial load while it works, N_min and N_max [N], > 0.
+        Least and largest axial force along the slider while it works, N_min and N_max [N], > 0. At
+        a rim it exceeds the vertical load by ``1 / (cos(theta) - mu_h sin(theta))``.
     slip : float
         Largest interface slip that is reckoned with [m].
     slip_left : float
@@ -172,8 +173,8 @@ def _lateral(judge: Judge, limits: DesignLimits) -> list[Check]:
         return []
     t = judge.t
     t.given("H_R", limits.lateral_force, "N")
-    t("t_theta", "U_cap / sqrt(L**2 - U_cap**2)", note="tangent of the tilt at the rim")
-    t("H_slip", "N_max * (t_theta + mu_h_U) / (1 - t_theta * mu_h_U)", "N",
-      source="docs/theory.md, section 2: W tan(theta + atan(mu_h))")  # fmt: skip
+    formula = "N_max * (U_cap / L + mu_h_U * sqrt(1 - (U_cap / L)**2))"
+    source = "docs/theory.md (2.2), the interface slipping at the rim's tilt"
+    t("H_slip", formula, "N", source=source)
     title = "lateral force that the bearing passes on"
     return [judge(f"{NO_CODE}, section 2", title, "H_slip", "<=", "H_R")]
