@@ -138,7 +138,8 @@ def _operation(node: ast.BinOp, style: Style) -> tuple[str, int]:
         left, right = _held(node.left, style, _PRODUCT), _held(node.right, style, _PRODUCT)
         right = f"({right})" if right.startswith("-") else right
         divides = isinstance(node.left, ast.BinOp) and isinstance(node.left.op, ast.Div)
-        dot = style.dots or divides or right[0].isdigit() or right[0] == "("
+        dot = divides or right[0].isdigit() or right[0] == "("
+        dot |= style.dots and right[0] != "π"
         return f"{left}{' · ' if dot else ' '}{right}", _PRODUCT
     if isinstance(node.op, ast.Div):
         return f"{_held(node.left, style, _PRODUCT)} / {_held(node.right, style, _SIGN)}", _PRODUCT
