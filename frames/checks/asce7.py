@@ -17,9 +17,9 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
+    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
     from frames.checks.trace import Trace
-    from frames.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 
@@ -81,7 +81,7 @@ class ASCE7:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -92,7 +92,7 @@ class ASCE7:
         ----------
         system : IsolationSystem
             With properties at that bound.
-        spectrum : Spectrum
+        spectrum : DesignSpectrum
             MCE_R.
         bound : {"lower", "nominal", "upper"}
             The bound.
@@ -179,7 +179,7 @@ class ASCE7:
         self,
         t: Trace,
         above: Superstructure,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         extremes: Extremes,
     ) -> None:
         t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")

@@ -18,9 +18,9 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
+    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
     from frames.checks.trace import Trace
-    from frames.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("d_dc", "d_Ed", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")
 
@@ -92,7 +92,7 @@ class EN1998:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -169,7 +169,7 @@ class EN1998:
         t.given("a_r", self.recentring)
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
-        limits, names = "EN 1998-1 10.9.2", system.names
+        limits, names = "EN 1998-1 10.9.2", system.labels
         found = [
             capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed_i"),
             judge.worst(

@@ -115,10 +115,13 @@ class Judge:
         The calculation.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings that it is for.
+    standing : str
+        Standing of the checks, as `Check` has it.
     """
 
     t: Trace
     bound: Bound
+    standing: str = TO_BE_CONFIRMED
 
     def __call__(
         self,
@@ -170,6 +173,6 @@ class Judge:
         return Check(
             clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
             unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
-            trace=self.t.of(*pair), standing=TO_BE_CONFIRMED, bound=self.bound, subject=subject,
+            trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
             note=note,
         )  # fmt: skip

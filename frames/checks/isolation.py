@@ -47,7 +47,7 @@ class IsolationSystem:
         Axial loads of the bearings in other combinations of vertical loads, without the
         horizontal earthquake [N].
     names : tuple of str, optional
-        Names of the bearings; "1" to "n" if left out.
+        Names of the bearings; `labels` are "1" to "n" if left out.
     gravity : float
         Acceleration of gravity [m/s2].
 
@@ -79,8 +79,7 @@ class IsolationSystem:
         count = len(self.bearings)
         for name in ("bearings", "positions", "loads", "plan"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        names = tuple(self.names) or tuple(str(k + 1) for k in range(count))
-        object.__setattr__(self, "names", names)
+        names = self.labels
         groups = {"loads": self.loads, "positions": self.positions, "names": names}
         groups |= {f"loads of combination {key!r}": v for key, v in self.combinations.items()}
         for name, values in groups.items():
@@ -168,6 +167,11 @@ class IsolationSystem:
             names=tuple(frame.bearings),
             gravity=frame.gravity,
         )
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Names of the bearings; "1" to "n" where none were given."""
+        return tuple(self.names) or tuple(str(k + 1) for k in range(len(self.bearings)))
 
     @property
     def seismic_weight(self) -> float:
