@@ -28,10 +28,10 @@ from frames.checks.check import Check as Check
 from frames.checks.check import Checks as Checks
 from frames.checks.en1998 import EN1998 as EN1998
 from frames.checks.isolation import IsolationSystem as IsolationSystem
-from frames.checks.isolation import Superstructure as Superstructure
 from frames.checks.nch2745 import NCh2745 as NCh2745
 from frames.checks.outcome import EquivalentLinear as EquivalentLinear
 from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass

@@ -17,7 +17,7 @@ from lir_element.door import require_type
 
 if TYPE_CHECKING:
     from frames.checks.design_spectrum import DesignSpectrum
-    from frames.checks.isolation import Superstructure
+    from frames.checks.superstructure import Superstructure
 
 Code = ASCE7 | EN1998 | NCh2745
 _CODES = (ASCE7, EN1998, NCh2745)

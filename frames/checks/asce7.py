@@ -18,7 +18,8 @@ from frames.checks.plan import (
 
 if TYPE_CHECKING:
     from frames.checks.design_spectrum import DesignSpectrum
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
 
 _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")

@@ -19,7 +19,8 @@ from frames.checks.plan import (
 
 if TYPE_CHECKING:
     from frames.checks.design_spectrum import DesignSpectrum
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
 
 _SYMBOLS = Symbols("d_dc", "d_Ed", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")

@@ -19,7 +19,8 @@ from frames.checks.plan import (
 
 if TYPE_CHECKING:
     from frames.checks.design_spectrum import DesignSpectrum
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")

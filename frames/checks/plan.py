@@ -11,7 +11,8 @@ from frames.checks.equivalent import Judge
 from lir_element.device.bearing import LIRBearing
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import IsolationSystem, Superstructure
+    from frames.checks.isolation import IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
 
 

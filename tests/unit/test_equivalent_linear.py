@@ -12,6 +12,7 @@ from frames import (
     EN1998,
     CheckError,
     EquivalentLinear,
+    Frame,
     FrictionPendulum,
     IsolationSystem,
     NCh2745,
@@ -524,3 +525,29 @@ def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(TypeError, match="an IsolationSystem"):
         nominal(BEARING, Asce(0.9))
     assert nominal(SYSTEM, NCh(0.3, 1.0), code=NCh2745(maximum=1.0)).displacement > 0.0
+
+
+def test_superstructure_of_a_frame() -> None:
+    """Two storeys: m = 2e5 kg, k = 4e8 N/m each; omega^2 = k / m (3 - sqrt 5) / 2."""
+    frame = shear_building(
+        BEARING, [2e5, 2e5], 4e8, base_mass=3e5, storey_height=3.2, plan=((2, 1), (6.0, 5.0))
+    )
+    above = Superstructure.from_frame(frame, R=5.0, wind_shear=1e5)
+    assert above.storey_weights == pytest.approx((2e5 * 9.80665,) * 2)
+    assert above.storey_heights == pytest.approx((3.2, 3.2))
+    omega = math.sqrt(4e8 / 2e5 * (3.0 - math.sqrt(5.0)) / 2.0)
+    assert above.fixed_base_period == pytest.approx(2.0 * math.pi / omega, rel=1e-6)
+    assert (above.R, above.wind_shear) == (5.0, 1e5)
+    system = IsolationSystem.from_frame(frame)
+    assert "6 bearings of effective radius 2.7 m under 6865 kN" in repr(system)
+    found = equivalent_linear(system, Asce(0.6), bounds=BOUNDS, superstructure=above)
+    assert len(found["upper"].storey_forces) == 3
+    with pytest.raises(CheckError, match="1 levels"):
+        Superstructure.from_frame(_without_floors(frame), R=5.0)
+
+
+def _without_floors(frame: Frame) -> Frame:
+    found = frame.copy()
+    for level in frame.levels[1:]:
+        found.remove("level", level.name)
+    return found
