@@ -56,6 +56,12 @@ class ASCE7:
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
         Pressure that the sliders stand [Pa] (17.2.4.6).
+
+    Notes
+    -----
+    The centre of mass is that of the bearings' loads unless the system has an eccentricity.
+    V_s is at least the force that starts sliding, not reduced by weight or R_I, which is on the
+    safe side.
     """
 
     accidental_eccentricity: float = 0.05

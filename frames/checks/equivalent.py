@@ -116,7 +116,7 @@ class Judge:
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings that it is for.
     standing : str
-        Standing of the checks, as `Check` has it.
+        Of its checks.
     """
 
     t: Trace

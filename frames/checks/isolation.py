@@ -81,11 +81,16 @@ class IsolationSystem:
             object.__setattr__(self, name, tuple(getattr(self, name)))
         names = self.labels
         groups = {"loads": self.loads, "positions": self.positions, "names": names}
-        groups |= {f"loads of combination {key!r}": v for key, v in self.combinations.items()}
         for name, values in groups.items():
             if len(values) != count or count == 0:
                 msg = f"{len(values)} {name} for {count} bearings: give one for each, 1 at least"
                 raise CheckError(msg)
+        combinations = {
+            key: require_vector(f"loads of combination {key!r} [N]", v, count, error=CheckError)
+            for key, v in self.combinations.items()
+        }
+        found = {key: tuple(v.tolist()) for key, v in combinations.items()}
+        object.__setattr__(self, "combinations", found)
         for name, load in zip(names, self.loads, strict=True):
             remedy = "a bearing without load resists nothing: see its gravity loads"
             require_positive(f"load of bearing {name}", load, "N", remedy=remedy, error=CheckError)

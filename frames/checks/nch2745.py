@@ -52,6 +52,11 @@ class NCh2745:
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
         Pressure that the sliders stand [Pa].
+
+    Notes
+    -----
+    Combinations of vertical loads for `IsolationSystem` are of the kind 1.2 D + L and 0.8 D (6.2).
+    The base shear goes by the largest stiffness at the displacement, that of the upper bound.
     """
 
     maximum: float = 1.2

@@ -70,7 +70,7 @@ def quantity(value: Value, unit: str, shown: str, *, units: bool = True) -> str:
         entries = [number(v / factor) for v in value]
         more = [*entries[:2], "…", entries[-1]] if len(entries) > 4 else entries
         text = f"({', '.join(more)})"
-    return f"{text} {shown}" if units and shown != "-" else text
+    return f"{text} {shown.translate(_RAISED)}" if units and shown != "-" else text
 
 
 def symbol_text(name: str) -> str:

@@ -224,7 +224,11 @@ class Trace:
     ) -> Step:
         tree = parse(formula)
         entered = names(tree)
-        found = evaluate(tree, {name: self[name].value for name in entered})
+        try:
+            found = evaluate(tree, {name: self[name].value for name in entered})
+        except ValueError as cause:
+            msg = f"{symbol} = {formula} takes together what there are unlike numbers of: {cause}"
+            raise CheckError(msg) from cause
         numbers = found if isinstance(found, tuple) else (found,)
         if not all(map(math.isfinite, numbers)):
             where = ", ".join(f"{name} = {self[name].result}" for name in entered)
