@@ -175,18 +175,23 @@ def _mathml(node: ast.expr, least: int) -> str:
 
 def _operation_mathml(node: ast.BinOp, least: int) -> str:
     if isinstance(node.op, ast.Div):
-        return f"<mfrac>{_row(node.left)}{_row(node.right)}</mfrac>"
+        return _fenced(f"<mfrac>{_row(node.left)}{_row(node.right)}</mfrac>", least > _SIGN)
     if isinstance(node.op, ast.Pow):
-        return f"<msup>{_fenced(_mathml(node.left, _ATOM), False)}{_row(node.right)}</msup>"
+        inner = f"<msup><mrow>{_mathml(node.left, _ATOM)}</mrow>{_row(node.right)}</msup>"
+        return _fenced(inner, least > _POWER)
     if isinstance(node.op, ast.Mult):
         dot = isinstance(node.right, ast.Constant) or isinstance(node.left, ast.Constant)
         sign = "<mo>·</mo>" if dot else "<mo>&#x2062;</mo>"
-        inner = f"{_mathml(node.left, _PRODUCT)}{sign}{_mathml(node.right, _PRODUCT)}"
+        inner = f"{_mathml(node.left, _PRODUCT)}{sign}{_right(node.right, _PRODUCT)}"
         return _fenced(inner, least > _PRODUCT)
     minus = isinstance(node.op, ast.Sub)
-    right = _mathml(node.right, _PRODUCT if minus else _SUM)
+    right = _right(node.right, _PRODUCT if minus else _SUM)
     inner = f"{_mathml(node.left, _SUM)}<mo>{'-' if minus else '+'}</mo>{right}"
     return _fenced(inner, least > _SUM)
+
+
+def _right(node: ast.expr, least: int) -> str:
+    return _mathml(node, _POWER if isinstance(node, ast.UnaryOp) else least)
 
 
 def _row(node: ast.expr) -> str:

@@ -53,6 +53,20 @@ def test_precedence_is_kept(formula: str, value: float, text: str) -> None:
     assert parseString(t["x"].mathml()).documentElement.tagName == "math"  # noqa: S318
 
 
+def test_fractions_and_powers_are_held_in_mathml() -> None:
+    t = Trace()
+    for name in ("a_1", "b"):
+        t.given(name, 2.0, "m")
+    t("x", "(a_1 / b)**2 - (a_1 - b) * (-b)", shown="%")
+    a, b = "<msub><mi>a</mi><mi>1</mi></msub>", "<mi>b</mi>"
+    plain = t["x"].mathml().replace("<mrow>", "").replace("</mrow>", "")
+    assert plain == (
+        f"<math><mi>x</mi><mo>=</mo><msup><mo>(</mo><mfrac>{a}{b}</mfrac><mo>)</mo><mn>2</mn>"
+        f"</msup><mo>-</mo><mo>(</mo>{a}<mo>-</mo>{b}<mo>)</mo><mo>&#x2062;</mo><mo>(</mo>"
+        f"<mo>-</mo>{b}<mo>)</mo><mo>=</mo><mtext>100 %</mtext></math>"
+    )
+
+
 def test_several_values_are_summed_and_none_is_dropped() -> None:
     t = Trace()
     t.given_each("W", [100e3, 200e3, 300e3, 400e3, 500e3], "N")
