@@ -97,7 +97,8 @@ class IsolationSystem:
         for name, place in zip(names, self.positions, strict=True):
             require_vector(f"position of bearing {name} [m]", place, 2, error=CheckError)
         for side in require_vector("plan [m]", self.plan, 2, error=CheckError):
-            require_positive("side of the plan", side, "m", error=CheckError)
+            remedy = "give plan=(b, d), the sides of the structure in plan"
+            require_positive("side of the plan", side, "m", remedy=remedy, error=CheckError)
         if self.eccentricity is not None:
             require_vector("eccentricity [m]", self.eccentricity, 2, error=CheckError)
         if self.weight is not None:
