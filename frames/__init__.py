@@ -19,8 +19,19 @@ from frames.analysis.recovery import support_reactions as support_reactions
 from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
+from frames.checks.analysis import equivalent_linear as equivalent_linear
+from frames.checks.asce7 import ASCE7 as ASCE7
+from frames.checks.bounds import PropertyBounds as PropertyBounds
+from frames.checks.bounds import PropertyFactors as PropertyFactors
+from frames.checks.bounds import bounded as bounded
 from frames.checks.check import Check as Check
 from frames.checks.check import Checks as Checks
+from frames.checks.en1998 import EN1998 as EN1998
+from frames.checks.isolation import IsolationSystem as IsolationSystem
+from frames.checks.nch2745 import NCh2745 as NCh2745
+from frames.checks.outcome import EquivalentLinear as EquivalentLinear
+from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
 from frames.library.models import lumped_mass as lumped_mass
@@ -60,6 +71,8 @@ from lir_element.device.features import Features as Features
 from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 
 __all__ = [
+    "ASCE7",
+    "EN1998",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -68,12 +81,15 @@ __all__ = [
     "Check",
     "CheckError",
     "Checks",
+    "EquivalentLinear",
     "Features",
     "Finding",
     "Frame",
+    "FrictionPendulum",
     "GravityState",
     "GroundMotion",
     "HertzStop",
+    "IsolationSystem",
     "ModalDamping",
     "ModelCheck",
     "ModelError",
@@ -81,21 +97,27 @@ __all__ = [
     "Modes",
     "MotionError",
     "MotionWarning",
+    "NCh2745",
     "Pinching",
     "PlasticHinge",
+    "PropertyBounds",
+    "PropertyFactors",
     "RayleighDamping",
     "Recording",
     "Section",
     "Stop",
+    "Superstructure",
     "Tie",
     "Trace",
     "ViscousDamper",
     "audit",
     "audit_report",
+    "bounded",
     "drift_by_line",
     "ductility",
     "energy_error",
     "envelope",
+    "equivalent_linear",
     "floor_acceleration",
     "floor_spectrum",
     "force_tables",

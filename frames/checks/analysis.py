@@ -16,8 +16,8 @@ from frames.checks.outcome import BoundResult, EquivalentLinear
 from lir_element.door import require_type
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import Superstructure
-    from frames.hazard.spectrum import Spectrum
+    from frames.checks.design_spectrum import DesignSpectrum
+    from frames.checks.superstructure import Superstructure
 
 Code = ASCE7 | EN1998 | NCh2745
 _CODES = (ASCE7, EN1998, NCh2745)
@@ -25,7 +25,7 @@ _CODES = (ASCE7, EN1998, NCh2745)
 
 def equivalent_linear(
     system: IsolationSystem,
-    spectrum: Spectrum,
+    spectrum: DesignSpectrum,
     *,
     bounds: PropertyBounds | None,
     superstructure: Superstructure | None = None,
@@ -40,7 +40,7 @@ def equivalent_linear(
     ----------
     system : IsolationSystem
         Bearings with nominal properties, their places and loads.
-    spectrum : Spectrum
+    spectrum : DesignSpectrum
         Of MCE_R for ASCE 7, of the design earthquake for the others; it has the damping factor.
     bounds : PropertyBounds or None
         Factors of lower and upper bound; None for nominal properties alone, as for comparisons.
@@ -87,7 +87,7 @@ def equivalent_linear(
     return EquivalentLinear(chosen.name, results, general)
 
 
-def _code(spectrum: Spectrum) -> Code:
+def _code(spectrum: DesignSpectrum) -> Code:
     for code in _CODES:
         if spectrum.code in code.spectra:
             return code()

@@ -17,9 +17,10 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.design_spectrum import DesignSpectrum
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
-    from frames.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 
@@ -55,6 +56,12 @@ class ASCE7:
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
         Pressure that the sliders stand [Pa] (17.2.4.6).
+
+    Notes
+    -----
+    The centre of mass is that of the bearings' loads unless the system has an eccentricity.
+    V_s is at least the force that starts sliding, not reduced by weight or R_I, which is on the
+    safe side.
     """
 
     accidental_eccentricity: float = 0.05
@@ -81,7 +88,7 @@ class ASCE7:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -92,7 +99,7 @@ class ASCE7:
         ----------
         system : IsolationSystem
             With properties at that bound.
-        spectrum : Spectrum
+        spectrum : DesignSpectrum
             MCE_R.
         bound : {"lower", "nominal", "upper"}
             The bound.
@@ -179,7 +186,7 @@ class ASCE7:
         self,
         t: Trace,
         above: Superstructure,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         extremes: Extremes,
     ) -> None:
         t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")

@@ -18,11 +18,12 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.design_spectrum import DesignSpectrum
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
-    from frames.hazard.spectrum import Spectrum
 
-_SYMBOLS = Symbols("d_dc", "d_Ed", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")
+_SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +93,7 @@ class EN1998:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -135,7 +136,7 @@ class EN1998:
             if self.simplified:
                 checks += self._simplified_checks(t, superstructure, judge)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
-        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_i"), forces, checks)
+        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_bi"), forces, checks)
 
     def _torsion(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="EN 1998-1 4.3.2")
@@ -145,14 +146,13 @@ class EN1998:
         t.each("y_i", "y - y_R", "m")
         t("r2", "sum(F * (x_i**2 + y_i**2)) / sum(F)", "m2", note="torsional radius squared")
         for along, across in (("x", "y"), ("y", "x")):
-            lever = (
-                f"e_{across} / r2 * abs({across}_i)" if t.value("r2") > 0.0 else f"0 * {across}_i"
-            )
-            t.each(f"delta_{along}", f"1 + {lever}", source=source, note=f"motion along {along}")
-        t.each("d_i", "d_dc * max(delta_x, delta_y)", "m", shown="mm")
+            lever = f"e_{across} / r2" if t.value("r2") > 0.0 else "0"
+            formula = f"1 + {lever} * abs({across}_i)"
+            t.each(f"delta_{along}", formula, source=source, note=f"motion along {along}")
+        t.each("d_bi", "d_dc * max(delta_x, delta_y)", "m", shown="mm")
         t.given("gamma_x", self.reliability)
-        t.each("d_Ed_i", "gamma_x * d_i", "m", source="EN 1998-1 10.3", shown="mm")
-        t("d_Ed", "max(d_i)", "m", shown="mm")
+        t.each("d_Ed", "gamma_x * d_bi", "m", source="EN 1998-1 10.3", shown="mm")
+        t("d_bd", "max(d_bi)", "m", shown="mm")
 
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: Judge) -> Checks:
         t.given("a_k", self.stiffness_ratio)
@@ -169,9 +169,9 @@ class EN1998:
         t.given("a_r", self.recentring)
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
-        limits, names = "EN 1998-1 10.9.2", system.names
+        limits, names = "EN 1998-1 10.9.2", system.labels
         found = [
-            capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed_i"),
+            capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed"),
             judge.worst(
                 "EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names
             ),

@@ -28,7 +28,7 @@ _ONE: dict[str, Callable[[FloatArray], FloatArray]] = {
     "log": np.log,
     "acos": np.arccos,
     "sum": np.sum,
-    "above": lambda values: np.cumsum(values[::-1])[::-1],
+    "above": lambda values: np.cumsum(np.atleast_1d(values)[::-1])[::-1],
 }
 _MANY: dict[str, np.ufunc] = {"min": np.minimum, "max": np.maximum}
 RESERVED = frozenset({"pi", *_ONE, *_MANY})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames.checks.check import Checks
+from frames.checks.check import CONFIRMED, Checks
 from frames.checks.equivalent import Judge
 from frames.checks.trace import Trace
 from lir_element.device.bearing import LIRBearing
@@ -33,7 +33,7 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     Checks
         One check; none where all sliders are in one piece.
     """
-    pairs = zip(system.names, system.bearings, strict=True)
+    pairs = zip(system.labels, system.bearings, strict=True)
     found = [(name, b) for name, b in pairs if isinstance(b, LIRBearing) and not b.is_dcfp]
     if not found:
         return Checks()
@@ -44,8 +44,9 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     t.given("lambda_e", bounds.friction.upper, note="upper bound of the surfaces")
     t.each("mu_h_low", "lambda_h * mu_h")
     t.each("mu_e_up", "lambda_e * mu_e", note="what the interface carries, over the load")
-    check = Judge(t, "").worst(
-        "docs/theory.md (2.1)", "interface holds before the rim", "mu_h_low", ">=", "mu_e_up",
+    clause = "LIR-DCFP, docs/theory.md (2.1)"
+    check = Judge(t, "", CONFIRMED).worst(
+        clause, "interface holds before the rim", "mu_h_low", ">=", "mu_e_up",
         subjects=tuple(name for name, _ in found),
     )  # fmt: skip
     return Checks([check])

@@ -12,7 +12,7 @@ from frames._errors import CheckError
 from frames.analysis.static import gravity
 from frames.checks.pendulum import FrictionPendulum
 from frames.model.combining import isolator_combinations
-from lir_element.door import require_non_negative, require_positive, require_vector
+from lir_element.door import require_positive, require_vector
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ AVERAGE = "average"
 
 
 @final
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class IsolationSystem:
     """The bearings of a structure and what rests on them.
 
@@ -47,7 +47,7 @@ class IsolationSystem:
         Axial loads of the bearings in other combinations of vertical loads, without the
         horizontal earthquake [N].
     names : tuple of str, optional
-        Names of the bearings; "1" to "n" if left out.
+        Names of the bearings; `labels` are "1" to "n" if left out.
     gravity : float
         Acceleration of gravity [m/s2].
 
@@ -79,21 +79,26 @@ class IsolationSystem:
         count = len(self.bearings)
         for name in ("bearings", "positions", "loads", "plan"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        names = tuple(self.names) or tuple(str(k + 1) for k in range(count))
-        object.__setattr__(self, "names", names)
+        names = self.labels
         groups = {"loads": self.loads, "positions": self.positions, "names": names}
-        groups |= {f"loads of combination {key!r}": v for key, v in self.combinations.items()}
         for name, values in groups.items():
             if len(values) != count or count == 0:
                 msg = f"{len(values)} {name} for {count} bearings: give one for each, 1 at least"
                 raise CheckError(msg)
+        combinations = {
+            key: require_vector(f"loads of combination {key!r} [N]", v, count, error=CheckError)
+            for key, v in self.combinations.items()
+        }
+        found = {key: tuple(v.tolist()) for key, v in combinations.items()}
+        object.__setattr__(self, "combinations", found)
         for name, load in zip(names, self.loads, strict=True):
             remedy = "a bearing without load resists nothing: see its gravity loads"
             require_positive(f"load of bearing {name}", load, "N", remedy=remedy, error=CheckError)
         for name, place in zip(names, self.positions, strict=True):
             require_vector(f"position of bearing {name} [m]", place, 2, error=CheckError)
         for side in require_vector("plan [m]", self.plan, 2, error=CheckError):
-            require_positive("side of the plan", side, "m", error=CheckError)
+            remedy = "give plan=(b, d), the sides of the structure in plan"
+            require_positive("side of the plan", side, "m", remedy=remedy, error=CheckError)
         if self.eccentricity is not None:
             require_vector("eccentricity [m]", self.eccentricity, 2, error=CheckError)
         if self.weight is not None:
@@ -169,6 +174,19 @@ class IsolationSystem:
             gravity=frame.gravity,
         )
 
+    def __repr__(self) -> str:
+        """Return number, weight and radii on one line."""
+        radii = sorted({f"{p.effective_radius:.4g}" for p in self.pendulums})
+        return (
+            f"IsolationSystem: {len(self.bearings)} bearings of effective radius "
+            f"{', '.join(radii)} m under {1e-3 * self.seismic_weight:.4g} kN"
+        )
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Names of the bearings; "1" to "n" where none were given."""
+        return tuple(self.names) or tuple(str(k + 1) for k in range(len(self.bearings)))
+
     @property
     def seismic_weight(self) -> float:
         """W, the seismic weight above the isolation interface [N]."""
@@ -207,71 +225,3 @@ class Extremes(NamedTuple):
 
     nominal: IsolationSystem
     upper: IsolationSystem
-
-
-@dataclass(frozen=True, kw_only=True)
-class Superstructure:
-    """What stands on the isolation system, as design formulas need it.
-
-    Parameters
-    ----------
-    fixed_base_period : float
-        Period of the structure on a fixed base, T_fb [s].
-    storey_weights : tuple of float, (n,)
-        Weight of each floor above the base level, lowest first [N]; the base level itself is what
-        the seismic weight has beyond their sum.
-    storey_heights : tuple of float, (n,)
-        Height of each storey [m].
-    R : float
-        Response modification factor of the same structure on a fixed base [-].
-    importance : float
-        Importance factor I_e of the fixed-base structure [-].
-    storey_stiffness : tuple of float, (n,), optional
-        Lateral stiffness of each storey [N/m], for drifts; without it they are not checked.
-    wind_shear : float
-        Factored wind shear of the superstructure [N].
-    vertical_period : float, optional
-        Vertical period T_v of the structure on its bearings [s].
-
-    Raises
-    ------
-    CheckError, ValueError, TypeError
-        If numbers are out of bounds or of unlike count.
-    """
-
-    fixed_base_period: float
-    storey_weights: tuple[float, ...]
-    storey_heights: tuple[float, ...]
-    R: float
-    importance: float = 1.0
-    storey_stiffness: tuple[float, ...] | None = None
-    wind_shear: float = 0.0
-    vertical_period: float | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("storey_weights", "storey_heights", "storey_stiffness"):
-            values = getattr(self, name)
-            if values is None:
-                continue
-            count = len(self.storey_weights)
-            for value in require_vector(name, values, count, error=CheckError):
-                require_positive(name, value, error=CheckError)
-            object.__setattr__(self, name, tuple(map(float, values)))
-        if not self.storey_weights:
-            msg = "storey_weights is empty: give the weight of one floor at least"
-            raise CheckError(msg)
-        for name in ("fixed_base_period", "R", "importance"):
-            require_positive(name, getattr(self, name), error=CheckError)
-        require_non_negative("wind_shear", self.wind_shear, "N", error=CheckError)
-        if self.vertical_period is not None:
-            require_positive("vertical_period", self.vertical_period, "s", error=CheckError)
-
-    @property
-    def weight(self) -> float:
-        """W_s, weight above the base level [N]."""
-        return sum(self.storey_weights)
-
-    @property
-    def elevations(self) -> tuple[float, ...]:
-        """Height of each floor above the base level [m]."""
-        return tuple(np.cumsum(self.storey_heights).tolist())

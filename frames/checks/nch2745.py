@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -17,13 +18,14 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import Extremes, IsolationSystem, Superstructure
+    from frames.checks.design_spectrum import DesignSpectrum
+    from frames.checks.isolation import Extremes, IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
-    from frames.hazard.spectrum import Spectrum
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
 _MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
-_PLATEAU = {"I": 0.200, "II": 0.300, "III": 0.330}
+_LONG = 4.0  # s, beyond all T_d
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +52,11 @@ class NCh2745:
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
         Pressure that the sliders stand [Pa].
+
+    Notes
+    -----
+    Combinations of vertical loads for `IsolationSystem` are of the kind 1.2 D + L and 0.8 D (6.2).
+    The base shear goes by the largest stiffness at the displacement, that of the upper bound.
     """
 
     maximum: float = 1.2
@@ -67,7 +74,7 @@ class NCh2745:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: Spectrum,
+        spectrum: DesignSpectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -105,15 +112,17 @@ class NCh2745:
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
 
-    def _design(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+    def _design(
+        self, system: IsolationSystem, spectrum: DesignSpectrum, displacement: float
+    ) -> Trace:
         t = enter_system(system)
         t.given("D_0", displacement, "m", note="assumed, and found again")
         secant(t, "D_0", _DESIGN, "NCh2745 7")
         factor = spectrum.damping_factor(t.value("beta_D"))
         t.looked_up("B_D", factor, ["beta_D"], source="NCh2745 7.3")
-        t.given("Z", spectrum.parameters["Z"], note="factor of the zone")
-        t.given("C_1", _PLATEAU[str(spectrum.soil)], "m", shown="mm", note="of the soil, Z = 1")
-        t("C_D", "C_1 * Z", "m", shown="mm", source="NCh2745 7.3")
+        plateau = spectrum.acceleration(_LONG) * (0.5 * _LONG / math.pi) ** 2
+        note = "200 Z, 300 Z, 330 Z mm for soils I, II, III: the spectrum's displacement, B = 1"
+        t.given("C_D", plateau, "m", shown="mm", source="NCh2745 7.3", note=note)
         t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
         return t
 

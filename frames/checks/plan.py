@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames._errors import CheckError
@@ -10,7 +11,8 @@ from frames.checks.equivalent import Judge
 from lir_element.device.bearing import LIRBearing
 
 if TYPE_CHECKING:
-    from frames.checks.isolation import IsolationSystem, Superstructure
+    from frames.checks.isolation import IsolationSystem
+    from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
 
 
@@ -122,7 +124,7 @@ def vertical_checks(
         found.append(
             judge.worst(
                 clause, f"no uplift, {name}", f"N_least_{word}", ">=", "N_0",
-                subjects=system.names,
+                subjects=system.labels,
             )
         )  # fmt: skip
         if "p_lim" in t:
@@ -130,7 +132,7 @@ def vertical_checks(
             found.append(
                 judge.worst(
                     clause, f"pressure on the slider, {name}", f"p_{word}", "<=", "p_lim",
-                    subjects=system.names,
+                    subjects=system.labels,
                 )
             )  # fmt: skip
     return Checks(found)
@@ -159,17 +161,15 @@ def capacity_check(
     """
     t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
                  note="displacement at the first rim contact")  # fmt: skip
-    check = judge.worst(
-        clause, "rims free at the total displacement", demand, "<=", "d_rim",
-        subjects=system.names,
-    )  # fmt: skip
+    title = "rims free at the total displacement"
+    check = judge.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:
         return check
     note = (
         f"the rim is met at {100.0 / check.ratio:.0f} % of the displacement: equivalent-linear "
         "analysis does not hold, do a time history with the rims modelled"
     )
-    return judge.worst(clause, check.title, demand, "<=", "d_rim", subjects=system.names, note=note)
+    return replace(check, note=note)
 
 
 def drift_checks(

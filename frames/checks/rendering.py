@@ -70,7 +70,7 @@ def quantity(value: Value, unit: str, shown: str, *, units: bool = True) -> str:
         entries = [number(v / factor) for v in value]
         more = [*entries[:2], "…", entries[-1]] if len(entries) > 4 else entries
         text = f"({', '.join(more)})"
-    return f"{text} {shown}" if units and shown != "-" else text
+    return f"{text} {shown.translate(_RAISED)}" if units and shown != "-" else text
 
 
 def symbol_text(name: str) -> str:
@@ -138,7 +138,8 @@ def _operation(node: ast.BinOp, style: Style) -> tuple[str, int]:
         left, right = _held(node.left, style, _PRODUCT), _held(node.right, style, _PRODUCT)
         right = f"({right})" if right.startswith("-") else right
         divides = isinstance(node.left, ast.BinOp) and isinstance(node.left.op, ast.Div)
-        dot = style.dots or divides or right[0].isdigit() or right[0] == "("
+        dot = divides or right[0].isdigit() or right[0] == "("
+        dot |= style.dots and right[0] != "π"
         return f"{left}{' · ' if dot else ' '}{right}", _PRODUCT
     if isinstance(node.op, ast.Div):
         return f"{_held(node.left, style, _PRODUCT)} / {_held(node.right, style, _SIGN)}", _PRODUCT
@@ -174,18 +175,23 @@ def _mathml(node: ast.expr, least: int) -> str:
 
 def _operation_mathml(node: ast.BinOp, least: int) -> str:
     if isinstance(node.op, ast.Div):
-        return f"<mfrac>{_row(node.left)}{_row(node.right)}</mfrac>"
+        return _fenced(f"<mfrac>{_row(node.left)}{_row(node.right)}</mfrac>", least > _SIGN)
     if isinstance(node.op, ast.Pow):
-        return f"<msup>{_fenced(_mathml(node.left, _ATOM), False)}{_row(node.right)}</msup>"
+        inner = f"<msup><mrow>{_mathml(node.left, _ATOM)}</mrow>{_row(node.right)}</msup>"
+        return _fenced(inner, least > _POWER)
     if isinstance(node.op, ast.Mult):
         dot = isinstance(node.right, ast.Constant) or isinstance(node.left, ast.Constant)
         sign = "<mo>·</mo>" if dot else "<mo>&#x2062;</mo>"
-        inner = f"{_mathml(node.left, _PRODUCT)}{sign}{_mathml(node.right, _PRODUCT)}"
+        inner = f"{_mathml(node.left, _PRODUCT)}{sign}{_right(node.right, _PRODUCT)}"
         return _fenced(inner, least > _PRODUCT)
     minus = isinstance(node.op, ast.Sub)
-    right = _mathml(node.right, _PRODUCT if minus else _SUM)
+    right = _right(node.right, _PRODUCT if minus else _SUM)
     inner = f"{_mathml(node.left, _SUM)}<mo>{'-' if minus else '+'}</mo>{right}"
     return _fenced(inner, least > _SUM)
+
+
+def _right(node: ast.expr, least: int) -> str:
+    return _mathml(node, _POWER if isinstance(node, ast.UnaryOp) else least)
 
 
 def _row(node: ast.expr) -> str:

@@ -4,123 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
-from typing import NamedTuple
 
 from frames._errors import CheckError
 from frames.checks.formula import RESERVED, Value, evaluate, names, parse
-from frames.checks.rendering import (
-    Style,
-    mathml,
-    quantity,
-    scale,
-    symbol_mathml,
-    symbol_text,
-    text,
-    usual_unit,
-)
-
-
-class Quantity(NamedTuple):
-    """A value by its symbol.
-
-    Attributes
-    ----------
-    symbol : str
-        Its name, as formulas have it.
-    value : float or tuple of float
-        In `unit`; a tuple for what there are several of.
-    unit : str
-        Unit it is kept in, "-" for a pure number.
-    shown : str
-        Unit it is shown in.
-    """
-
-    symbol: str
-    value: Value
-    unit: str
-    shown: str
-
-    def __str__(self) -> str:
-        """Return value and unit, as people read them."""
-        return quantity(self.value, self.unit, self.shown)
-
-
-@dataclass(frozen=True)
-class Step:
-    """A line of a calculation: what was given, looked up, or follows by a formula.
-
-    Attributes
-    ----------
-    result : Quantity
-        What it gives.
-    formula : str
-        The formula that was evaluated; empty for what was given or looked up.
-    entered : tuple of Quantity
-        What entered it.
-    source : str
-        Clause, equation or table.
-    note : str
-        What else a reader should know.
-    """
-
-    result: Quantity
-    formula: str = ""
-    entered: tuple[Quantity, ...] = ()
-    source: str = ""
-    note: str = ""
-
-    @property
-    def symbol(self) -> str:
-        """Its symbol."""
-        return self.result.symbol
-
-    @property
-    def value(self) -> Value:
-        """Its value, in `unit`."""
-        return self.result.value
-
-    @property
-    def unit(self) -> str:
-        """Unit of its value."""
-        return self.result.unit
-
-    def text(self) -> str:
-        """Return the line as text: symbol, formula, numbers, value and unit.
-
-        Returns
-        -------
-        str
-            Numbers have units where not all are in the unit they are kept in; what there are
-            several of keeps its symbol.
-        """
-        if not self.formula:
-            at = ", ".join(f"{symbol_text(e.symbol)} = {e}" for e in self.entered)
-            return f"{symbol_text(self.symbol)} = {self.result}{f' at {at}' if at else ''}"
-        tree = parse(self.formula)
-        parts = {e.symbol: e for e in self.entered}
-        units = any(e.shown != e.unit for e in (*self.entered, self.result))
-
-        def shown(name: str) -> str:
-            e = parts[name]
-            if isinstance(e.value, tuple):
-                return symbol_text(name)
-            return quantity(e.value, e.unit, e.shown, units=units)
-
-        lines = [symbol_text(self.symbol), text(tree, Style(symbol_text, False))]
-        lines += [text(tree, Style(shown, True)), str(self.result)]
-        if all(isinstance(e.value, tuple) for e in self.entered):
-            del lines[2]
-        return " = ".join(dict.fromkeys(lines))
-
-    def mathml(self) -> str:
-        """Return symbol, formula and value as a `math` element of MathML Core."""
-        parts = [symbol_mathml(self.symbol)]
-        if self.formula:
-            parts.append(f"<mrow>{mathml(parse(self.formula))}</mrow>")
-        parts.append(f"<mtext>{escape(str(self.result))}</mtext>")
-        return f"<math>{'<mo>=</mo>'.join(parts)}</math>"
+from frames.checks.rendering import scale, usual_unit
+from frames.checks.step import Quantity, Step
 
 
 class Trace:
@@ -299,13 +188,13 @@ class Trace:
     def text(self) -> str:
         """Return all lines, each with its source and note."""
         return "\n".join(
-            "   ".join(part for part in (step.text(), _bracketed(step)) if part) for step in self
+            "   ".join(part for part in (step.text(), step.said) if part) for step in self
         )
 
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td style='text-align: left'>{step.mathml()}</td>"
-            f"<td style='text-align: left'>{escape(_bracketed(step))}</td></tr>"
+            f"<td style='text-align: left'>{escape(step.said)}</td></tr>"
             for step in self
         )
         return f"<table>{rows}</table>"
@@ -335,7 +224,11 @@ class Trace:
     ) -> Step:
         tree = parse(formula)
         entered = names(tree)
-        found = evaluate(tree, {name: self[name].value for name in entered})
+        try:
+            found = evaluate(tree, {name: self[name].value for name in entered})
+        except ValueError as cause:
+            msg = f"{symbol} = {formula} takes together what there are unlike numbers of: {cause}"
+            raise CheckError(msg) from cause
         numbers = found if isinstance(found, tuple) else (found,)
         if not all(map(math.isfinite, numbers)):
             where = ", ".join(f"{name} = {self[name].result}" for name in entered)
@@ -388,8 +281,3 @@ def _several(step: Step) -> tuple[float, ...]:
         msg = f"{step.symbol} has one value: call the calculation itself for it"
         raise CheckError(msg)
     return step.value
-
-
-def _bracketed(step: Step) -> str:
-    said = "; ".join(part for part in (step.source, step.note) if part)
-    return f"[{said}]" if said else ""

@@ -6,7 +6,7 @@ from xml.dom.minidom import parseString  # noqa: S408
 import pytest
 
 from frames import Check, CheckError, Checks, Trace
-from frames.checks.rendering import number
+from frames.checks.rendering import number, quantity
 
 
 def test_a_formula_is_shown_as_it_is_computed() -> None:
@@ -53,6 +53,20 @@ def test_precedence_is_kept(formula: str, value: float, text: str) -> None:
     assert parseString(t["x"].mathml()).documentElement.tagName == "math"  # noqa: S318
 
 
+def test_fractions_and_powers_are_held_in_mathml() -> None:
+    t = Trace()
+    for name in ("a_1", "b"):
+        t.given(name, 2.0, "m")
+    t("x", "(a_1 / b)**2 - (a_1 - b) * (-b)", shown="%")
+    a, b = "<msub><mi>a</mi><mi>1</mi></msub>", "<mi>b</mi>"
+    plain = t["x"].mathml().replace("<mrow>", "").replace("</mrow>", "")
+    assert plain == (
+        f"<math><mi>x</mi><mo>=</mo><msup><mo>(</mo><mfrac>{a}{b}</mfrac><mo>)</mo><mn>2</mn>"
+        f"</msup><mo>-</mo><mo>(</mo>{a}<mo>-</mo>{b}<mo>)</mo><mo>&#x2062;</mo><mo>(</mo>"
+        f"<mo>-</mo>{b}<mo>)</mo><mo>=</mo><mtext>100 %</mtext></math>"
+    )
+
+
 def test_several_values_are_summed_and_none_is_dropped() -> None:
     t = Trace()
     t.given_each("W", [100e3, 200e3, 300e3, 400e3, 500e3], "N")
@@ -62,6 +76,10 @@ def test_several_values_are_summed_and_none_is_dropped() -> None:
     assert t("F_min", "min(F)", "N") == pytest.approx(10e3)
     assert t["F"].text() == "F = μ W = (10, 40, …, 50) kN"
     assert t["V"].text() == "V = Σ(F) = 210 kN"
+    assert t.each("S", "above(F)", "N") == pytest.approx((210e3, 200e3, 160e3, 130e3, 50e3))
+    t.given_each("x", [1.0, 2.0], "m")
+    with pytest.raises(CheckError, match="unlike numbers"):
+        t.each("M", "F * x", "N m")
     with pytest.raises(CheckError, match="5 values: take sum"):
         t("G", "2 * F", "N")
     with pytest.raises(CheckError, match="has one value"):
@@ -120,6 +138,7 @@ def test_symbols_units_and_numbers_are_checked_at_the_door() -> None:
 
 def test_numbers_have_four_digits() -> None:
     shown = [number(v) for v in (0.0, 1234567.0, 12345.6, 0.054616, 1.5e-6, -2e9, 0.3)]
+    assert quantity(2.0, "m/s2", "m/s2") == "2 m/s²"
     assert shown == ["0", "1.235·10⁶", "12346", "0.05462", "1.5·10⁻⁶", "-2·10⁹", "0.3"]
 
 

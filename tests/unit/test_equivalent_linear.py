@@ -1,0 +1,553 @@
+"""Equivalent-linear analysis: numbers by hand, fixed points by another solver, each code."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from frames import (
+    ASCE7,
+    EN1998,
+    CheckError,
+    EquivalentLinear,
+    Frame,
+    FrictionPendulum,
+    IsolationSystem,
+    NCh2745,
+    PropertyBounds,
+    PropertyFactors,
+    Superstructure,
+    bounded,
+    equivalent_linear,
+    shear_building,
+)
+from lir_element import CoulombFriction, LIRBearing
+
+G = 9.81
+BOUNDS = PropertyBounds(PropertyFactors(0.7, 1.6))
+# 3 x 2 bearings; the loads' centre is off the plan's.
+PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
+LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
+BEARING = LIRBearing(
+    radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    friction=CoulombFriction(0.06), interface_friction=0.25,
+)  # fmt: skip
+SYSTEM = IsolationSystem(
+    bearings=(BEARING,) * 6, positions=PLACES, loads=LOADS, plan=(14.0, 10.0),
+    combinations={"maximum": (2.8e6,) * 6, "minimum": (0.9e6,) * 6},
+)  # fmt: skip
+ABOVE = Superstructure(
+    fixed_base_period=0.6, storey_weights=(2.0e6, 2.0e6, 1.8e6), storey_heights=(3.5, 3.0, 3.0),
+    R=5.0, storey_stiffness=(4e8, 3e8, 2e8), vertical_period=0.05,
+)  # fmt: skip
+
+
+class Asce:
+    """S_M1 / T in g; table of B_M."""
+
+    code = "asce7"
+
+    def __init__(self, s_m1: float) -> None:
+        self.parameters = {"S_M1": s_m1, "S_MS": 1.5}
+
+    def damping_factor(self, damping: float) -> float:
+        table = [0.8, 1.0, 1.2, 1.5, 1.7, 1.9, 2.0]
+        return float(np.interp(100.0 * damping, [2, 5, 10, 20, 30, 40, 50], table))
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        return G * self.parameters["S_M1"] / period / self.damping_factor(damping)
+
+
+class En:
+    """Constant displacement beyond T_D = 2 s, its velocity plateau from 0.6 s."""
+
+    code = "en1998"
+    parameters: dict[str, float] = {}  # noqa: RUF012
+
+    def __init__(self, plateau: float) -> None:
+        self.plateau = plateau
+
+    def damping_factor(self, damping: float) -> float:
+        return max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), 0.55)
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        shape = 0.6 / period if period < 2.0 else 1.2 / period**2
+        return self.plateau * self.damping_factor(damping) * shape
+
+
+class NCh:
+    """Displacement plateau of 200, 300 or 330 mm times Z; table of B."""
+
+    code = "nch2745"
+    parameters: dict[str, float] = {}  # noqa: RUF012
+
+    def __init__(self, plateau: float, zone: float) -> None:
+        self.plateau = plateau * zone
+
+    def damping_factor(self, damping: float) -> float:
+        table = [0.65, 1.0, 1.37, 1.67, 1.94, 2.17, 2.38, 3.02]
+        return float(np.interp(100.0 * damping, [2, 5, 10, 15, 20, 25, 30, 50], table))
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        assert period > 2.51
+        return self.plateau * (2.0 * math.pi / period) ** 2 / self.damping_factor(damping)
+
+
+def one(mu: float, radius: float = 2.5, weight: float = 1500e3, **more: object) -> IsolationSystem:
+    return IsolationSystem(
+        bearings=(FrictionPendulum((radius,), (mu,)),), positions=((0.0, 0.0),), loads=(weight,),
+        plan=(20.0, 20.0), gravity=G, **more,
+    )  # fmt: skip
+
+
+def nominal(system: IsolationSystem, spectrum: object, **more: object) -> EquivalentLinear:
+    return equivalent_linear(system, spectrum, bounds=None, **more)
+
+
+# -------------------------------------------------------------------------- ASCE 7, displacement
+
+
+@pytest.mark.parametrize(
+    ("mu", "displacement", "period", "damping", "shear"),
+    [
+        (0.04, 0.54616, 2.9161, 0.0985, 0.2585),
+        (0.06, 0.44347, 2.7419, 0.1609, 0.2374),
+        (0.09, 0.34396, 2.4662, 0.2518, 0.2276),
+    ],
+)
+def test_displacement_by_asce7(
+    mu: float, displacement: float, period: float, damping: float, shear: float
+) -> None:
+    """W = 1500 kN, R = 2.5 m, S_M1 = 0.9, g = 9.81."""
+    found = nominal(one(mu), Asce(0.9))["nominal"]
+    assert found.displacement == pytest.approx(displacement, abs=6e-6)
+    assert found.period == pytest.approx(period, abs=6e-5)
+    assert found.damping == pytest.approx(damping, abs=6e-5)
+    assert found.base_shear / 1500e3 == pytest.approx(shear, abs=6e-5)
+
+    def off(d: float) -> float:
+        k = 1.0 / 2.5 + mu / d  # over W
+        beta = 2.0 / math.pi * mu / (mu + d / 2.5)
+        t = 2.0 * math.pi / math.sqrt(G * k)
+        return G * 0.9 * t / (4.0 * math.pi**2 * Asce(0.9).damping_factor(beta)) - d
+
+    assert found.displacement == pytest.approx(brentq(off, 0.05, 2.0, xtol=1e-14), rel=1e-10)
+    last = found.iterations[-1]
+    assert last.found == pytest.approx(last.assumed, rel=1e-12)
+    assert len(found.iterations) > 5
+
+
+def tuned(mu: float, displacement: float, radius: float = 2.5) -> Asce:
+    """Return the spectrum that gives this displacement."""
+    k = 1.0 / radius + mu / displacement
+    beta = 2.0 / math.pi * mu / (mu + displacement / radius)
+    factor = Asce(1.0).damping_factor(beta)
+    return Asce(4.0 * math.pi**2 * factor * displacement * math.sqrt(G * k) / (2.0 * math.pi * G))
+
+
+def test_checks_at_300_mm() -> None:
+    """beta 0.21221, B_M 1.5244, the second half of D adds 90 kN where 37.5 are asked for."""
+    found = nominal(one(0.06), tuned(0.06, 0.30))["nominal"]
+    t = found.trace
+    assert found.displacement == pytest.approx(0.30, rel=1e-10)
+    assert found.stiffness == pytest.approx(900e3, rel=1e-9)
+    assert found.damping == pytest.approx(0.21221, abs=5e-6)
+    assert found.damping_factor == pytest.approx(1.5244, abs=5e-5)
+    assert found.base_shear == pytest.approx(270e3, rel=1e-9)
+    assert t.value("Delta_F") == pytest.approx(90e3, rel=1e-9)
+    assert t.value("Delta_F_lim") == pytest.approx(37.5e3, rel=1e-12)
+    restoring = found.checks.of("17.2.4.4")[0]
+    assert restoring.ratio == pytest.approx(37.5 / 90.0)
+    # k(0.2 D) = W / R + 5 mu W / D
+    assert t.value("k_02") == pytest.approx(600e3 + 5.0 * 0.06 * 1500e3 / 0.30, rel=1e-9)
+
+
+def test_a_joint_in_the_slider_takes_the_corners_off_the_loop() -> None:
+    """R_eff = 0.95 + 0.95 m, mu = 0.05 / 0.09: beta 0.18847 at 0.3 m, not 0.19554."""
+    p = FrictionPendulum((0.95, 0.95), (0.05, 0.09))
+    system = replace(one(0.06), bearings=(p,))
+
+    def off(d: float) -> float:
+        force = d / 1.9 + 0.07
+        low, high = 0.95 * (force - 0.05), 0.95 * (force - 0.09)
+        beta = 4.0 * (0.05 * low + 0.09 * high) / (2.0 * math.pi * force * d)
+        t = 2.0 * math.pi * math.sqrt(d / (force * G))
+        return G * 0.9 * t / (4.0 * math.pi**2 * Asce(0.9).damping_factor(beta)) - d
+
+    found = nominal(system, Asce(0.9))["nominal"]
+    assert found.displacement == pytest.approx(brentq(off, 0.1, 1.0, xtol=1e-14), rel=1e-10)
+    with pytest.raises(CheckError, match="below the corner"):
+        nominal(system, Asce(0.12))
+
+
+# ---------------------------------------------------------------------------- ASCE 7, torsion
+
+
+def test_torsion_ratio_of_six_bearings() -> None:
+    """By hand: sum x^2 + y^2 = 4 (36 + 16) + 2 * 16 = 240, about the loads' centre less 6 r^2."""
+    even = replace(SYSTEM, loads=(1.5e6,) * 6)
+    t = nominal(even, Asce(0.6))["nominal"].trace
+    assert t.value("r_I") == pytest.approx(math.sqrt(296.0 / 12.0), rel=1e-12)
+    assert t.value("P_T") == pytest.approx(math.sqrt(240.0 / 6.0) / math.sqrt(296.0 / 12.0))
+    corner = 1.0 + 6.0 / (40.0 * 12.0 / 296.0) * 12.0 * 0.7 / 296.0
+    assert t.values("D_Ty")[0] == pytest.approx(t.value("D_M") * max(corner, 1.15))
+    # With the loads off centre, mass and stiffness move together; levers are longer to one side.
+    t = nominal(SYSTEM, Asce(0.6))["nominal"].trace
+    y = sum(p * place[1] for p, place in zip(LOADS, PLACES, strict=True)) / sum(LOADS)
+    assert t.value("y_M") == pytest.approx(y)
+    assert t.value("y_R") == pytest.approx(y)
+    assert t.value("e_y") == pytest.approx(0.05 * 14.0)
+
+
+def test_each_bearing_counts() -> None:
+    """The last bearing as well: another friction there changes stiffness, damping and torsion."""
+    weak = FrictionPendulum((2.7,), (0.02,))
+    other = replace(SYSTEM, bearings=(*SYSTEM.bearings[:5], weak))
+    t, plain = (nominal(s, Asce(0.6))["nominal"].trace for s in (other, SYSTEM))
+    d, sigma = t.value("D_M"), BEARING.effective_friction
+    frictions = [sigma] * 5 + [0.02]
+    k = sum(p * (1.0 / 2.7 + mu / d) for p, mu in zip(LOADS, frictions, strict=True))
+    energy = sum(4.0 * mu * p * d for p, mu in zip(LOADS, frictions, strict=True))
+    assert t.value("k_M") == pytest.approx(k, rel=1e-9)
+    assert t.value("beta_M") == pytest.approx(energy / (2.0 * math.pi * k * d**2), rel=1e-9)
+    assert other.force(0.3) < SYSTEM.force(0.3)
+    assert t.value("x_R") < plain.value("x_R") - 0.1
+    assert t.value("e_x") > plain.value("e_x") + 0.1
+
+
+def test_total_displacement_of_a_square_plan() -> None:
+    """b = d = 20 m, e = 1 m, y = 10 m, P_T = 1: D_TM / D_M = 1.15."""
+    p = FrictionPendulum((2.5,), (0.06,))
+    system = IsolationSystem(
+        bearings=(p,) * 4, loads=(375e3,) * 4, plan=(20.0, 20.0), gravity=G,
+        positions=((0.0, -10.0), (0.0, 10.0), (-1.0, 0.0), (1.0, 0.0)),
+    )  # fmt: skip
+    code = ASCE7(least_torsion=1.0)
+    found = nominal(system, Asce(0.9), code=code)["nominal"]
+    assert found.trace.value("P_T") == 1.0
+    assert found.total_displacement / found.displacement == pytest.approx(1.15, rel=1e-12)
+    given = replace(system, eccentricity=(0.0, 1.0))
+    more = nominal(given, Asce(0.9), code=code)["nominal"]
+    assert more.total_displacement / more.displacement == pytest.approx(1.30, rel=1e-12)
+    assert more.displacements[2] == pytest.approx(more.displacement * (1 + 12.0 / 800.0))
+
+
+def test_least_torsion_holds_where_torsion_is_less() -> None:
+    found = nominal(one(0.06), Asce(0.9))["nominal"]
+    assert found.total_displacement == pytest.approx(1.15 * found.displacement)
+
+
+# ----------------------------------------------------------------------------- ASCE 7, forces
+
+
+def test_unreduced_shear_above() -> None:
+    """W_s / W = 0.8, beta = 0.2: V_st / V_b = 0.89443, 0.93525 where sliding sets in abruptly."""
+    ratio = 0.06 * (2.0 / (math.pi * 0.2) - 1.0)  # D / R where beta is 0.2
+    system, spectrum = one(0.06), tuned(0.06, 2.5 * ratio)
+    above = Superstructure(
+        fixed_base_period=0.5, storey_weights=(1200e3,), storey_heights=(4.0,), R=6.0
+    )
+    for exponent, expected in ((2.5, 89.443), (3.5, 93.525)):
+        code = ASCE7(exponent=exponent)
+        t = nominal(system, spectrum, superstructure=above, code=code)["nominal"].trace
+        assert t.value("beta_M") == pytest.approx(0.2, rel=1e-9)
+        assert 100.0 * t.value("V_st") / t.value("V_b") == pytest.approx(expected, abs=5e-4)
+
+
+def test_design_shear_is_the_largest_of_its_minima() -> None:
+    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    mu = BEARING.effective_friction
+    for each in found.bounds.values():
+        t = each.trace
+        # R_I = 3/8 * 5; 12.8 at T_M with S_DS = 1, S_D1 = 0.6
+        reduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 2.5 * t.value("beta_M")) / 1.875
+        fixed = max(0.6 / t.value("T_M") / 5.0, 0.044) * 5.8e6
+        slides = max(1.6 * mu, 1.5 * mu) * 9.0e6
+        assert each.superstructure_shear == pytest.approx(max(reduced, fixed, slides))
+        assert sum(each.storey_forces[1:]) == pytest.approx(each.superstructure_shear)
+        unreduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 2.5 * t.value("beta_M"))
+        assert each.storey_forces[0] == pytest.approx((t.value("V_b") - unreduced) / 1.875)
+        power = 14.0 * t.value("beta_M") * 0.6
+        shares = np.array([2.0, 2.0, 1.8]) * np.array([3.5, 6.5, 9.5]) ** power
+        expected = each.superstructure_shear * shares / shares.sum()
+        np.testing.assert_allclose(each.storey_forces[1:], expected, rtol=1e-12)
+    windy = replace(ABOVE, wind_shear=5e6)
+    blown = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=windy)
+    assert blown.superstructure_shear == 5e6
+
+
+def test_drifts_and_overturning_by_hand() -> None:
+    code = ASCE7(pressure_limit=40e6)
+    result = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE, code=code)
+    found = result["upper"]
+    forces = np.array(found.storey_forces[1:])
+    shears = np.array([forces.sum(), forces[1:].sum(), forces[2]])
+    drift = 1.875 * shears / np.array([4e8, 3e8, 2e8])
+    ratio = drift / (0.015 * np.array([3.5, 3.0, 3.0]))
+    check = found.checks.of("17.5.6")[0]
+    assert check.ratio == pytest.approx(ratio.max())
+    assert check.subject == f"storey {ratio.argmax() + 1}"
+    t = found.trace
+    moment = t.value("V_st") * float(forces @ [3.5, 6.5, 9.5]) / forces.sum()
+    # Corner bearings: levers 6 m of 4 * 36, and 4 m of 6 * 16.
+    x, y = moment * 6.0 / 144.0, moment * 4.0 / 96.0
+    load = max(x + 0.3 * y, 0.3 * x + y)
+    assert t.values("N_E")[0] == pytest.approx(load)
+    uplift = next(c for c in found.checks if c.title == "no uplift, minimum")
+    assert uplift.demand == pytest.approx(0.9e6 - load)
+    pressure = next(c for c in found.checks if c.title == "pressure on the slider, maximum")
+    assert pressure.demand == pytest.approx((2.8e6 + load) / (math.pi * 0.2**2))
+
+
+def test_a_row_of_bearings_has_no_lever_across() -> None:
+    row = replace(
+        SYSTEM, bearings=(BEARING,) * 2, positions=((-5.0, 0.0), (5.0, 0.0)), loads=(4.5e6,) * 2,
+        combinations={"minimum": (3e6, 3e6)},
+    )  # fmt: skip
+    t = nominal(row, Asce(0.6), superstructure=ABOVE)["nominal"].trace
+    assert t.values("N_E") == pytest.approx([t.value("M_o") / 10.0] * 2)
+    assert "N_Ey" not in t
+
+
+def test_minima_of_time_histories() -> None:
+    t = nominal(SYSTEM, Asce(0.6), superstructure=ABOVE)["nominal"].trace
+    reduced = 1.0 / math.sqrt(1.0 + (0.6 / t.value("T_M")) ** 2)
+    assert t.value("D_prime_M") == pytest.approx(t.value("D_M") * reduced)
+    assert t.value("D_TM_dyn") == pytest.approx(0.8 * t.value("D_TM") * reduced)
+    assert t.value("V_b_dyn") == pytest.approx(0.9 * t.value("V_b"))
+    assert t.value("V_s_dyn") == pytest.approx(0.6 * t.value("V_s"))
+
+
+# --------------------------------------------------------------------------------- both bounds
+
+
+def test_bounds_are_one_argument() -> None:
+    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    assert list(found.bounds) == ["lower", "upper"]
+    for name in ("lower", "upper"):
+        alone = nominal(bounded(SYSTEM, name, BOUNDS), Asce(0.9))["nominal"]
+        assert found[name].displacement == alone.displacement
+        assert {c.bound for c in found[name].checks} == {name}
+    assert found.displacement == found["lower"].displacement > found["upper"].displacement
+    assert found.total_displacement == found["lower"].total_displacement
+    assert found.base_shear == max(found[b].base_shear for b in ("lower", "upper"))
+    with pytest.raises(CheckError, match="no bound 'nominal'"):
+        found["nominal"]
+
+
+def test_rims_that_are_met_are_reported_at_each_bound() -> None:
+    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS)
+    lower, upper = (found.checks.of("17.2.4.5", bound=b)[0] for b in ("lower", "upper"))
+    assert not lower.passed
+    assert upper.passed
+    assert lower.ratio == pytest.approx(found["lower"].total_displacement / 0.45)
+    assert f"{45.0 / found['lower'].total_displacement:.0f} % of the displacement" in lower.note
+    assert upper.note == ""
+
+
+def test_interface_at_its_lower_bound_holds_the_surfaces_at_their_upper_one() -> None:
+    bounds = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.5, 2.0))
+    mu = BEARING.effective_friction
+    check = equivalent_linear(SYSTEM, Asce(0.9), bounds=bounds).general[0]
+    assert check.ratio == pytest.approx(1.6 * mu / (0.5 * 0.25))
+    weak = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.4, 2.0))
+    assert not equivalent_linear(SYSTEM, Asce(0.9), bounds=weak).general.passed
+    solid = replace(SYSTEM, bearings=(BEARING.as_dcfp(),) * 6)
+    assert len(equivalent_linear(solid, Asce(0.9), bounds=bounds).general) == 0
+
+
+def test_each_check_can_be_followed_to_what_was_given() -> None:
+    """Every line's shown formula gives its value from the numbers shown with it."""
+    spectra = Asce(0.9), En(8.0), NCh(0.30, 1.25)
+    for spectrum in spectra:
+        found = equivalent_linear(SYSTEM, spectrum, bounds=BOUNDS, superstructure=ABOVE)
+        for check in found.checks:
+            assert check.symbol in check.trace
+            assert (check.standing == "confirmed") == check.clause.startswith("LIR-DCFP")
+            for step in check.trace:
+                assert set(e.symbol for e in step.entered) <= {s.symbol for s in check.trace}
+                scope = {e.symbol: np.asarray(e.value) for e in step.entered}
+                if step.formula and not {"min(", "max(", "above("} & set(
+                    part + "(" for part in step.formula.replace("(", " ( ").split()
+                ):
+                    names = {"sqrt": np.sqrt, "sum": np.sum, "abs": np.abs, "pi": math.pi}
+                    value = eval(step.formula, names | scope)  # noqa: S307
+                    np.testing.assert_allclose(step.value, value, rtol=1e-12)
+        table = str(found)
+        assert "FAILS" in table or found.checks.passed
+        assert found.code in repr(found)
+        assert found.to_dataframe().loc["upper", "damping [-]"] == found["upper"].damping
+        assert "<table>" in found._repr_html_()
+
+
+# ---------------------------------------------------------------------------------- EN 1998
+
+
+def test_displacement_by_en1998() -> None:
+    mu = BEARING.effective_friction
+
+    def off(d: float) -> float:
+        k = 1.0 / 2.7 + mu / d
+        xi = 2.0 / math.pi / (1.0 + d / (mu * 2.7))
+        t = 2.0 * math.pi / math.sqrt(9.80665 * k)
+        return En(8.0).acceleration(t, xi) / 9.80665 / k - d
+
+    found = nominal(SYSTEM, En(8.0), superstructure=ABOVE)["nominal"]
+    assert found.displacement == pytest.approx(brentq(off, 0.01, 1.0, xtol=1e-14), rel=1e-9)
+    t = found.trace
+    assert found.damping_factor == pytest.approx(En(8.0).damping_factor(found.damping))
+    s_e = En(8.0).acceleration(found.period, found.damping)
+    assert found.base_shear == pytest.approx(9.0e6 / 9.80665 * s_e)
+    forces = np.array([3.2e6, 2.0e6, 2.0e6, 1.8e6]) / 9.80665 * s_e / 1.5
+    np.testing.assert_allclose(found.storey_forces, forces, rtol=1e-12)
+    # Torsion by hand: stiffness goes by the loads.
+    x, y = np.array(PLACES).T
+    p = np.array(LOADS)
+    x, y = x - p @ x / p.sum(), y - p @ y / p.sum()
+    r2 = p @ (x**2 + y**2) / p.sum()
+    worst = np.maximum(1.0 + 0.5 / r2 * abs(y), 1.0 + 0.7 / r2 * abs(x))
+    np.testing.assert_allclose(found.displacements, found.displacement * worst, rtol=1e-12)
+    np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
+
+
+def test_recentring_at_300_mm() -> None:
+    """W = 1500 kN, R = 2.5 m, mu = 0.06, d = 0.30 m: E_S / E_H = 1, d / (mu R) = 2, eta 0.61756."""
+    xi = 2.0 / math.pi / 3.0
+    k = 900e3 / 1500e3
+    period = 2.0 * math.pi / math.sqrt(G * k)
+    plateau = 0.30 * G * k / En(1.0).acceleration(period, xi)
+    found = nominal(one(0.06), En(plateau))["nominal"]
+    assert found.displacement == pytest.approx(0.30, rel=1e-9)
+    assert found.damping == pytest.approx(0.21221, abs=5e-6)
+    assert found.damping_factor == pytest.approx(0.61756, abs=5e-6)
+    energy = found.checks.of("EN 15129 4.3")[0]
+    assert energy.demand / (energy.limit / 0.25) == pytest.approx(1.0, rel=1e-9)
+    assert energy.ratio == pytest.approx(0.25)
+    way = found.checks.of("7.7.1")[0]
+    assert way.demand / (2.0 * way.limit) == pytest.approx(2.0, rel=1e-9)
+    assert way.ratio == pytest.approx(0.25)
+
+
+def test_limits_of_the_simplified_analysis_need_all_their_numbers() -> None:
+    with pytest.raises(CheckError, match="fault_distance"):
+        nominal(SYSTEM, En(8.0), code=EN1998(simplified=True), superstructure=ABOVE)
+    code = EN1998(simplified=True, fault_distance=12e3, property_variation=0.12)
+    found = nominal(SYSTEM, En(8.0), code=code, superstructure=ABOVE)
+    failed = {c.title for c in found.checks.of("EN 1998-1 10.9").failed}
+    assert {"distance to the fault", "variation of properties"} <= failed
+    assert len(found.checks.of("10.9.3")) == 5
+
+
+# ---------------------------------------------------------------------------------- NCh2745
+
+
+@pytest.mark.parametrize(("plateau", "design"), [(0.30, 193.30), (0.20, 128.87)])
+def test_displacement_by_nch2745(plateau: float, design: float) -> None:
+    """Z = 1.25, 20 % damping: 193.30 mm on soil II, 128.87 mm on soil I."""
+    ratio = 0.06 * (2.0 / (math.pi * 0.2) - 1.0)
+    radius = 1e-3 * design / ratio
+    spectrum = NCh(plateau, 1.25)
+    found = nominal(one(0.06, radius=radius), spectrum)["nominal"]
+    t = found.trace
+    assert 1e3 * t.value("D_D") == pytest.approx(design, abs=0.01)
+    assert t.value("beta_D") == pytest.approx(0.2, abs=5e-5)
+    assert t.value("C_M") == pytest.approx(1.2 * 1.25 * plateau)
+    # 231.96 mm if the damping at D_D were kept; it is less at D_M, which is larger.
+    assert 1.2 * t.value("D_D") < t.value("D_M")
+
+    def off(d: float) -> float:
+        beta = 2.0 / math.pi * 0.06 / (0.06 + d / radius)
+        return 1.2 * 1.25 * plateau / spectrum.damping_factor(beta) - d
+
+    assert found.displacement == pytest.approx(brentq(off, 0.05, 1.0, xtol=1e-14), rel=1e-9)
+    assert found.total_displacement == pytest.approx(1.1 * found.displacement)
+
+
+def test_forces_by_nch2745() -> None:
+    found = equivalent_linear(SYSTEM, NCh(0.30, 1.0), bounds=BOUNDS, superstructure=ABOVE)
+    mu = BEARING.effective_friction
+    lower = found["lower"]
+    d = lower.trace.value("D_D")
+    # Largest stiffness with the largest displacement.
+    assert lower.base_shear == pytest.approx(9.0e6 * (d / 2.7 + 1.6 * mu))
+    slides = max(1.6 * mu, 1.5 * mu) * 9.0e6
+    assert lower.superstructure_shear == pytest.approx(max(0.5 * lower.base_shear, slides))
+    moments = np.array([2.0 * 3.5, 2.0 * 6.5, 1.8 * 9.5])
+    expected = lower.superstructure_shear * moments / moments.sum()
+    np.testing.assert_allclose(lower.storey_forces[1:], expected, rtol=1e-12)
+    drift = lower.checks.of("NCh2745 7.6")[0]
+    assert drift.limit == pytest.approx(0.0025 * (3.5 if drift.subject == "storey 1" else 3.0))
+
+
+# ------------------------------------------------------------------- frames, and what is refused
+
+
+def test_bearings_of_a_frame() -> None:
+    frame = shear_building(BEARING, [2e5, 2e5], 4e8, base_mass=2e5, plan=((2, 1), (6.0, 5.0)))
+    frame.add_load("base-0-0", (0.0, 0.0, -3e5, 0.0, 0.0, 0.0), case="L")
+    plain = IsolationSystem.from_frame(frame)
+    weight = 6e5 * 9.80665
+    assert plain.seismic_weight == pytest.approx(weight + 0.5 * 3e5, rel=1e-6)
+    assert plain.names == tuple(frame.bearings)
+    assert plain.plan == (12.0, 5.0)
+    assert not plain.combinations
+    full = IsolationSystem.from_frame(frame, s_ms=1.5)
+    assert full.loads == plain.loads
+    assert sum(full.combinations["maximum"]) == pytest.approx(1.5 * weight + 3e5, rel=1e-6)
+    assert sum(full.combinations["minimum"]) == pytest.approx(0.6 * weight, rel=1e-6)
+    found = equivalent_linear(full, Asce(0.6), bounds=BOUNDS)
+    assert found.displacement > 0.1
+    with pytest.raises(CheckError, match="average"):
+        IsolationSystem.from_frame(frame, combinations={"all": {"D": 1.0, "L": 1.0}})
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    with pytest.raises(CheckError, match="does not go with EN 1998"):
+        nominal(SYSTEM, Asce(0.9), code=EN1998())
+    with pytest.raises(CheckError, match="the storeys weigh"):
+        nominal(SYSTEM, Asce(0.9), superstructure=replace(ABOVE, storey_weights=(4e6,) * 3))
+    with pytest.raises(CheckError, match="5 loads for 6 bearings"):
+        replace(SYSTEM, loads=LOADS[:5])
+    with pytest.raises(CheckError, match="load of bearing 2"):
+        replace(SYSTEM, loads=(1e6, -1e3, *LOADS[2:]))
+    with pytest.raises(CheckError, match="storey_heights"):
+        replace(ABOVE, storey_heights=(3.0, 3.0))
+    without = replace(SYSTEM, bearings=(FrictionPendulum((2.7,), (0.06,)),) * 6)
+    code = ASCE7(pressure_limit=40e6)
+    with pytest.raises(CheckError, match="slider_radius"):
+        nominal(without, Asce(0.9), superstructure=ABOVE, code=code)
+    odd = NCh(0.3, 1.0)
+    odd.code = "other"
+    with pytest.raises(CheckError, match="no equivalent-linear analysis"):
+        nominal(SYSTEM, odd)
+    with pytest.raises(TypeError, match="an IsolationSystem"):
+        nominal(BEARING, Asce(0.9))
+    assert nominal(SYSTEM, NCh(0.3, 1.0), code=NCh2745(maximum=1.0)).displacement > 0.0
+
+
+def test_superstructure_of_a_frame() -> None:
+    """Two storeys: m = 2e5 kg, k = 4e8 N/m each; omega^2 = k / m (3 - sqrt 5) / 2."""
+    frame = shear_building(
+        BEARING, [2e5, 2e5], 4e8, base_mass=3e5, storey_height=3.2, plan=((2, 1), (6.0, 5.0))
+    )
+    above = Superstructure.from_frame(frame, R=5.0, wind_shear=1e5)
+    assert above.storey_weights == pytest.approx((2e5 * 9.80665,) * 2)
+    assert above.storey_heights == pytest.approx((3.2, 3.2))
+    omega = math.sqrt(4e8 / 2e5 * (3.0 - math.sqrt(5.0)) / 2.0)
+    assert above.fixed_base_period == pytest.approx(2.0 * math.pi / omega, rel=1e-6)
+    assert (above.R, above.wind_shear) == (5.0, 1e5)
+    system = IsolationSystem.from_frame(frame)
+    assert "6 bearings of effective radius 2.7 m under 6865 kN" in repr(system)
+    found = equivalent_linear(system, Asce(0.6), bounds=BOUNDS, superstructure=above)
+    assert len(found["upper"].storey_forces) == 3
+    with pytest.raises(CheckError, match="1 levels"):
+        Superstructure.from_frame(_without_floors(frame), R=5.0)
+
+
+def _without_floors(frame: Frame) -> Frame:
+    found = frame.copy()
+    for level in frame.levels[1:]:
+        found.remove("level", level.name)
+    return found
