@@ -24,13 +24,30 @@ from frames.checks.asce7 import ASCE7 as ASCE7
 from frames.checks.bounds import PropertyBounds as PropertyBounds
 from frames.checks.bounds import PropertyFactors as PropertyFactors
 from frames.checks.bounds import bounded as bounded
+from frames.checks.capacity import capacity_checks as capacity_checks
+from frames.checks.capacity import engagement_checks as engagement_checks
 from frames.checks.check import Check as Check
 from frames.checks.check import Checks as Checks
+from frames.checks.device import device_checks as device_checks
 from frames.checks.en1998 import EN1998 as EN1998
+from frames.checks.histories import bounded_histories as bounded_histories
+from frames.checks.histories import history_checks as history_checks
+from frames.checks.histories import history_demands as history_demands
+from frames.checks.history_rules import HISTORY_RULES as HISTORY_RULES
+from frames.checks.history_rules import HistoryRules as HistoryRules
+from frames.checks.impacts import impact_demand as impact_demand
+from frames.checks.impacts import repeated_motion as repeated_motion
+from frames.checks.impacts import rim_engagement as rim_engagement
+from frames.checks.impacts import slips_of_events as slips_of_events
+from frames.checks.impacts import uplift_events as uplift_events
 from frames.checks.isolation import IsolationSystem as IsolationSystem
+from frames.checks.limits import DesignLimits as DesignLimits
 from frames.checks.nch2745 import NCh2745 as NCh2745
 from frames.checks.outcome import EquivalentLinear as EquivalentLinear
+from frames.checks.overlap import overlap_area as overlap_area
 from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.single_run import event_checks as event_checks
+from frames.checks.single_run import impact_checks as impact_checks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
@@ -73,6 +90,7 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 __all__ = [
     "ASCE7",
     "EN1998",
+    "HISTORY_RULES",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -81,6 +99,7 @@ __all__ = [
     "Check",
     "CheckError",
     "Checks",
+    "DesignLimits",
     "EquivalentLinear",
     "Features",
     "Finding",
@@ -89,6 +108,7 @@ __all__ = [
     "GravityState",
     "GroundMotion",
     "HertzStop",
+    "HistoryRules",
     "IsolationSystem",
     "ModalDamping",
     "ModelCheck",
@@ -113,24 +133,37 @@ __all__ = [
     "audit",
     "audit_report",
     "bounded",
+    "bounded_histories",
+    "capacity_checks",
+    "device_checks",
     "drift_by_line",
     "ductility",
     "energy_error",
+    "engagement_checks",
     "envelope",
     "equivalent_linear",
+    "event_checks",
     "floor_acceleration",
     "floor_spectrum",
     "force_tables",
     "gravity",
+    "history_checks",
+    "history_demands",
+    "impact_checks",
+    "impact_demand",
     "isolator_combinations",
     "load",
     "lumped_mass",
     "member_forces",
     "modes",
     "moment_frame",
+    "overlap_area",
     "peaks",
+    "repeated_motion",
+    "rim_engagement",
     "save",
     "shear_building",
+    "slips_of_events",
     "storey_drift",
     "storey_ductility",
     "storey_forces",
@@ -138,6 +171,7 @@ __all__ = [
     "support_reactions",
     "time_histories",
     "time_history",
+    "uplift_events",
     "uplift_gap",
     "write_tables",
 ]

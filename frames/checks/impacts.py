@@ -145,7 +145,7 @@ def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of the events one after the other, such as under `repeated`.
+        Of a time history of the events one after the other, such as under `repeated_motion`.
     ends : tuple of float
         Times at which the events end, pauses included [s], rising.
 
@@ -185,7 +185,7 @@ def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def repeated(
+def repeated_motion(
     motion: GroundMotion, times: int, pause: float
 ) -> tuple[GroundMotion, tuple[float, ...]]:
     """Return a motion several times in a row, with a pause after each.
@@ -218,7 +218,7 @@ def repeated(
     --------
     >>> from frames import GroundMotion
     >>> pulse = GroundMotion(x=[0.0, 1.0, -1.0, 0.0], dt=0.5, name="pulse")
-    >>> motion, ends = repeated(pulse, 2, pause=2.0)
+    >>> motion, ends = repeated_motion(pulse, 2, pause=2.0)
     >>> motion.x.tolist(), ends
     ([0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0], (4.0, 7.5))
     """

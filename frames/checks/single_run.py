@@ -104,7 +104,7 @@ def event_checks(
     Parameters
     ----------
     data : xarray.Dataset
-        Of a `time_history` under `repeated` motions, or other motions in a row.
+        Of a `time_history` under `repeated_motion` motions, or other motions in a row.
     frame : Frame
         The structure as it was analysed.
     ends : tuple of float
