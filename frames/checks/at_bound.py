@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from frames._errors import CheckError
 from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.capacity import engagement_checks
@@ -130,7 +132,7 @@ class AtBound:
         found = []
         if not self.rules.uplift_allowed:
             t = Trace()
-            lasts = float(reached(self.data, "time_lifted").max())
+            lasts = float(np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf).max())
             t.given("t_up", lasts, "s", note="longest of a bearing in a run")
             t.given("t_allowed", 0.0, "s")
             judge = Judge(t, self.bound)
@@ -143,21 +145,19 @@ class AtBound:
         return found
 
     def _base_shear(self) -> list[Check]:
-        limit = self.limits.base_shear
+        limit, least = self.limits.base_shear, self._least("V_b_dyn")
         if limit is None:
             return []
 
         def fill(values: FloatArray) -> Trace:
             t = Trace()
             self._suite.enter(t, "V", values, "N")
-            t.given(
-                "V_least", self._least("V_b_dyn"), "N", note="of the equivalent-linear analysis"
-            )
+            t.given("V_least", least, "N", note=_LEAST if least > 0.0 else "no least one")
             self._suite.form(t, "V_d", "max(V, V_least)", "N")
             return t
 
-        return self._worst(self.rules.force_clause, "base shear", "base_shear", "V_d", "N", limit,
-                           fill=fill)  # fmt: skip
+        clause = self.rules.force_clause
+        return self._worst(clause, "base shear", "base_shear", "V_d", "N", limit, fill=fill)
 
     def _drift(self) -> list[Check]:
         limit = self.rules.drift if self.limits.drift is None else self.limits.drift

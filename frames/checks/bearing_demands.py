@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from frames._errors import CheckError
 from frames.checks.bearing_numbers import NO_CODE, enter_bearing
 from frames.checks.check import CONFIRMED, Bound, Check
-from frames.checks.overlap import pressure
+from frames.checks.overlap import liner_pressure, pressure
 from frames.checks.suite import names_of, reached
 from frames.checks.trace import Trace
 from frames.checks.worst import Calculation, WorstOf
@@ -114,9 +114,17 @@ class BearingDemands:
                 t = enter_bearing(bearing, None)
                 t("U_max", "U_cap + s_lim", "m", shown="mm")
             self.suite.enter(t, "D", values[:, k], "m", "mm")
-            t.given("gamma_x", factor)
-            t.given("D_least", least, "m", shown="mm", note="of the equivalent-linear analysis")
-            self.suite.form(t, "D_d", "max(gamma_x * D, D_least)", "m", "mm")
+            formula = "D"
+            if factor > 1.0:
+                t.given("gamma_x", factor)
+                formula = "gamma_x * D"
+            if least > 0.0:
+                note = "least one, of the equivalent-linear analysis"
+                t.given("D_least", least, "m", shown="mm", note=note)
+                formula = f"max({formula}, D_least)"
+            if formula == "D":
+                return Calculation(t, "D", "U_max")
+            self.suite.form(t, "D_d", formula, "m", "mm")
             return Calculation(t, "D_d", "U_max")
 
         places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
@@ -158,24 +166,42 @@ class BearingDemands:
         if limits.displacement_left is not None:
             name, limit = "displacement_left", limits.displacement_left
             found += self._against("displacement left", name, "D_left", limit, "m", "mm")
-        if limits.interface_pressure is not None:
-            found += self._pressure("pressure on the sliders' overlap", limits.interface_pressure)
-        return found
+        if limits.axial_force is not None:
+            title = "largest axial force"
+            found += self._against(title, "axial_force", "N", limits.axial_force, "N")
+        title = "pressure on the sliders' overlap"
+        found += self._pressure(title, limits.interface_pressure, self._on_overlap)
+        title = "pressure on the liner around its resultant"
+        return found + self._pressure(title, limits.liner_pressure, self._on_liners)
 
-    def _pressure(self, title: str, limit: float) -> list[Check]:
+    def _pressure(
+        self, title: str, limit: float | None, of: Callable[[Trace], None]
+    ) -> list[Check]:
+        if limit is None:
+            return []
         load, slip = reached(self.data, "axial_force"), reached(self.data, "slip")
 
         def fill(k: int) -> Calculation:
-            t = Trace()
-            t.given("a", self._at(k).slider_radius, "m", shown="mm")
+            t = enter_bearing(self._at(k), None)
             t.given("p_lim", limit, "Pa", note="as given")
             self.suite.enter(t, "N", load[:, k], "N")
             self.suite.enter(t, "s", slip[:, k], "m", "mm")
-            pressure(t, "p", "N", "s")
+            of(t)
             return Calculation(t, "p", "p_lim")
 
         note = "largest load and largest slip taken together"
         return self._worst("no code: liner's maker", title, fill, self._lir, note=note)
+
+    @staticmethod
+    def _on_overlap(t: Trace) -> None:
+        pressure(t, "p", "N", "s")
+
+    @staticmethod
+    def _on_liners(t: Trace) -> None:
+        if math.isfinite(max(liner_pressure(t, k, "N") for k in (1, 2))):
+            t("p", "max(p_1, p_2)", "Pa")
+        else:
+            t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
 
     def _against(
         self, title: str, name: str, symbol: str, limit: float, unit: str, shown: str = ""

@@ -226,6 +226,9 @@ def _refuse_unlike(data: xr.Dataset, bound: str) -> None:
     if data.attrs.get("status", "ok") != "ok":
         msg = f"{what}: the batch was interrupted, runs are missing: run it again"
         raise CheckError(msg)
+    if "reached_uplifts" not in data.variables:
+        msg = f"{what}: none could begin: {data['message'].to_numpy()[0]}"
+        raise CheckError(msg)
     models = sorted({str(name) for name in data["model"].to_numpy()})
     if len(models) != 1:
         msg = f"{what}: there are {len(models)} structures, {', '.join(models)}: give one a bound"

@@ -13,7 +13,8 @@ from lir_element.door import require_between, require_positive
 class DesignLimits:
     """What a bearing and what stands on it may be asked for, by the engineer who designs them.
 
-    Where a limit is None, what it bounds is not checked, unless it says otherwise.
+    Where a limit is None, what it bounds is not checked, unless it says otherwise. `margin` and
+    `rims_together` are of `device_checks` alone.
 
     Parameters
     ----------
@@ -36,8 +37,8 @@ class DesignLimits:
         Interface slip that may stay after an event [m]; that which holds, s*, if None.
     uplift_gap : float, optional
         Gap that a bearing may open [m].
-    landing_force : float, optional
-        Axial force that a bearing resists where it lands [N].
+    axial_force : float, optional
+        Axial force that a bearing resists, landings included [N].
     floor_acceleration : float, optional
         Largest acceleration of a floor in plan [m/s2].
     drift : float, optional
@@ -62,7 +63,7 @@ class DesignLimits:
     lateral_force: float | None = None
     slip_left: float | None = None
     uplift_gap: float | None = None
-    landing_force: float | None = None
+    axial_force: float | None = None
     floor_acceleration: float | None = None
     drift: float | None = None
     base_shear: float | None = None

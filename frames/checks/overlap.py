@@ -60,8 +60,35 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
         The pressure [Pa], infinite where nothing overlaps.
     """
     area, s = f"A_{symbol}", t.value(offset)
+    if math.isinf(s):
+        return t.given(symbol, math.inf, "Pa", note=t[offset].note)
     if s >= 2.0 * t.value("a"):
         return t.given(symbol, math.inf, "Pa", note=f"{offset} = {s:.4g} m: nothing overlaps")
     t(area, f"2 * a**2 * acos({offset} / (2 * a)) - {offset} / 2 * sqrt(4 * a**2 - {offset}**2)",
       "m2", note="circles that overlap")  # fmt: skip
     return t(symbol, f"{load} / {area}", "Pa")
+
+
+def liner_pressure(t: Trace, k: int, load: str) -> float:
+    """Enter the mean pressure on the part of a liner that is centred on its resultant, rims free.
+
+    Parameters
+    ----------
+    t : Trace
+        The calculation of `enter_bearing`, with the slip `s`.
+    k : int
+        Surface: 1 below, 2 above.
+    load : str
+        Symbol of the load [N].
+
+    Returns
+    -------
+    float
+        The pressure ``p_k`` [Pa], infinite where the resultant lies outside.
+    """
+    if not math.isfinite(t.value("s")):
+        return t.given(f"p_{k}", math.inf, "Pa", note=t["s"].note)
+    note = "twice the offset of the centre of pressure, rims free"
+    formula, source = f"2 * abs(R_{k} * (s / L + mu_e - mu_{k}_U))", "docs/theory.md, section 2"
+    t(f"c_{k}", formula, "m", shown="mm", source=source, note=note)
+    return pressure(t, f"p_{k}", load, f"c_{k}")

@@ -181,7 +181,7 @@ def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> C
 def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
     wanted = {
         "gap": ("gap of uplift", "g", "m", "mm", limits.uplift_gap),
-        "landing_force": ("force of landing", "N_land", "N", "kN", limits.landing_force),
+        "landing_force": ("force of landing", "N_land", "N", "kN", limits.axial_force),
     }
     if all(limit is None for *_, limit in wanted.values()):
         return []

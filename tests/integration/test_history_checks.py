@@ -1,0 +1,241 @@
+"""Checks of time histories: by the numbers of the runs, taken by other means."""
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from frames import (
+    HISTORY_RULES,
+    AuditWarning,
+    Check,
+    CheckError,
+    Checks,
+    DesignLimits,
+    EquivalentLinear,
+    Frame,
+    GroundMotion,
+    PropertyBounds,
+    PropertyFactors,
+    Recording,
+    Trace,
+    bounded,
+    bounded_histories,
+    history_checks,
+    history_demands,
+    shear_building,
+    time_histories,
+    time_history,
+)
+from frames.checks.outcome import BoundResult, Symbols
+from lir_element import AnalysisWarning, LIRBearing, VelocityFriction
+
+BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
+SLIDING = (0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5)
+"""Amplitudes of motions that all runs survive [m/s2]; the larger ones meet the rims."""
+
+
+def quietly(analyse: Callable[..., Any], *given: Any, **options: Any) -> Any:
+    """Analyse without the warnings of runs that stop or are doubtful."""
+    with warnings.catch_warnings():
+        for kind in (AnalysisWarning, AuditWarning):
+            warnings.simplefilter("ignore", kind)
+        return analyse(*given, **options)
+
+
+def pulse(size: float) -> GroundMotion:
+    """A full sine of 2 s along x, 40 % of it along y, and 4 s of rest."""
+    time = np.arange(0.0, 6.0, 0.01)
+    wave = size * np.sin(math.pi * time) * (time < 2.0)
+    return GroundMotion(x=wave, y=0.4 * wave, dt=0.01, name=f"pulse {size:g}")
+
+
+@pytest.fixture(scope="module")
+def bearing() -> LIRBearing:
+    return LIRBearing(
+        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.2,
+        friction=VelocityFriction(0.065, 0.0325, 15.0), interface_friction=0.14,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def frame(bearing: LIRBearing) -> Frame:
+    return shear_building(bearing, [60e3, 60e3], 60e6, base_mass=60e3)
+
+
+@pytest.fixture(scope="module")
+def seven(frame: Frame) -> xr.Dataset:
+    return quietly(time_histories, frame, [pulse(size) for size in SLIDING])
+
+
+@pytest.fixture(scope="module")
+def with_failure(frame: Frame) -> xr.Dataset:
+    """Seven runs; in the last one the sliders' overlap ends."""
+    data = quietly(time_histories, frame, [pulse(size) for size in (*SLIDING[:-1], 4.0)])
+    assert data["status"].to_numpy().tolist() == ["ok"] * 6 + ["slip_exceeded"]
+    return data
+
+
+def one(checks: Checks, title: str) -> Check:
+    found = [check for check in checks if check.title == title]
+    assert len(found) == 1, title
+    return found[0]
+
+
+def test_from_seven_motions_on_the_mean_counts_below_the_largest(
+    frame: Frame, seven: xr.Dataset
+) -> None:
+    assert (seven["status"] == "ok").all()
+    moved = seven["reached_displacement"].to_numpy()[:, 0]
+    drift = seven["reached_drift"].to_numpy()
+    asce = history_checks(seven, frame, "ASCE 7-22")
+    assert asce.passed
+    assert one(asce, "isolator displacement").demand == pytest.approx(moved.mean(), rel=1e-12)
+    theta = one(asce, "storey drift ratio")
+    assert (theta.demand, theta.limit) == pytest.approx((drift.mean(axis=0).max(), 0.02))
+    assert theta.subject == ("floor-1", "floor-2")[int(drift.mean(axis=0).argmax())]
+    assert one(asce, "slip left").demand == pytest.approx(
+        seven["reached_slip_left"].to_numpy().mean(), rel=1e-12
+    )
+    few = seven.isel(run=[0, 3, 5])
+    chile = history_checks(few, frame, "NCh2745")
+    assert one(chile, "isolator displacement").demand == pytest.approx(moved[5], rel=1e-12)
+    assert one(chile, "storey drift ratio").limit == 0.003
+    europe = history_checks(few, frame, "EN 1998-1")
+    assert one(europe, "isolator displacement").demand == pytest.approx(1.2 * moved[5])
+    assert not [check for check in europe if "drift" in check.title]
+    refused = history_checks(few, frame, "ASCE 7-22")
+    assert [check.title for check in refused.failed] == ["number of motions"]
+
+
+def test_displacement_is_held_against_rims_and_the_slip_that_holds(
+    frame: Frame, bearing: LIRBearing, seven: xr.Dataset
+) -> None:
+    check = one(history_checks(seven, frame, "ASCE 7-22"), "isolator displacement")
+    slip = min(bearing.slip_stability, 0.15)
+    assert check.limit == pytest.approx(0.2 + slip, rel=1e-12)
+    rims = history_checks(seven, frame, "ASCE 7-22").of("17.2.4.5")
+    assert [rim.demand for rim in rims] == pytest.approx([0.2 / check.demand] * 2)
+    fused = seven.assign(reached_displacement=0.0 * seven["reached_displacement"] + 0.21)
+    plain = frame.with_bearings(bearing.as_dcfp())
+    assert not one(history_checks(fused, plain, "NCh2745"), "isolator displacement").passed
+
+
+def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr.Dataset) -> None:
+    limits = DesignLimits(base_shear=1e9, floor_acceleration=1e9, rim_strength=1e12,
+                          interface_pressure=1e12)  # fmt: skip
+    for code in ("ASCE 7-22", "EN 1998-1", "NCh2745"):
+        checks = history_checks(with_failure, frame, code, limits=limits)
+        assert [c.title for c in checks if c.passed and c.title != "time lifted off"] == [
+            "number of motions"
+        ]
+        failed = one(checks, "runs that failed")
+        assert "pulse 4: slip_exceeded at" in failed.note
+        assert "audit of pulse" in failed.note
+        for check in checks.failed[1:]:
+            assert check.demand == math.inf
+            assert "1 of 7 runs failed (pulse 4: slip_exceeded" in check.note
+        assert history_demands(with_failure, code).loc["isolator displacement", "envelope"] == (
+            math.inf
+        )
+
+
+def test_one_unacceptable_run_may_be_allowed_at_a_price(
+    frame: Frame, with_failure: xr.Dataset
+) -> None:
+    """Mean of the six others, but at least 1.2 times the median of all, the fourth of seven."""
+    rules = replace(HISTORY_RULES["ASCE 7-22"], unacceptable_allowed=1)
+    check = one(history_checks(with_failure, frame, rules), "isolator displacement")
+    moved = np.sort(with_failure["reached_displacement"].to_numpy()[:6, 0])
+    assert check.demand == pytest.approx(max(moved.mean(), 1.2 * moved[3]), rel=1e-12)
+    few = with_failure.isel(run=[0, 1, 6])
+    assert not one(history_checks(few, frame, rules), "isolator displacement").passed
+
+
+def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(
+    frame: Frame, seven: xr.Dataset
+) -> None:
+    lifted = seven["reached_uplifts"].copy()
+    lifted[2] = 3.0
+    gone = seven.assign(
+        reached_uplifts=lifted, reached_time_lifted=seven["reached_time_lifted"] + 0.02
+    )
+    checks = history_checks(gone, frame, "EN 1998-1")
+    assert "pulse 1.1: a bearing lifted off" in one(checks, "runs that failed").note
+    assert one(checks, "time lifted off").demand == pytest.approx(0.02)
+    assert one(checks, "isolator displacement").demand == math.inf
+    assert history_checks(gone, frame, "ASCE 7-22").passed
+    assert history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings", "envelope"] == 3.0
+
+
+def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
+    motions = [pulse(1.0), pulse(1.4)]
+    scales = {"pulse 1": 1.1, "pulse 1.4": 0.9}
+    runs = quietly(bounded_histories, frame, motions, BOUNDS, scales=scales)
+    assert list(runs) == ["lower", "nominal", "upper"]
+    for bound, data in runs.items():
+        model = bounded(frame, bound, BOUNDS)
+        alone = quietly(time_history, model, motions[0].scaled(1.1), recording=Recording.peaks())
+        assert data["motion"].to_numpy().tolist() == ["pulse 1", "pulse 1.4"]
+        assert float(data["reached_displacement"][0, 0]) == float(alone["reached_displacement"][0])
+    checks = history_checks(runs, frame, "NCh2745", bounds=BOUNDS)
+    limits = {c.bound: c.limit for c in checks if c.title == "slip over the one that holds"}
+    for bound, factor in {"lower": 0.8, "nominal": 1.0, "upper": 1.2}.items():
+        held = factor * frame.bearings["bearing"].bearing.slip_stability
+        assert limits[bound] == pytest.approx(held, rel=1e-12)
+    table = history_demands(runs, "NCh2745")
+    each = [float(data["reached_displacement"].max()) for data in runs.values()]
+    row = table.loc["isolator displacement"]
+    assert row[["lower", "nominal", "upper"]].tolist() == pytest.approx(each)
+    assert (row["envelope"], row["where"]) == (pytest.approx(max(each)), "bearing")
+    with pytest.raises(CheckError, match=r"no factor for the motion 'pulse 1\.4'"):
+        bounded_histories(frame, motions, BOUNDS, scales={"pulse 1": 1.0})
+
+
+def equivalent(displacement: float, shear: float) -> EquivalentLinear:
+    t = Trace()
+    t.given("D_TM_dyn", displacement, "m")
+    t.given("V_b_dyn", shear, "N")
+    symbols = Symbols(*("D_TM_dyn",) * 8)
+    bound = BoundResult("lower", t, symbols, (), (), (), Checks())
+    return EquivalentLinear("ASCE 7-22", {"lower": bound}, Checks())
+
+
+def test_minima_raise_displacement_shear_and_drift(frame: Frame, seven: xr.Dataset) -> None:
+    limits, runs = DesignLimits(base_shear=1e9), {"lower": seven}
+    plain = history_checks(runs, frame, "ASCE 7-22", limits=limits)
+    shear = float(seven["reached_base_shear"].mean())
+    minima = equivalent(0.3, 1.25 * shear)
+    raised = history_checks(runs, frame, "ASCE 7-22", limits=limits, equivalent=minima)
+    assert one(raised, "isolator displacement").demand == 0.3
+    assert one(raised, "base shear").demand == pytest.approx(1.25 * shear)
+    ratio = one(raised, "storey drift ratio").demand / one(plain, "storey drift ratio").demand
+    assert ratio == pytest.approx(1.25)
+    below = equivalent(0.01, 0.5 * shear)
+    same = history_checks(runs, frame, "ASCE 7-22", limits=limits, equivalent=below)
+    assert [c.demand for c in same] == [c.demand for c in plain]
+    with pytest.raises(CheckError, match="no minima"):
+        history_checks(runs, frame, "NCh2745", equivalent=minima)
+
+
+def test_runs_that_do_not_fit_are_refused(frame: Frame, seven: xr.Dataset) -> None:
+    twice = seven.isel(run=[0, 0, 1])
+    with pytest.raises(CheckError, match="there twice"):
+        history_checks(twice, frame, "NCh2745")
+    with pytest.raises(CheckError, match="no dimension 'run'"):
+        history_checks(xr.Dataset(), frame, "NCh2745")
+    with pytest.raises(CheckError, match="interrupted"):
+        history_checks(seven.assign_attrs(status="interrupted"), frame, "NCh2745")
+    with pytest.raises(CheckError, match="code = 'UBC'"):
+        history_checks(seven, frame, "UBC")  # type: ignore[arg-type]
+    named = shear_building(frame.bearings["bearing"].bearing, 1e5, 1e8, plan=(1, 6.0))
+    with pytest.raises(CheckError, match="alone"):
+        history_checks(seven, named, "NCh2745")
+    models = seven.assign_coords(model=("run", ["a"] * 3 + ["b"] * 4))
+    with pytest.raises(CheckError, match="2 structures"):
+        history_checks(models, frame, "NCh2745")

@@ -1,0 +1,205 @@
+"""What impacts and landings ask of bearings and structure, against the runs' own histories."""
+
+import math
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from frames import (
+    AuditWarning,
+    Check,
+    CheckError,
+    Checks,
+    DesignLimits,
+    Frame,
+    GroundMotion,
+    Recording,
+    device_checks,
+    event_checks,
+    floor_acceleration,
+    impact_checks,
+    impact_demand,
+    lumped_mass,
+    overlap_area,
+    peaks,
+    repeated_motion,
+    rim_engagement,
+    shear_building,
+    slips_of_events,
+    storey_drift,
+    time_history,
+    uplift_events,
+)
+from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+
+
+def quietly(analyse: Callable[..., Any], *given: Any, **options: Any) -> Any:
+    """Analyse without the warnings of runs that stop or are doubtful."""
+    with warnings.catch_warnings():
+        for kind in (AnalysisWarning, AuditWarning):
+            warnings.simplefilter("ignore", kind)
+        return analyse(*given, **options)
+
+
+def device(**other: Any) -> LIRBearing:
+    given = {"capacity": 0.2} | other if "rims" not in other else other
+    return LIRBearing(
+        radius=1.185, slider_height=0.12, slider_radius=0.15,
+        friction=CoulombFriction(0.06), interface_friction=0.14, **given,
+    )  # fmt: skip
+
+
+def pulse(size: float, rest: float = 4.0) -> GroundMotion:
+    time = np.arange(0.0, 2.0 + rest, 0.01)
+    return GroundMotion(x=size * np.sin(math.pi * time) * (time < 2.0), dt=0.01, name="pulse")
+
+
+@pytest.fixture(scope="module")
+def frame() -> Frame:
+    return shear_building(device(), [60e3, 60e3], 60e6, base_mass=60e3)
+
+
+@pytest.fixture(scope="module")
+def run(frame: Frame) -> xr.Dataset:
+    data: xr.Dataset = quietly(time_history, frame, pulse(1.5))
+    assert data.attrs["status"] == "ok"
+    return data
+
+
+def one(checks: Checks, title: str) -> Check:
+    found = [check for check in checks if check.title == title]
+    assert len(found) == 1, title
+    return found[0]
+
+
+def test_impacts_are_compared_with_what_was_before(run: xr.Dataset) -> None:
+    met = run["rim_force"].max(("bearing", "surface")).to_numpy() > 0.0
+    time = run["time"].to_numpy()
+    first = int(np.argmax(met))
+    assert 0.2 < time[first] < 3.0
+    near = np.array([bool(met[(time >= t - 0.3 - 1e-9) & (time <= t)].any()) for t in time])
+    shear = np.hypot(*run["base_shear"].to_numpy()[:, :2].T)
+    drift = np.hypot(*np.moveaxis(storey_drift(run).to_numpy(), -1, 0))
+    floors = np.hypot(*np.moveaxis(floor_acceleration(run).to_numpy(), -1, 0)[:2])
+    table = impact_demand(run)
+    histories = {"base shear": shear, "drift of floor-1": drift[:, 0],
+                 "acceleration of floor-2": floors[:, 2]}  # fmt: skip
+    for name, history in histories.items():
+        row = table.loc[name]
+        assert row["before"] == history[:first].max()
+        assert row["at_impact"] == history[near].max()
+        assert row["ratio"] == row["at_impact"] / row["before"] > 1.0
+
+
+def test_rims_engage_where_geometry_has_them(frame: Frame, run: xr.Dataset) -> None:
+    table = rim_engagement(run)
+    assert table["surface"].tolist() == ["bottom", "top"]
+    assert table["displacement"].to_numpy() == pytest.approx([0.2, 0.2], rel=0.02)
+    assert table["rim_force"].max() == peaks(run).loc["rim force", "value"]
+    checks = impact_checks(run, frame, total_displacement=0.4).of("17.2.4.5")
+    assert [c.passed for c in checks] == [False, False]
+    assert checks[0].demand == pytest.approx(table["displacement"][0] / 0.4)
+
+
+def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None:
+    table = peaks(run)["value"]
+    limits = DesignLimits(
+        rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6, base_shear=1e6,
+        drift=0.01, floor_acceleration=10.0, displacement_left=0.2, lateral_force=1e6,
+    )  # fmt: skip
+    checks = impact_checks(run, frame, limits=limits)
+    assert checks.passed
+    expected = {
+        "isolator displacement": table["bearing displacement"],
+        "slip over the overlap": table["interface slip"],
+        "slip left": table["interface slip left"],
+        "rim force": table["rim force"],
+        "lateral force of a bearing": table["bearing force in plan"],
+        "displacement left": table["bearing displacement left"],
+        "pressure on the sliders' overlap": table["axial force"]
+        / overlap_area(0.15, table["interface slip"]),
+        "pressure on the liner around its resultant": table["axial force"]
+        / overlap_area(0.15, 2.0 * 1.185 * (table["interface slip"] + 0.06 * 0.12) / 2.25),
+    }
+    for title, value in expected.items():
+        assert one(checks, title).demand == pytest.approx(value, rel=1e-12), title
+    assert table["interface slip"] > 0.01
+    part = quietly(time_history, frame, pulse(1.5), recording=Recording.peaks())
+    some = DesignLimits(rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6,
+                        lateral_force=1e6)  # fmt: skip
+    again = {c.title: c.demand for c in impact_checks(part, frame, limits=some)}
+    assert again.items() <= {c.title: c.demand for c in checks}.items()
+    with pytest.raises(ValueError, match="first and last step only"):
+        impact_checks(part, frame, limits=limits)
+
+
+def test_a_failed_run_has_no_values(frame: Frame) -> None:
+    data = quietly(time_history, frame, pulse(4.0))
+    checks = impact_checks(data, frame)
+    assert checks[0].title == "run is complete"
+    assert "slipped further" in checks[0].note
+    assert len(checks.failed) == len(checks) > 3
+    assert all(c.demand == math.inf and "slipped further" in c.note for c in checks[1:])
+
+
+def test_resultant_on_one_rim_is_where_the_formula_has_it() -> None:
+    """Bottom rim alone: the upper slider's axis is (R - h / 2) mu_h - mu R off, that is s* / 2."""
+    bearing = device(rims=(0.1053, 0.15))
+    data = quietly(time_history, lumped_mass(bearing, 2e5), pulse(1.5))
+    slip = data["interface_slip_size"].to_numpy()[:, 0]
+    k = int(np.argmax(slip > 0.2e-3))
+    assert slip[k] < 2e-3
+    checks = device_checks(bearing, (2e6, 2e6), slip=slip[k])
+    share = float(data["interface_eccentricity"][k, 0]) / 0.15
+    assert one(checks, "resultant between the sliders").demand == pytest.approx(share, rel=1e-3)
+
+
+def test_events_in_a_row_are_followed_one_by_one(frame: Frame, run: xr.Dataset) -> None:
+    motion, ends = repeated_motion(pulse(1.5), 2, pause=3.0)
+    assert motion.duration == pytest.approx(2 * (pulse(1.5).duration + 3.0) + 0.01)
+    assert ends == pytest.approx((9.0, 17.99))
+    data = quietly(time_history, frame, motion)
+    assert data.attrs["status"] == "ok"
+    table = slips_of_events(data, ends)
+    slip, time = data["interface_slip_size"].to_numpy()[:, 0], data["time"].to_numpy()
+    assert table["slip"][0] == pytest.approx(float(peaks(run).loc["interface slip", "value"]))
+    assert table["slip"].tolist() == [slip[time <= 9.0].max(), slip[time >= 9.0].max()]
+    assert table["slip_left"].tolist() == [slip[np.argmin(np.abs(time - 9.0))], slip[-1]]
+    assert table["slip"][1] > 1.2 * table["slip"][0]
+    checks = event_checks(data, frame, ends, limits=DesignLimits(slip_left=0.02))
+    assert one(checks, "slip left, event 1").limit == 0.02
+    assert one(checks, "slip, event 2").demand == table["slip"][1]
+    assert one(checks, "slip, event 2").limit == 0.15 < device().slip_stability
+    longer = slips_of_events(data, (9.0, 17.99, 30.0))
+    assert longer["event"].tolist() == [1, 2]
+    with pytest.raises(CheckError, match="rising"):
+        slips_of_events(data, (9.0, 5.0))
+
+
+def test_a_mass_thrown_up_flies_and_lands() -> None:
+    """The ground falls away with 1.5 g for 0.1 s and goes on: the mass falls freely."""
+    time = np.arange(0.0, 1.5, 0.002)
+    z = np.where(time < 0.1, -1.5, 0.0) + np.where((time >= 0.5) & (time < 0.6), 1.5, 0.0)
+    frame = lumped_mass(device(), 2e5)
+    data = quietly(time_history, frame, GroundMotion(z=9.80665 * z, dt=0.002, name="drop"))
+    events = uplift_events(data)
+    row = peaks(data)["value"]
+    assert len(events) == row["uplifts, all bearings"] > 0
+    assert events["duration"].sum() == pytest.approx(row["time lifted"], abs=0.01)
+    assert events["gap"].max() == row["gap of uplift"]
+    # apart by 0.5 g for 0.1 s, then slower for 0.05 s, and down again; the contact's strain under
+    # the weight throws it up by some per cent more
+    first, gap = events.iloc[0], 9.80665 * (0.25 * 0.1**2 + 0.5 * 0.05**2)
+    assert first["gap"] == pytest.approx(1.05 * gap, rel=0.05)
+    flight = 0.15 + math.sqrt(2.0 * gap / 9.80665)
+    assert first["duration"] == pytest.approx(flight, abs=0.01)
+    assert events["landing_force"].max() == row["axial force"] > 2e6
+    limits = DesignLimits(uplift_gap=0.02, axial_force=60e6)
+    checks = impact_checks(data, frame, limits=limits)
+    assert not one(checks, "gap of uplift").passed
+    for title in ("force of landing", "largest axial force"):
+        assert one(checks, title).demand == row["axial force"]
