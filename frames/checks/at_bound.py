@@ -152,12 +152,13 @@ class AtBound:
         def fill(values: FloatArray) -> Trace:
             t = Trace()
             self._suite.enter(t, "V", values, "N")
-            t.given("V_least", least, "N", note=_LEAST if least > 0.0 else "no least one")
-            self._suite.form(t, "V_d", "max(V, V_least)", "N")
+            if least > 0.0:
+                t.given("V_least", least, "N", note=_LEAST)
+                self._suite.form(t, "V_d", "max(V, V_least)", "N")
             return t
 
-        clause = self.rules.force_clause
-        return self._worst(clause, "base shear", "base_shear", "V_d", "N", limit, fill=fill)
+        clause, symbol = self.rules.force_clause, "V_d" if least > 0.0 else "V"
+        return self._worst(clause, "base shear", "base_shear", symbol, "N", limit, fill=fill)
 
     def _drift(self) -> list[Check]:
         limit = self.rules.drift if self.limits.drift is None else self.limits.drift
@@ -171,19 +172,15 @@ class AtBound:
             if least > 0.0:
                 self._suite.enter(t, "V", shear, "N")
                 t.given("V_least", least, "N", note=_LEAST)
-            factor = " * max(V_least / V, 1)" if least > 0.0 else ""
-            self._suite.form(t, "theta_d", f"theta{factor}", "-", "%")
+                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%")
             return t
 
         clause, title = self.rules.drift_clause, "storey drift ratio"
-        kinds = [name for name in ("drift", "line_drift") if f"reached_{name}" in self.data]
-        found = [
-            check
-            for kind in kinds
-            for check in self._worst(
-                clause, title, kind, "theta_d", "-", limit, shown="%", fill=fill
-            )
-        ]
+        symbol = "theta_d" if least > 0.0 else "theta"
+        found: list[Check] = []
+        for name in ("drift", "line_drift"):
+            if f"reached_{name}" in self.data:
+                found += self._worst(clause, title, name, symbol, "-", limit, shown="%", fill=fill)
         return [max(found, key=lambda check: check.ratio)] if found else []
 
     def _acceleration(self) -> list[Check]:
