@@ -66,7 +66,7 @@ def equivalent_linear(
     require_type("system", system, IsolationSystem, "an IsolationSystem")
     chosen = _code(spectrum) if code is None else code
     require_type("code", chosen, _CODES, "ASCE7(...), EN1998(...) or NCh2745(...)")
-    if spectrum.code not in chosen.spectra:
+    if not spectrum.code.startswith(chosen.spectra):
         msg = f"a spectrum of {spectrum.code!r} does not go with {chosen.name}: give one of its own"
         raise CheckError(msg)
     if superstructure is not None and superstructure.weight > system.seismic_weight:
@@ -89,8 +89,8 @@ def equivalent_linear(
 
 def _code(spectrum: DesignSpectrum) -> Code:
     for code in _CODES:
-        if spectrum.code in code.spectra:
+        if spectrum.code.startswith(code.spectra):
             return code()
-    names = ", ".join(name for code in _CODES for name in code.spectra)
+    names = ", ".join(code.spectra for code in _CODES)
     msg = f"a spectrum of {spectrum.code!r} has no equivalent-linear analysis: give one of {names}"
     raise CheckError(msg)

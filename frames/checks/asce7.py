@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from frames._errors import CheckError
 from frames.checks.check import Bound, Check, Checks
 from frames.checks.equivalent import Judge, enter_system, secant, settle
 from frames.checks.outcome import BoundResult, Symbols
@@ -83,7 +84,7 @@ class ASCE7:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "ASCE 7-22"
-    spectra: ClassVar[tuple[str, ...]] = ("asce7",)
+    spectra: ClassVar[str] = "ASCE 7"
 
     def analyse(
         self,
@@ -112,7 +113,16 @@ class ASCE7:
         -------
         BoundResult
             The analysis.
+
+        Raises
+        ------
+        CheckError
+            If the spectrum has no S_MS or S_M1, or no displacement is found.
         """
+        missing = [name for name in ("S_MS", "S_M1") if name not in spectrum.parameters]
+        if missing:
+            msg = f"the spectrum has no {' and '.join(missing)}: give one made by Spectrum.asce7"
+            raise CheckError(msg)
         s_m1 = spectrum.parameters["S_M1"]
 
         def step(displacement: float) -> Trace:

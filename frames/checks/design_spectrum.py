@@ -7,11 +7,11 @@ from typing import Protocol
 
 
 class DesignSpectrum(Protocol):
-    """A response spectrum of a standard."""
+    """A response spectrum of a standard, such as `Spectrum`."""
 
     @property
     def code(self) -> str:
-        """Its standard: "asce7", "en1998" or "nch2745"."""
+        """Its standard, as in "ASCE 7-22", "EN 1998-1" or "NCh2745"."""
         ...
 
     @property
@@ -19,10 +19,10 @@ class DesignSpectrum(Protocol):
         """Its parameters by symbol: S_MS and S_M1 in g for ASCE 7."""
         ...
 
-    def acceleration(self, T: float, damping: float = 0.05) -> float:  # noqa: N803
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
         """Return the spectral acceleration [m/s2] at a period [s] and damping ratio [-]."""
         ...
 
     def damping_factor(self, damping: float) -> float:
-        """Return the damping factor of the standard [-]: B that divides, or eta that multiplies."""
+        """Return B [-], by which the standard divides the spectrum of 5 % damping."""
         ...

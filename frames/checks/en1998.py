@@ -88,7 +88,7 @@ class EN1998:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "EN 1998"
-    spectra: ClassVar[tuple[str, ...]] = ("en1998",)
+    spectra: ClassVar[str] = "EN 1998"
 
     def analyse(
         self,
@@ -108,7 +108,7 @@ class EN1998:
             secant(t, "d_0", _SYMBOLS, "EN 1998-1 10.9.2; EN 15129 8.3")
             damping = t.value("xi_eff")
             factor = spectrum.damping_factor(damping)
-            t.looked_up("eta", factor, ["xi_eff"], source="EN 1998-1 (3.6)")
+            t.looked_up("eta", 1.0 / factor, ["xi_eff"], source="EN 1998-1 (3.6)")
             acceleration = spectrum.acceleration(t.value("T_eff"), damping)
             at, source = ["T_eff", "xi_eff"], "EN 1998-1 3.2.2.2"
             t.looked_up("S_e", float(acceleration), at, "m/s2", source=source)

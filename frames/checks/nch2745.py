@@ -69,7 +69,7 @@ class NCh2745:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "NCh2745"
-    spectra: ClassVar[tuple[str, ...]] = ("nch2745",)
+    spectra: ClassVar[str] = "NCh2745"
 
     def analyse(
         self,

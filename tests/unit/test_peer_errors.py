@@ -22,7 +22,7 @@ G = 9.81
 class Spectrum:
     """MCE_R with S_M1 = 0.9, S_MS = 1.5; the table's B_M between 10 and 20 %."""
 
-    code = "asce7"
+    code = "ASCE 7-22"
     parameters = {"S_M1": 0.9, "S_MS": 1.5}  # noqa: RUF012
 
     def damping_factor(self, damping: float) -> float:
