@@ -15,7 +15,7 @@ from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
 from frames.checks.equivalent import Judge
-from frames.checks.suite import audit_notes, names_of, reached, suite_of
+from frames.checks.suite import audit_notes, left_out_checks, names_of, reached, suite_of
 from frames.checks.trace import Trace
 from frames.checks.worst import Calculation, WorstOf
 
@@ -78,7 +78,9 @@ class AtBound:
             clause, rules.displacement_factor, self._least("D_TM_dyn"), TO_BE_CONFIRMED
         )
         return [
-            self._motions(), self._failed(), *moved, *self._engagement(moved), *bearings.slips(),
+            self._motions(), self._failed(),
+            *left_out_checks(self.data, list(map(str, self.data["doubts"].to_numpy())), self.bound),
+            *moved, *self._engagement(moved), *bearings.slips(),
             *bearings.forces(), *self._uplift(), *self._base_shear(), *self._drift(),
             *self._acceleration(),
         ]  # fmt: skip

@@ -60,6 +60,14 @@ def capacity_checks(
     ------
     CheckError
         If the slider is in one piece or has no rims, or a number is out of bounds.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> [round(check.ratio, 3) for check in capacity_checks(bearing, 0.2)]
+    [1.0, 1.0, 0.315, 0.787]
     """
     t = enter_bearing(bearing, bounds)
     enter_length(t, "D", displacement)

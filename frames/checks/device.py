@@ -72,6 +72,15 @@ def device_checks(
     interface, and at low speed where it relieves a rim. With one rim pressed alone the resultant
     is that of the first slip: as the interface slips on, the rim springs back, friction on the
     surfaces fades with it, and the offset grows; runs tell by how much (`impact_checks`).
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> checks = device_checks(bearing, (100e3, 150e3), slip=0.02)
+    >>> print(checks[2])
+    slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
     """
     limits = DesignLimits() if limits is None else limits
     least, most = _ordered(loads)

@@ -126,8 +126,8 @@ def history_checks(
     limits : DesignLimits, optional
         What bearings and structure may be asked for; its drift takes the place of the code's.
     equivalent : EquivalentLinear, optional
-        Of ASCE 7-22 with a superstructure: its minima are put under displacement and base shear,
-        and drifts grow as the base shear does.
+        Of ASCE 7-22 with a superstructure: at the bounds that it has, its minima are put under
+        displacement and base shear, and drifts grow as the base shear does.
 
     Returns
     -------

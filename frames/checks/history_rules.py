@@ -71,8 +71,8 @@ class HistoryRules:
 HISTORY_RULES = {
     "ASCE 7-22": HistoryRules(
         code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True, engagement=0.60,
-        has_minima=True, statistic_clause="17.3.3", displacement_clause="17.6.4.1",
-        drift_clause="17.6.4.4", force_clause="17.6.4.2",
+        has_minima=True, statistic_clause="17.3.3", displacement_clause="17.6.4",
+        drift_clause="17.6.4.4", force_clause="17.6.4",
     ),
     "EN 1998-1": HistoryRules(
         code="EN 1998-1", least=3, mean_from=7, displacement_factor=1.2,
@@ -81,7 +81,7 @@ HISTORY_RULES = {
     ),
     "NCh2745": HistoryRules(
         code="NCh2745", least=3, mean_from=7, drift=0.003, statistic_clause="8.4",
-        displacement_clause="8.5", drift_clause="8.8", force_clause="8.5",
+        displacement_clause="8", drift_clause="8.8", force_clause="8",
     ),
 }  # fmt: skip
 """Rules by code."""

@@ -11,7 +11,7 @@ from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
 from frames.checks.equivalent import Judge
 from frames.checks.impacts import impact_demand, rim_engagement, slips_of_events, uplift_events
 from frames.checks.limits import DesignLimits
-from frames.checks.suite import Suite
+from frames.checks.suite import Suite, left_out_checks
 from frames.checks.trace import Trace
 from frames.checks.worst import Calculation, WorstOf
 from frames.results.auditing import doubts_of
@@ -82,6 +82,7 @@ def impact_checks(
     suite = Suite(statistic="single", failed=(failed,), reason=reason)
     bearings = BearingDemands(data, suite, devices_of(data, frame), limits, bound, reason)
     found = [_complete(data, bound)]
+    found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
     found += bearings.displacement(f"{NO_CODE}, section 2")
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]

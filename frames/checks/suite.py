@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from frames.checks.check import CONFIRMED
+from frames.checks.equivalent import Judge
+from frames.checks.trace import Trace
 from frames.results.kept import REACHED
 from frames.results.reached import LEFT, QUANTITIES, TOTALS, largest, left, storeys_of_lines, total
 
@@ -15,8 +18,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
+    from frames.checks.check import Bound, Check
     from frames.checks.history_rules import HistoryRules
-    from frames.checks.trace import Trace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,3 +204,30 @@ def audit_notes(data: xr.Dataset) -> str:
     """Return what the audits of runs mark, by motion."""
     doubts = [str(value) for value in data["doubts"].to_numpy()]
     return "; ".join(f"audit of {motion_of(data, k)}: {d}" for k, d in enumerate(doubts) if d)
+
+
+def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[Check]:
+    """Return the check that nothing that runs left out mattered; none where they left out nothing.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs, or one.
+    doubts : list of str
+        What the audit of each marks.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings.
+
+    Returns
+    -------
+    list of Check
+        One at most.
+    """
+    features = str(data.attrs.get("features_left_out", "none"))
+    if features == "none":
+        return []
+    t = Trace()
+    t.given("n_spoilt", float(sum(" left out: " in d for d in doubts)), note="by their audits")
+    t.given("n_allowed", 0.0)
+    judge, title = Judge(t, bound, CONFIRMED), "runs in which what was left out mattered"
+    return [judge("no code: audit", title, "n_spoilt", "<=", "n_allowed", note=features)]

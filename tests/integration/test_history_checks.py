@@ -20,19 +20,20 @@ from frames import (
     EquivalentLinear,
     Frame,
     GroundMotion,
+    IsolationSystem,
     PropertyBounds,
     PropertyFactors,
     Recording,
-    Trace,
+    Superstructure,
     bounded,
     bounded_histories,
+    equivalent_linear,
     history_checks,
     history_demands,
     shear_building,
     time_histories,
     time_history,
 )
-from frames.checks.outcome import BoundResult, Symbols
 from lir_element import AnalysisWarning, LIRBearing, VelocityFriction
 
 BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
@@ -197,30 +198,47 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
         bounded_histories(frame, motions, BOUNDS, scales={"pulse 1": 1.0})
 
 
-def equivalent(displacement: float, shear: float) -> EquivalentLinear:
-    t = Trace()
-    t.given("D_TM_dyn", displacement, "m")
-    t.given("V_b_dyn", shear, "N")
-    symbols = Symbols(*("D_TM_dyn",) * 8)
-    bound = BoundResult("lower", t, symbols, (), (), (), Checks())
-    return EquivalentLinear("ASCE 7-22", {"lower": bound}, Checks())
+class Spectrum:
+    """S_M1 / T in g, over 1.5 for all damping."""
+
+    code = "ASCE 7-22"
+
+    def __init__(self, s_m1: float) -> None:
+        self.parameters = {"S_M1": s_m1, "S_MS": 1.5}
+
+    def damping_factor(self, damping: float) -> float:
+        return 1.5
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        return 9.80665 * self.parameters["S_M1"] / period / 1.5
+
+
+def equivalent(frame: Frame, s_m1: float) -> EquivalentLinear:
+    system = IsolationSystem.from_frame(frame, plan=(10.0, 10.0))
+    above, spectrum = Superstructure.from_frame(frame, R=4.0), Spectrum(s_m1)
+    return equivalent_linear(system, spectrum, bounds=BOUNDS, superstructure=above)
 
 
 def test_minima_raise_displacement_shear_and_drift(frame: Frame, seven: xr.Dataset) -> None:
     limits, runs = DesignLimits(base_shear=1e9), {"lower": seven}
-    plain = history_checks(runs, frame, "ASCE 7-22", limits=limits)
+    given = {"bounds": BOUNDS, "limits": limits}
+    plain = history_checks(runs, frame, "ASCE 7-22", **given)
+    strong = equivalent(frame, 1.0)
+    raised = history_checks(runs, frame, "ASCE 7-22", equivalent=strong, **given)
+    found = strong["lower"].trace
+    reduced = found.value("D_prime_M") / found.value("D_M")
+    least = 0.8 * strong["lower"].total_displacement * reduced
+    assert one(raised, "isolator displacement").demand == pytest.approx(least, rel=1e-12)
     shear = float(seven["reached_base_shear"].mean())
-    minima = equivalent(0.3, 1.25 * shear)
-    raised = history_checks(runs, frame, "ASCE 7-22", limits=limits, equivalent=minima)
-    assert one(raised, "isolator displacement").demand == 0.3
-    assert one(raised, "base shear").demand == pytest.approx(1.25 * shear)
+    factor = 0.9 * strong["lower"].base_shear / shear
+    assert factor > 1.1
+    assert one(raised, "base shear").demand == pytest.approx(factor * shear)
     ratio = one(raised, "storey drift ratio").demand / one(plain, "storey drift ratio").demand
-    assert ratio == pytest.approx(1.25)
-    below = equivalent(0.01, 0.5 * shear)
-    same = history_checks(runs, frame, "ASCE 7-22", limits=limits, equivalent=below)
-    assert [c.demand for c in same] == [c.demand for c in plain]
+    assert ratio == pytest.approx(factor)
+    weak = history_checks(runs, frame, "ASCE 7-22", equivalent=equivalent(frame, 0.3), **given)
+    assert [c.demand for c in weak] == [c.demand for c in plain]
     with pytest.raises(CheckError, match="no minima"):
-        history_checks(runs, frame, "NCh2745", equivalent=minima)
+        history_checks(runs, frame, "NCh2745", equivalent=strong, **given)
 
 
 def test_runs_that_do_not_fit_are_refused(frame: Frame, seven: xr.Dataset) -> None:

@@ -15,12 +15,14 @@ from frames import (
     CheckError,
     Checks,
     DesignLimits,
+    Features,
     Frame,
     GroundMotion,
     Recording,
     device_checks,
     event_checks,
     floor_acceleration,
+    history_checks,
     impact_checks,
     impact_demand,
     lumped_mass,
@@ -31,6 +33,7 @@ from frames import (
     shear_building,
     slips_of_events,
     storey_drift,
+    time_histories,
     time_history,
     uplift_events,
 )
@@ -144,6 +147,18 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert "slipped further" in checks[0].note
     assert len(checks.failed) == len(checks) > 3
     assert all(c.demand == math.inf and "slipped further" in c.note for c in checks[1:])
+
+
+def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Frame) -> None:
+    title = "runs in which what was left out mattered"
+    for size, passed in ((0.5, True), (1.5, False)):
+        out = Features.all().without("rims")
+        data = quietly(time_history, frame, pulse(size), features=out)
+        check = one(impact_checks(data, frame), title)
+        assert check.passed is passed
+        assert check.note == "rims"
+        runs = quietly(time_histories, frame, pulse(size), features=out)
+        assert one(history_checks(runs, frame, "NCh2745"), title).demand == check.demand
 
 
 def test_resultant_on_one_rim_is_where_the_formula_has_it() -> None:
