@@ -84,13 +84,14 @@ from frames.results.peaks import peaks as peaks
 from frames.results.peaks import summary as summary
 from frames.results.storage import load as load
 from frames.results.storage import save as save
+from frames.sizing.proposal import Design as Design
+from frames.sizing.proposal import design as design
+from frames.sizing.target import DesignTarget as DesignTarget
 from lir_element.device.features import Features as Features
 from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 
 __all__ = [
     "ASCE7",
-    "EN1998",
-    "HISTORY_RULES",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -99,7 +100,10 @@ __all__ = [
     "Check",
     "CheckError",
     "Checks",
+    "Design",
     "DesignLimits",
+    "DesignTarget",
+    "EN1998",
     "EquivalentLinear",
     "Features",
     "Finding",
@@ -107,6 +111,7 @@ __all__ = [
     "FrictionPendulum",
     "GravityState",
     "GroundMotion",
+    "HISTORY_RULES",
     "HertzStop",
     "HistoryRules",
     "IsolationSystem",
@@ -135,6 +140,7 @@ __all__ = [
     "bounded",
     "bounded_histories",
     "capacity_checks",
+    "design",
     "device_checks",
     "drift_by_line",
     "ductility",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -35,6 +36,7 @@ RESERVED = frozenset({"pi", *_ONE, *_MANY})
 """Names that formulas know by themselves."""
 
 
+@lru_cache(maxsize=1024)
 def parse(formula: str) -> ast.expr:
     """Return a formula as a tree.
 

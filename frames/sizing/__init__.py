@@ -1,0 +1,1 @@
+"""Bearings proposed for a structure: sizes from loads, spectrum and limits."""

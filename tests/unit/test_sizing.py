@@ -1,0 +1,214 @@
+"""Bearings proposed for a structure: one candidate by hand, groups of sizes, what is refused."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from frames import (
+    ASCE7,
+    CheckError,
+    DesignLimits,
+    DesignTarget,
+    IsolationSystem,
+    PropertyBounds,
+    PropertyFactors,
+    design,
+    device_checks,
+    equivalent_linear,
+    gravity,
+    shear_building,
+)
+from frames.sizing.candidate import rounded_up
+from frames.sizing.proposal import grouped
+from lir_element import CoulombFriction, LIRBearing
+
+G = 9.80665
+S_M1 = 0.45
+BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.4), PropertyFactors(0.9, 1.1))
+PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
+LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
+ANY = LIRBearing(
+    radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    friction=CoulombFriction(0.06), interface_friction=0.25,
+)  # fmt: skip
+SYSTEM = IsolationSystem(
+    bearings=(ANY,) * 6, positions=PLACES, loads=LOADS, plan=(14.0, 10.0),
+    combinations={"maximum": tuple(1.3 * load for load in LOADS), "minimum": (0.5e6,) * 6},
+)  # fmt: skip
+ONE = DesignTarget(radii=(2.0,), frictions=(0.05,))
+
+
+class Asce:
+    """S_M1 / T in g; table of B_M."""
+
+    code = "ASCE 7"
+    parameters = {"S_M1": S_M1, "S_MS": 0.9}  # noqa: RUF012
+
+    def damping_factor(self, damping: float) -> float:
+        table = [0.8, 1.0, 1.2, 1.5, 1.7, 1.9, 2.0]
+        return float(np.interp(100.0 * damping, [2, 5, 10, 20, 30, 40, 50], table))
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        return G * S_M1 / period / self.damping_factor(damping)
+
+
+def displacement(length: float, mu: float) -> float:
+    """D_M of a friction pendulum, by a solver of equations."""
+
+    def gap(d: float) -> float:
+        stiffness = 1.0 / length + mu / d  # over the weight
+        beta = 2.0 / math.pi * mu / (d * stiffness)
+        period = 2.0 * math.pi / math.sqrt(stiffness * G)
+        return d - G * S_M1 * period / (4.0 * math.pi**2 * Asce().damping_factor(beta))
+
+    return brentq(gap, 1e-3, 2.0, xtol=1e-14)
+
+
+def test_a_candidate_is_what_a_calculation_by_hand_gives() -> None:
+    found = design(SYSTEM, Asce(), bounds=BOUNDS, target=ONE)
+    bearing = found.bearings()[0]
+    a, h = bearing.slider_radius, bearing.slider_height
+    length = 4.0 - h
+    centre = displacement(length, 0.8 * 0.05 * 4.0 / length)
+    whole = found.chosen.analysis["lower"]
+    assert whole.displacement == pytest.approx(centre, rel=1e-9)
+    free = whole.total_displacement
+    assert bearing.lateral_capacity == pytest.approx(0.75 * free)
+    slip, friction = 0.25 * free, 1.4 * 0.05 * 4.0 / length
+    needed = max(1.2 * friction, friction + slip / length) / 0.9
+    assert 0.0 <= bearing.interface_friction - needed < 0.005
+    assert math.isclose(
+        bearing.interface_friction / 0.005, round(bearing.interface_friction / 0.005)
+    )
+    assert math.pi * a * a >= max(2.4e6 / 30e6, 1.3 * 2.4e6 / 60e6)
+    assert a >= slip
+    edge = 0.75 * free * 2.0 / length + a
+    assert h >= 2.0 * (2.0 - math.sqrt(4.0 - edge**2)) + 0.010
+    assert found.chosen.plan_diameter == pytest.approx(2.0 * (edge + 0.025))
+
+
+def test_the_slider_is_the_least_that_keeps_the_checks() -> None:
+    found = design(SYSTEM, Asce(), bounds=BOUNDS, target=ONE)
+    bearing, t = found.bearings()[0], found.chosen.trace
+    limits, slip = ONE.limits, t.value("s")
+    ours = device_checks(bearing, (0.5e6, 3.12e6), slip=slip, bounds=BOUNDS, limits=limits)
+    assert ours.passed
+    assert found.chosen.checks.passed
+    smaller = LIRBearing(
+        radius=2.0, slider_height=bearing.slider_height - 0.015,
+        slider_radius=bearing.slider_radius - 0.015, capacity=bearing.capacity,
+        friction=bearing.friction, interface_friction=bearing.interface_friction,
+    )  # fmt: skip
+    theirs = device_checks(smaller, (0.5e6, 3.12e6), slip=slip, bounds=BOUNDS, limits=limits)
+    assert not theirs.passed
+
+
+def test_the_three_devices_share_radius_friction_and_slider() -> None:
+    found = design(SYSTEM, Asce(), bounds=BOUNDS, target=ONE)
+    lir, plain, free = (
+        found.bearings(device)[0] for device in ("LIR-DCFP", "DCFP", "DCFP without rim contact")
+    )
+    assert plain == lir.as_dcfp()
+    assert free.is_dcfp
+    assert free.lateral_capacity == pytest.approx(found.chosen.trace.value("D"))
+    assert free.radius == plain.radius
+    table = found.table()
+    wide = table.loc["DCFP without rim contact", "plan diameter [m]"]
+    way = free.rim_displacement[0] - plain.rim_displacement[0]
+    assert wide - table.loc["DCFP", "plan diameter [m]"] == pytest.approx(2.0 * way)
+    with pytest.raises(CheckError, match="device"):
+        found.bearings("LRB")
+    again = equivalent_linear(
+        IsolationSystem(
+            bearings=found.bearings("DCFP without rim contact"), positions=PLACES, loads=LOADS,
+            plan=(14.0, 10.0),
+        ),
+        Asce(), bounds=BOUNDS,
+    )  # fmt: skip
+    rims = [check for check in again.checks if check.title.startswith("rims free")]
+    assert rims
+    assert all(check.passed for check in rims)
+
+
+def test_sizes_part_the_loads_with_the_least_area() -> None:
+    largest = [1.3 * load for load in LOADS]
+    for sizes in (1, 2, 3, 4):
+        places, loads = grouped(SYSTEM, sizes)
+        area = sum(loads[place].largest for place in places)
+        ways = itertools.product(range(sizes), repeat=6)
+        best = min(
+            sum(
+                max(n for n, other in zip(largest, way, strict=True) if other == one) for one in way
+            )
+            for way in ways
+        )
+        assert area == pytest.approx(best, rel=1e-2)
+    assert len(grouped(SYSTEM, 9)[1]) == 5  # unlike loads
+    assert grouped(SYSTEM, 1)[1][0] == (0.5e6, 2.4e6, pytest.approx(3.12e6))
+    with pytest.raises(CheckError, match="sizes = 0"):
+        grouped(SYSTEM, 0)
+
+
+def test_sliders_of_two_sizes_have_one_height_and_interface() -> None:
+    found = design(SYSTEM, Asce(), bounds=BOUNDS, target=ONE, sizes=2)
+    assert len(found.chosen.bearings) == 2
+    for name in ("slider_height", "interface_friction", "capacity", "friction"):
+        one, other = (getattr(each, name) for each in found.chosen.bearings)
+        assert one == other
+
+
+def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> None:
+    target = DesignTarget(radii=(1.5, 2.0, 2.5), frictions=(0.04, 0.06), max_displacement=0.40)
+    frames = {
+        name: design(SYSTEM, Asce(), bounds=BOUNDS, target=target, least=name)
+        for name in ("base shear", "displacement", "plan diameter")
+    }
+    symbols = {"base shear": "V_b", "displacement": "D", "plan diameter": "d_plan"}
+    for name, found in frames.items():
+        good = [one.trace.value(symbols[name]) for one in found.candidates if not one.lacks]
+        assert 1 <= len(good) < 6
+        assert found.chosen.trace.value(symbols[name]) == min(good)
+        assert found.chosen.trace.value("D") <= 0.40
+    assert len(frames["displacement"].to_dataframe()) == 6
+
+
+def test_what_none_keeps_is_told() -> None:
+    tight = DesignTarget(radii=(2.0,), frictions=(0.05,), max_displacement=0.1)
+    with pytest.raises(CheckError, match=r"displacement 0\.\d+ m exceeds 0\.1 m.*rim_share"):
+        design(SYSTEM, Asce(), bounds=BOUNDS, target=tight)
+    weak = DesignTarget(
+        radii=(2.0,), frictions=(0.05,), limits=DesignLimits(rim_strength=100e3)
+    )  # fmt: skip
+    with pytest.raises(CheckError, match="interface slips before the rim breaks"):
+        design(SYSTEM, Asce(), bounds=BOUNDS, target=weak)
+    for wrong in ({"rim_share": 1.0}, {"radii": ()}, {"pressure": -1.0}, {"max_base_shear": 0.0}):
+        with pytest.raises(CheckError):
+            DesignTarget(**wrong)
+
+
+def test_plates_too_deep_are_a_reason_and_no_failure() -> None:
+    steep = DesignTarget(radii=(0.3, 2.0), frictions=(0.05,), rim_share=0.9)
+    found = design(SYSTEM, Asce(), bounds=BOUNDS, target=steep)
+    assert "too deep a bowl" in found.candidates[0].lacks[0]
+    assert found.chosen.radius == 2.0
+
+
+def test_a_building_stands_on_what_is_proposed() -> None:
+    frame = shear_building(
+        ANY, 200e3, 4e8, storeys=3, plan=((2, 1), (6.0, 8.0)), base_mass=200e3
+    )  # fmt: skip
+    found = design(frame, Asce(), bounds=BOUNDS, target=ONE, code=ASCE7())
+    isolated = found.isolated(frame)
+    assert isolated.name == "shear building, LIR-DCFP"
+    state = gravity(isolated)
+    assert float(state.axial_forces.sum()) == pytest.approx(800e3 * G, rel=1e-6)
+    with pytest.raises(CheckError, match="1 bearings, the design 6"):
+        design(SYSTEM, Asce(), bounds=BOUNDS, target=ONE).isolated(shear_building(ANY, 200e3, 4e8))
+
+
+def test_rounding_goes_up_and_forgives_round_off() -> None:
+    assert rounded_up(0.1251, 0.005) == 0.13
+    assert rounded_up(0.125 + 1e-12, 0.005) == 0.125
