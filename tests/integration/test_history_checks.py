@@ -154,6 +154,8 @@ def test_one_unacceptable_run_may_be_allowed_at_a_price(
     check = one(history_checks(with_failure, frame, rules), "isolator displacement")
     moved = np.sort(with_failure["reached_displacement"].to_numpy()[:6, 0])
     assert check.demand == pytest.approx(max(moved.mean(), 1.2 * moved[3]), rel=1e-12)
+    row = history_demands(with_failure, rules).loc["isolator displacement"]
+    assert row["value"] == row["envelope"] == pytest.approx(check.demand, rel=1e-12)
     few = with_failure.isel(run=[0, 1, 6])
     assert not one(history_checks(few, frame, rules), "isolator displacement").passed
 
