@@ -19,6 +19,7 @@ from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
 from frames.frame import Frame as Frame
+from frames.hazard.spectrum import Spectrum as Spectrum
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
 from frames.library.models import shear_building as shear_building
@@ -79,6 +80,7 @@ __all__ = [
     "RayleighDamping",
     "Recording",
     "Section",
+    "Spectrum",
     "Stop",
     "Tie",
     "ViscousDamper",
