@@ -24,6 +24,7 @@ from frames import (
     PropertyBounds,
     PropertyFactors,
     Recording,
+    Spectrum,
     Superstructure,
     bounded,
     bounded_histories,
@@ -200,24 +201,9 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
         bounded_histories(frame, motions, BOUNDS, scales={"pulse 1": 1.0})
 
 
-class Spectrum:
-    """S_M1 / T in g, over 1.5 for all damping."""
-
-    code = "ASCE 7-22"
-
-    def __init__(self, s_m1: float) -> None:
-        self.parameters = {"S_M1": s_m1, "S_MS": 1.5}
-
-    def damping_factor(self, damping: float) -> float:
-        return 1.5
-
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
-        return 9.80665 * self.parameters["S_M1"] / period / 1.5
-
-
 def equivalent(frame: Frame, s_m1: float) -> EquivalentLinear:
     system = IsolationSystem.from_frame(frame, plan=(10.0, 10.0))
-    above, spectrum = Superstructure.from_frame(frame, R=4.0), Spectrum(s_m1)
+    above, spectrum = Superstructure.from_frame(frame, R=4.0), Spectrum.asce7(s_ms=1.5, s_m1=s_m1)
     return equivalent_linear(system, spectrum, bounds=BOUNDS, superstructure=above)
 
 
