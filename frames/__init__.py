@@ -51,6 +51,7 @@ from frames.checks.single_run import impact_checks as impact_checks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
+from frames.hazard.spectrum import Spectrum as Spectrum
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
 from frames.library.models import shear_building as shear_building
@@ -130,6 +131,7 @@ __all__ = [
     "RayleighDamping",
     "Recording",
     "Section",
+    "Spectrum",
     "Stop",
     "Superstructure",
     "Tie",

@@ -14,7 +14,7 @@ class ModelWarning(UserWarning):
 
 
 class MotionError(ValueError):
-    """A ground motion, or a file of one, that cannot be used; the message names the culprit."""
+    """A ground motion, a file or a spectrum that cannot be used; the message names the culprit."""
 
 
 class MotionWarning(UserWarning):

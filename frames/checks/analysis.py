@@ -13,10 +13,10 @@ from frames.checks.interface import slip_threshold
 from frames.checks.isolation import Extremes, IsolationSystem
 from frames.checks.nch2745 import NCh2745
 from frames.checks.outcome import BoundResult, EquivalentLinear
+from frames.hazard.spectrum import Spectrum
 from lir_element.door import require_type
 
 if TYPE_CHECKING:
-    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.superstructure import Superstructure
 
 Code = ASCE7 | EN1998 | NCh2745
@@ -25,7 +25,7 @@ _CODES = (ASCE7, EN1998, NCh2745)
 
 def equivalent_linear(
     system: IsolationSystem,
-    spectrum: DesignSpectrum,
+    spectrum: Spectrum,
     *,
     bounds: PropertyBounds | None,
     superstructure: Superstructure | None = None,
@@ -40,7 +40,7 @@ def equivalent_linear(
     ----------
     system : IsolationSystem
         Bearings with nominal properties, their places and loads.
-    spectrum : DesignSpectrum
+    spectrum : Spectrum
         Of MCE_R for ASCE 7, of the design earthquake for the others; it has the damping factor.
     bounds : PropertyBounds or None
         Factors of lower and upper bound; None for nominal properties alone, as for comparisons.
@@ -62,8 +62,24 @@ def equivalent_linear(
         weigh more than the whole.
     ValueError
         If a bearing cannot be at a bound.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> from frames import IsolationSystem, PropertyBounds, PropertyFactors, Spectrum
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=CoulombFriction(0.06), interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyFactors.asce7(full_scale_tests=True, test=(0.8, 1.3)))
+    >>> result = equivalent_linear(system, Spectrum.asce7(s_ms=1.2, s_m1=0.6), bounds=bounds)
+    >>> print(result["lower"].trace["V_b"].text())
+    V_b = k_M D_M = 3502 kN/m · 250.1 mm = 875.7 kN
+    >>> print(result.checks.governing)
+    effective damping (upper): 36.29 % <= 30 %, ratio 1.21, FAILED [ASCE 7-22 17.4.1]
     """
     require_type("system", system, IsolationSystem, "an IsolationSystem")
+    require_type("spectrum", spectrum, Spectrum, "a Spectrum")
     chosen = _code(spectrum) if code is None else code
     require_type("code", chosen, _CODES, "ASCE7(...), EN1998(...) or NCh2745(...)")
     if not spectrum.code.startswith(chosen.spectra):
@@ -87,7 +103,7 @@ def equivalent_linear(
     return EquivalentLinear(chosen.name, results, general)
 
 
-def _code(spectrum: DesignSpectrum) -> Code:
+def _code(spectrum: Spectrum) -> Code:
     for code in _CODES:
         if spectrum.code.startswith(code.spectra):
             return code()

@@ -18,10 +18,10 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.isolation import Extremes, IsolationSystem
     from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
+    from frames.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 
@@ -89,7 +89,7 @@ class ASCE7:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: DesignSpectrum,
+        spectrum: Spectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -100,7 +100,7 @@ class ASCE7:
         ----------
         system : IsolationSystem
             With properties at that bound.
-        spectrum : DesignSpectrum
+        spectrum : Spectrum
             MCE_R.
         bound : {"lower", "nominal", "upper"}
             The bound.
@@ -196,7 +196,7 @@ class ASCE7:
         self,
         t: Trace,
         above: Superstructure,
-        spectrum: DesignSpectrum,
+        spectrum: Spectrum,
         extremes: Extremes,
     ) -> None:
         t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")

@@ -18,10 +18,10 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.isolation import Extremes, IsolationSystem
     from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
+    from frames.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")
 
@@ -93,7 +93,7 @@ class EN1998:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: DesignSpectrum,
+        spectrum: Spectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,

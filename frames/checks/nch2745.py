@@ -18,10 +18,10 @@ from frames.checks.plan import (
 )
 
 if TYPE_CHECKING:
-    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.isolation import Extremes, IsolationSystem
     from frames.checks.superstructure import Superstructure
     from frames.checks.trace import Trace
+    from frames.hazard.spectrum import Spectrum
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
 _MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
@@ -74,7 +74,7 @@ class NCh2745:
     def analyse(
         self,
         system: IsolationSystem,
-        spectrum: DesignSpectrum,
+        spectrum: Spectrum,
         bound: Bound,
         superstructure: Superstructure | None,
         extremes: Extremes,
@@ -112,9 +112,7 @@ class NCh2745:
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
 
-    def _design(
-        self, system: IsolationSystem, spectrum: DesignSpectrum, displacement: float
-    ) -> Trace:
+    def _design(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
         t = enter_system(system)
         t.given("D_0", displacement, "m", note="assumed, and found again")
         secant(t, "D_0", _DESIGN, "NCh2745 7")

@@ -29,15 +29,17 @@ class Superstructure:
     storey_heights : tuple of float, (n,)
         Height of each storey [m].
     R : float
-        Response modification factor of the same structure on a fixed base [-].
+        Response modification factor of the same structure on a fixed base [-]; EN 1998 has the
+        behaviour factor of `EN1998` instead.
     importance : float
-        Importance factor I_e of the fixed-base structure [-].
+        Importance factor I_e of the fixed-base structure [-], for least shears of ASCE 7.
     storey_stiffness : tuple of float, (n,), optional
         Lateral stiffness of each storey [N/m], for drifts; without it they are not checked.
     wind_shear : float
-        Factored wind shear of the superstructure [N].
+        Factored wind shear of the superstructure [N], least V_s of ASCE 7 and NCh2745.
     vertical_period : float, optional
-        Vertical period T_v of the structure on its bearings [s].
+        Vertical period T_v of the structure on its bearings [s], for the simplified analysis of
+        EN 1998.
 
     Raises
     ------

@@ -24,6 +24,7 @@ from frames import (
     PropertyBounds,
     PropertyFactors,
     Recording,
+    Spectrum,
     Superstructure,
     bounded,
     bounded_histories,
@@ -154,6 +155,8 @@ def test_one_unacceptable_run_may_be_allowed_at_a_price(
     check = one(history_checks(with_failure, frame, rules), "isolator displacement")
     moved = np.sort(with_failure["reached_displacement"].to_numpy()[:6, 0])
     assert check.demand == pytest.approx(max(moved.mean(), 1.2 * moved[3]), rel=1e-12)
+    row = history_demands(with_failure, rules).loc["isolator displacement"]
+    assert row["value"] == row["envelope"] == pytest.approx(check.demand, rel=1e-12)
     few = with_failure.isel(run=[0, 1, 6])
     assert not one(history_checks(few, frame, rules), "isolator displacement").passed
 
@@ -198,24 +201,9 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
         bounded_histories(frame, motions, BOUNDS, scales={"pulse 1": 1.0})
 
 
-class Spectrum:
-    """S_M1 / T in g, over 1.5 for all damping."""
-
-    code = "ASCE 7-22"
-
-    def __init__(self, s_m1: float) -> None:
-        self.parameters = {"S_M1": s_m1, "S_MS": 1.5}
-
-    def damping_factor(self, damping: float) -> float:
-        return 1.5
-
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
-        return 9.80665 * self.parameters["S_M1"] / period / 1.5
-
-
 def equivalent(frame: Frame, s_m1: float) -> EquivalentLinear:
     system = IsolationSystem.from_frame(frame, plan=(10.0, 10.0))
-    above, spectrum = Superstructure.from_frame(frame, R=4.0), Spectrum(s_m1)
+    above, spectrum = Superstructure.from_frame(frame, R=4.0), Spectrum.asce7(s_ms=1.5, s_m1=s_m1)
     return equivalent_linear(system, spectrum, bounds=BOUNDS, superstructure=above)
 
 

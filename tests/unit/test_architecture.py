@@ -68,8 +68,8 @@ FLOORS = (
     "lir_element.kernels.contact", "lir_element.kernels.rigid_body", "lir_element.results",
     "lir_element.rig", "lir_element.opensees.block", "lir_element.opensees.kernels",
     "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
-    "frames.model", "frames.motion", "frames.assembly", "frames.kernels", "frames.results",
-    "frames.analysis", "frames.opensees", "frames.library", "frames.plots",
+    "frames.model", "frames.motion", "frames.hazard", "frames.assembly", "frames.kernels",
+    "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.plots",
     "frames.checks",
     "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
 )  # fmt: skip

@@ -137,7 +137,9 @@ def test_capacity_is_the_sum_of_three_parts() -> None:
     assert whole.limit == pytest.approx(0.175 + 0.07929)
     # the surfaces' sliding and the slip make the displacement, the slider's tilt over h apart
     assert bottom.demand + top.demand + slip.demand == pytest.approx(0.2 + 0.085 * 0.175 / 1.415)
-    assert not capacity_checks(device, 0.2, slip_left=0.06).passed
+    left = capacity_checks(device, 0.2, slip_left=0.06)
+    assert [c.passed for c in left] == [True, True, False, False]
+    assert left[3].limit == pytest.approx(0.175 + 0.07929 - 0.06)
     overlap = bearing(slip_capacity=0.03)
     assert capacity_checks(overlap, 0.1)[3].limit == pytest.approx(0.205)
 

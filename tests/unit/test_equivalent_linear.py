@@ -15,9 +15,11 @@ from frames import (
     Frame,
     FrictionPendulum,
     IsolationSystem,
+    MotionError,
     NCh2745,
     PropertyBounds,
     PropertyFactors,
+    Spectrum,
     Superstructure,
     bounded,
     equivalent_linear,
@@ -47,27 +49,25 @@ ABOVE = Superstructure(
 class Asce:
     """S_M1 / T in g; table of B_M."""
 
-    code = "ASCE 7-22"
-
     def __init__(self, s_m1: float) -> None:
-        self.parameters = {"S_M1": s_m1, "S_MS": 1.5}
+        self.s_m1 = s_m1
+
+    def real(self) -> Spectrum:
+        return Spectrum.asce7(s_ms=1.5, s_m1=self.s_m1)
 
     def damping_factor(self, damping: float) -> float:
         table = [0.8, 1.0, 1.2, 1.5, 1.7, 1.9, 2.0]
         return float(np.interp(100.0 * damping, [2, 5, 10, 20, 30, 40, 50], table))
 
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
-        return G * self.parameters["S_M1"] / period / self.damping_factor(damping)
-
 
 class En:
-    """Constant displacement beyond T_D = 2 s, its velocity plateau from 0.6 s."""
-
-    code = "EN 1998-1"
-    parameters: dict[str, float] = {}  # noqa: RUF012
+    """Type 1, ground C beyond T_C = 0.6 s: constant displacement beyond T_D = 2 s."""
 
     def __init__(self, plateau: float) -> None:
         self.plateau = plateau
+
+    def real(self) -> Spectrum:
+        return Spectrum.en1998(a_g=self.plateau / (2.5 * 1.15), ground_type="C")
 
     def damping_factor(self, damping: float) -> float:
         return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), 0.55)
@@ -78,21 +78,17 @@ class En:
 
 
 class NCh:
-    """Displacement plateau of 200, 300 or 330 mm times Z; table of B."""
+    """Displacement plateau of 200 or 300 mm times Z = 1.25; table of B."""
 
-    code = "NCh2745"
-    parameters: dict[str, float] = {}  # noqa: RUF012
+    def __init__(self, plateau: float) -> None:
+        self.plateau = plateau
 
-    def __init__(self, plateau: float, zone: float) -> None:
-        self.plateau = plateau * zone
+    def real(self) -> Spectrum:
+        return Spectrum.nch2745({0.20: "I", 0.30: "II"}[self.plateau], zone=3)
 
     def damping_factor(self, damping: float) -> float:
         table = [0.65, 1.0, 1.37, 1.67, 1.94, 2.17, 2.38, 3.02]
         return float(np.interp(100.0 * damping, [2, 5, 10, 15, 20, 25, 30, 50], table))
-
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
-        assert period > 2.51
-        return self.plateau * (2.0 * math.pi / period) ** 2 / self.damping_factor(damping)
 
 
 def one(mu: float, radius: float = 2.5, weight: float = 1500e3, **more: object) -> IsolationSystem:
@@ -103,7 +99,11 @@ def one(mu: float, radius: float = 2.5, weight: float = 1500e3, **more: object) 
 
 
 def nominal(system: IsolationSystem, spectrum: object, **more: object) -> EquivalentLinear:
-    return equivalent_linear(system, spectrum, bounds=None, **more)
+    return analysed(system, spectrum, bounds=None, **more)
+
+
+def analysed(system: IsolationSystem, spectrum: object, **more: object) -> EquivalentLinear:
+    return equivalent_linear(system, spectrum.real(), **more)
 
 
 # -------------------------------------------------------------------------- ASCE 7, displacement
@@ -257,7 +257,7 @@ def test_unreduced_shear_above() -> None:
 
 
 def test_design_shear_is_the_largest_of_its_minima() -> None:
-    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
     mu = BEARING.effective_friction
     for each in found.bounds.values():
         t = each.trace
@@ -274,13 +274,13 @@ def test_design_shear_is_the_largest_of_its_minima() -> None:
         expected = each.superstructure_shear * shares / shares.sum()
         np.testing.assert_allclose(each.storey_forces[1:], expected, rtol=1e-12)
     windy = replace(ABOVE, wind_shear=5e6)
-    blown = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=windy)
+    blown = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=windy)
     assert blown.superstructure_shear == 5e6
 
 
 def test_drifts_and_overturning_by_hand() -> None:
     code = ASCE7(pressure_limit=40e6)
-    result = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE, code=code)
+    result = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE, code=code)
     found = result["upper"]
     forces = np.array(found.storey_forces[1:])
     shears = np.array([forces.sum(), forces[1:].sum(), forces[2]])
@@ -324,7 +324,7 @@ def test_minima_of_time_histories() -> None:
 
 
 def test_bounds_are_one_argument() -> None:
-    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
     assert list(found.bounds) == ["lower", "upper"]
     for name in ("lower", "upper"):
         alone = nominal(bounded(SYSTEM, name, BOUNDS), Asce(0.9))["nominal"]
@@ -338,7 +338,7 @@ def test_bounds_are_one_argument() -> None:
 
 
 def test_rims_that_are_met_are_reported_at_each_bound() -> None:
-    found = equivalent_linear(SYSTEM, Asce(0.9), bounds=BOUNDS)
+    found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS)
     lower, upper = (found.checks.of("17.2.4.5", bound=b)[0] for b in ("lower", "upper"))
     assert not lower.passed
     assert upper.passed
@@ -350,19 +350,19 @@ def test_rims_that_are_met_are_reported_at_each_bound() -> None:
 def test_interface_at_its_lower_bound_holds_the_surfaces_at_their_upper_one() -> None:
     bounds = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.5, 2.0))
     mu = BEARING.effective_friction
-    check = equivalent_linear(SYSTEM, Asce(0.9), bounds=bounds).general[0]
+    check = analysed(SYSTEM, Asce(0.9), bounds=bounds).general[0]
     assert check.ratio == pytest.approx(1.6 * mu / (0.5 * 0.25))
     weak = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.4, 2.0))
-    assert not equivalent_linear(SYSTEM, Asce(0.9), bounds=weak).general.passed
+    assert not analysed(SYSTEM, Asce(0.9), bounds=weak).general.passed
     solid = replace(SYSTEM, bearings=(BEARING.as_dcfp(),) * 6)
-    assert len(equivalent_linear(solid, Asce(0.9), bounds=bounds).general) == 0
+    assert len(analysed(solid, Asce(0.9), bounds=bounds).general) == 0
 
 
 def test_each_check_can_be_followed_to_what_was_given() -> None:
     """Every line's shown formula gives its value from the numbers shown with it."""
-    spectra = Asce(0.9), En(8.0), NCh(0.30, 1.25)
+    spectra = Asce(0.9), En(8.0), NCh(0.30)
     for spectrum in spectra:
-        found = equivalent_linear(SYSTEM, spectrum, bounds=BOUNDS, superstructure=ABOVE)
+        found = analysed(SYSTEM, spectrum, bounds=BOUNDS, superstructure=ABOVE)
         for check in found.checks:
             assert check.symbol in check.trace
             assert (check.standing == "confirmed") == check.clause.startswith("LIR-DCFP")
@@ -412,6 +412,20 @@ def test_displacement_by_en1998() -> None:
     np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
 
 
+@pytest.mark.parametrize(("mu", "radius"), [(0.10, 2.5), (0.05, 4.0)])
+def test_both_branches_of_the_spectrum(mu: float, radius: float) -> None:
+    """Between T_C and T_D, and beyond T_D where the displacement stays."""
+
+    def off(d: float) -> float:
+        k = 1.0 / radius + mu / d
+        xi = 2.0 / math.pi * mu / (mu + d / radius)
+        return En(9.9).acceleration(2.0 * math.pi / math.sqrt(G * k), xi) / (G * k) - d
+
+    found = nominal(one(mu, radius=radius), En(9.9))["nominal"]
+    assert found.displacement == pytest.approx(brentq(off, 1e-2, 1.0, xtol=1e-14), rel=1e-9)
+    assert (found.period < 2.0) == (mu > 0.05)
+
+
 def test_recentring_at_300_mm() -> None:
     """W = 1500 kN, R = 2.5 m, mu = 0.06, d = 0.30 m: E_S / E_H = 1, d / (mu R) = 2, eta 0.61756."""
     xi = 2.0 / math.pi / 3.0
@@ -448,7 +462,7 @@ def test_displacement_by_nch2745(plateau: float, design: float) -> None:
     """Z = 1.25, 20 % damping: 193.30 mm on soil II, 128.87 mm on soil I."""
     ratio = 0.06 * (2.0 / (math.pi * 0.2) - 1.0)
     radius = 1e-3 * design / ratio
-    spectrum = NCh(plateau, 1.25)
+    spectrum = NCh(plateau)
     found = nominal(one(0.06, radius=radius), spectrum)["nominal"]
     t = found.trace
     assert 1e3 * t.value("D_D") == pytest.approx(design, abs=0.01)
@@ -466,7 +480,7 @@ def test_displacement_by_nch2745(plateau: float, design: float) -> None:
 
 
 def test_forces_by_nch2745() -> None:
-    found = equivalent_linear(SYSTEM, NCh(0.30, 1.0), bounds=BOUNDS, superstructure=ABOVE)
+    found = analysed(SYSTEM, NCh(0.30), bounds=BOUNDS, superstructure=ABOVE)
     mu = BEARING.effective_friction
     lower = found["lower"]
     d = lower.trace.value("D_D")
@@ -497,7 +511,7 @@ def test_bearings_of_a_frame() -> None:
     assert full.loads == plain.loads
     assert sum(full.combinations["maximum"]) == pytest.approx(1.5 * weight + 3e5, rel=1e-6)
     assert sum(full.combinations["minimum"]) == pytest.approx(0.6 * weight, rel=1e-6)
-    found = equivalent_linear(full, Asce(0.6), bounds=BOUNDS)
+    found = analysed(full, Asce(0.6), bounds=BOUNDS)
     assert found.displacement > 0.1
     with pytest.raises(CheckError, match="average"):
         IsolationSystem.from_frame(frame, combinations={"all": {"D": 1.0, "L": 1.0}})
@@ -518,13 +532,19 @@ def test_what_does_not_fit_is_refused() -> None:
     code = ASCE7(pressure_limit=40e6)
     with pytest.raises(CheckError, match="slider_radius"):
         nominal(without, Asce(0.9), superstructure=ABOVE, code=code)
-    odd = NCh(0.3, 1.0)
-    odd.code = "other"
     with pytest.raises(CheckError, match="no equivalent-linear analysis"):
-        nominal(SYSTEM, odd)
+        equivalent_linear(SYSTEM, Spectrum.nch433(), bounds=None)
+    points = Spectrum.given([0.1, 1.0, 3.0], [9.0, 6.0, 2.0], code="ASCE 7")
+    with pytest.raises(CheckError, match="no S_MS and S_M1"):
+        equivalent_linear(SYSTEM, points, bounds=None)
+    short = Spectrum.given([0.1, 1.0, 3.0], [9.0, 6.0, 2.0], code="NCh2745")
+    with pytest.raises(MotionError, match="defined for finite periods"):
+        equivalent_linear(SYSTEM, short, bounds=None)
+    with pytest.raises(TypeError, match="a Spectrum"):
+        equivalent_linear(SYSTEM, 0.9, bounds=None)
     with pytest.raises(TypeError, match="an IsolationSystem"):
         nominal(BEARING, Asce(0.9))
-    assert nominal(SYSTEM, NCh(0.3, 1.0), code=NCh2745(maximum=1.0)).displacement > 0.0
+    assert nominal(SYSTEM, NCh(0.30), code=NCh2745(maximum=1.0)).displacement > 0.0
 
 
 def test_superstructure_of_a_frame() -> None:
@@ -540,7 +560,7 @@ def test_superstructure_of_a_frame() -> None:
     assert (above.R, above.wind_shear) == (5.0, 1e5)
     system = IsolationSystem.from_frame(frame)
     assert "6 bearings of effective radius 2.7 m under 6865 kN" in repr(system)
-    found = equivalent_linear(system, Asce(0.6), bounds=BOUNDS, superstructure=above)
+    found = analysed(system, Asce(0.6), bounds=BOUNDS, superstructure=above)
     assert len(found["upper"].storey_forces) == 3
     with pytest.raises(CheckError, match="1 levels"):
         Superstructure.from_frame(_without_floors(frame), R=5.0)

@@ -9,6 +9,7 @@ from frames import (
     ASCE7,
     FrictionPendulum,
     IsolationSystem,
+    Spectrum,
     Superstructure,
     Trace,
     equivalent_linear,
@@ -19,19 +20,7 @@ from lir_element import CoulombFriction, LIRBearing
 G = 9.81
 
 
-class Spectrum:
-    """MCE_R with S_M1 = 0.9, S_MS = 1.5; the table's B_M between 10 and 20 %."""
-
-    code = "ASCE 7-22"
-    parameters = {"S_M1": 0.9, "S_MS": 1.5}  # noqa: RUF012
-
-    def damping_factor(self, damping: float) -> float:
-        return 1.2 + 3.0 * (damping - 0.10)
-
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
-        return G * 0.9 / period / self.damping_factor(damping)
-
-
+SPECTRUM = Spectrum.asce7(s_ms=1.5, s_m1=0.9)
 PENDULUM = FrictionPendulum((2.5,), (0.06,))
 # 3 x 2 bearings on 20 m x 12 m
 PLACES = ((-9.0, -5.0), (0.0, -5.0), (9.0, -5.0), (-9.0, 5.0), (0.0, 5.0), (9.0, 5.0))
@@ -42,8 +31,7 @@ ABOVE = Superstructure(fixed_base_period=0.5, storey_weights=(4.8e6,), storey_he
 
 
 def calculation(system: IsolationSystem = SYSTEM, code: ASCE7 | None = None) -> Trace:
-    spectrum = Spectrum()
-    found = equivalent_linear(system, spectrum, bounds=None, superstructure=ABOVE, code=code)
+    found = equivalent_linear(system, SPECTRUM, bounds=None, superstructure=ABOVE, code=code)
     return found["nominal"].trace
 
 
@@ -118,7 +106,7 @@ def test_stiffness_has_no_factor_of_units() -> None:
     """Two programs are off by powers of ten: a thousandfold weight changes forces alone."""
     t = calculation()
     heavy = replace(SYSTEM, loads=(1e9,) * 6)
-    found = equivalent_linear(heavy, Spectrum(), bounds=None)["nominal"]
+    found = equivalent_linear(heavy, SPECTRUM, bounds=None)["nominal"]
     assert found.displacement == pytest.approx(t.value("D_M"), rel=1e-12)
     assert found.period == pytest.approx(t.value("T_M"), rel=1e-12)
     assert found.stiffness == pytest.approx(1e3 * t.value("k_M"), rel=1e-12)

@@ -1,0 +1,174 @@
+"""Shapes of the codes' elastic spectra, and the tables of values that belong to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from frames._types import FloatArray
+from lir_element.units import STANDARD_GRAVITY
+
+Parameters = Mapping[str, float]
+Points = tuple[tuple[float, float], ...]
+
+EN1998_GROUND = {
+    1: {
+        "A": (1.0, 0.15, 0.4, 2.0), "B": (1.2, 0.15, 0.5, 2.0), "C": (1.15, 0.2, 0.6, 2.0),
+        "D": (1.35, 0.2, 0.8, 2.0), "E": (1.4, 0.15, 0.5, 2.0),
+    },
+    2: {
+        "A": (1.0, 0.05, 0.25, 1.2), "B": (1.35, 0.05, 0.25, 1.2), "C": (1.5, 0.1, 0.25, 1.2),
+        "D": (1.8, 0.1, 0.3, 1.2), "E": (1.6, 0.05, 0.25, 1.2),
+    },
+}  # fmt: skip
+"""S [-], T_B, T_C, T_D [s] by kind of spectrum and ground type: EN 1998-1:2004, tables 3.2, 3.3."""
+
+NCH2745_SOIL = {
+    "I": (0.40, 0.03, 0.110, 0.29, 2.51, 10.85, 0.50, 0.20),
+    "II": (0.41, 0.03, 0.20, 0.54, 2.00, 11.00, 0.94, 0.30),
+    "III": (0.45, 0.03, 0.375, 0.68, 1.58, 12.12, 1.31, 0.33),
+}
+"""A [g], T_a, T_b, T_c, T_d [s], alpha_A [m/s2], alpha_V [m/s], alpha_D [m] by soil: NCh2745.
+T_a of soil III is assumed to be that of the others."""
+
+NCH2745_ZONE = {1: 0.75, 2: 1.0, 3: 1.25}
+"""Factor Z [-] by seismic zone: NCh2745."""
+
+NCH433_SOIL = {
+    "A": (0.90, 0.15, 2.0), "B": (1.00, 0.30, 1.5), "C": (1.05, 0.40, 1.6),
+    "D": (1.20, 0.75, 1.0), "E": (1.30, 1.20, 1.0),
+}  # fmt: skip
+"""S [-], T_0 [s], p [-] by soil class: NCh433 with the decree 61 of 2011."""
+
+NCH433_ZONE = {1: 0.20, 2: 0.30, 3: 0.40}
+"""Effective acceleration A_0 [g] by seismic zone: NCh433."""
+
+
+class Shape(NamedTuple):
+    """How a family of spectra is computed.
+
+    Attributes
+    ----------
+    curve : callable
+        Pseudo-accelerations [m/s2] of periods (n,) [s], a damping factor B, parameters, points.
+    amplitudes : tuple of str
+        Parameters that grow with the spectrum.
+    corners : tuple of str
+        Parameters that are periods where the formula changes.
+    standing : str
+        Which source, and how well it is known.
+    """
+
+    curve: Callable[[FloatArray, float, Parameters, Points], FloatArray]
+    amplitudes: tuple[str, ...]
+    corners: tuple[str, ...]
+    standing: str
+
+
+def _where(period: FloatArray, limit: float) -> FloatArray:
+    """Return the periods, those below `limit` raised to it: a branch that is not taken there."""
+    return np.maximum(period, limit)
+
+
+def _asce7(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    rise = p["S_MS"] * (0.4 + 0.6 * period / p["T_0"])
+    fall = p["S_M1"] / _where(period, p["T_S"])
+    late = fall * p["T_L"] / _where(period, p["T_L"])
+    chosen = np.select(
+        [period < p["T_0"], period <= p["T_S"], period <= p["T_L"]], [rise, p["S_MS"], fall], late
+    )
+    return np.asarray(STANDARD_GRAVITY / b * chosen, dtype=np.float64)
+
+
+def _asce7_points(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    last, level = points[-1]
+    after = _where(period, last)
+    tail = level * last / after * np.minimum(1.0, max(p["T_L"], last) / after)
+    inside = np.interp(period, *np.array(points).T)
+    return np.asarray(np.where(period > last, tail, inside) / b, dtype=np.float64)
+
+
+def _en1998(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    top = 2.5 / b
+    rise = 1.0 + period / p["T_B"] * (top - 1.0)
+    fall = top * p["T_C"] / _where(period, p["T_C"])
+    late = fall * p["T_D"] / _where(period, p["T_D"])
+    chosen = np.select(
+        [period < p["T_B"], period <= p["T_C"], period <= p["T_D"]], [rise, top, fall], late
+    )
+    return np.asarray(p["a_g"] * p["S"] * chosen, dtype=np.float64)
+
+
+def _nch2745(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    start, top = p["A"] * STANDARD_GRAVITY, p["alpha_A"]
+    rise = start + (top - start) * (period - p["T_a"]) / (p["T_b"] - p["T_a"])
+    fall = 2.0 * np.pi * p["alpha_V"] / _where(period, p["T_c"])
+    late = 4.0 * np.pi**2 * p["alpha_D"] / _where(period, p["T_d"]) ** 2
+    chosen = np.select(
+        [period < p["T_a"], period < p["T_b"], period < p["T_c"], period < p["T_d"]],
+        [start, rise, top, fall],
+        late,
+    )
+    return np.asarray(p["Z"] / b * chosen, dtype=np.float64)
+
+
+def _nch433(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    ratio = period / p["T_0"]
+    alpha = (1.0 + 4.5 * ratio ** p["p"]) / (1.0 + ratio**3)
+    return np.asarray(p["I"] * p["S"] * p["A_0"] * STANDARD_GRAVITY / b * alpha, dtype=np.float64)
+
+
+def _given(period: FloatArray, b: float, p: Parameters, points: Points) -> FloatArray:
+    return np.asarray(np.interp(period, *np.array(points).T) / b, dtype=np.float64)
+
+
+_MEMORY = "to be confirmed against the standard"
+
+SHAPES = {
+    "asce7": Shape(
+        _asce7, ("S_MS", "S_M1"), ("T_0", "T_S", "T_L"), f"ASCE/SEI 7-22, 11.4.5.2; {_MEMORY}"
+    ),
+    "asce7_multi_period": Shape(
+        _asce7_points, ("S_MS", "S_M1"), ("T_S", "T_L"), f"ASCE/SEI 7-22, 11.4.5.1, 21.4; {_MEMORY}"
+    ),
+    "en1998": Shape(
+        _en1998, ("a_gR", "a_g"), ("T_B", "T_C", "T_D"), f"EN 1998-1:2004, 3.2.2.2; {_MEMORY}"
+    ),
+    "nch2745": Shape(
+        _nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), f"NCh2745:2013, clause 8.4; {_MEMORY}"
+    ),
+    "nch433": Shape(_nch433, ("A_0",), ("T_0",), f"NCh433 with decree 61 of 2011; {_MEMORY}"),
+    "given": Shape(_given, (), (), "as given"),
+}
+"""Families of spectra by name."""
+
+
+def smooth_parameters(
+    points: Points, largest: float, *, low: float = 0.2, high: float = 5.0, part: float = 0.9
+) -> tuple[float, float]:
+    """Return S_MS and S_M1 of a multi-period spectrum (ASCE/SEI 7-22, 21.4; to be confirmed).
+
+    Parameters
+    ----------
+    points : tuple of (float, float)
+        Periods [s] and accelerations [g].
+    largest : float
+        Longest period whose product with its acceleration counts for S_M1 [s].
+    low, high : float
+        Periods between which the largest acceleration is sought for S_MS [s].
+    part : float
+        Part of the largest acceleration, and of the largest product, that is taken [-].
+
+    Returns
+    -------
+    (float, float)
+        S_MS [g] and S_M1 [g]; the latter at least the acceleration at 1 s.
+    """
+    period, level = np.array(points).T
+    plateau = level[(period >= low) & (period <= high)]
+    moving = (period >= 1.0) & (period <= largest)
+    at_one = float(np.interp(1.0, period, level))
+    s_m1 = max(part * float((period * level)[moving].max(initial=at_one)), at_one)
+    return part * float(plateau.max()), s_m1
