@@ -93,6 +93,8 @@ from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 
 __all__ = [
     "ASCE7",
+    "EN1998",
+    "HISTORY_RULES",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -104,7 +106,6 @@ __all__ = [
     "Design",
     "DesignLimits",
     "DesignTarget",
-    "EN1998",
     "EquivalentLinear",
     "Features",
     "Finding",
@@ -112,7 +113,6 @@ __all__ = [
     "FrictionPendulum",
     "GravityState",
     "GroundMotion",
-    "HISTORY_RULES",
     "HertzStop",
     "HistoryRules",
     "IsolationSystem",

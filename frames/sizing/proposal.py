@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
     from frames.checks.analysis import Code
     from frames.checks.bounds import PropertyBounds
-    from frames.checks.design_spectrum import DesignSpectrum
     from frames.checks.outcome import EquivalentLinear
     from frames.checks.superstructure import Superstructure
+    from frames.hazard.spectrum import Spectrum
     from lir_element import LIRBearing
 
 Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
@@ -158,7 +158,7 @@ class Design:
 
 def design(
     structure: Frame | IsolationSystem,
-    spectrum: DesignSpectrum,
+    spectrum: Spectrum,
     *,
     bounds: PropertyBounds | None,
     target: DesignTarget | None = None,
@@ -179,7 +179,7 @@ def design(
     structure : Frame or IsolationSystem
         Places and loads of the bearings; those it has now are replaced. Of a frame loads are those
         of `IsolationSystem.from_frame`, with S_MS of the spectrum if it has one.
-    spectrum : DesignSpectrum
+    spectrum : Spectrum
         As in `equivalent_linear`.
     bounds : PropertyBounds or None
         Bounds of friction.
