@@ -11,6 +11,7 @@ from frames._errors import CheckError
 from frames.checks.analysis import equivalent_linear
 from frames.checks.isolation import IsolationSystem
 from frames.frame import Frame
+from frames.hazard.spectrum import Spectrum
 from frames.sizing.candidate import Candidate, Size, fitted
 from frames.sizing.target import DesignTarget
 from lir_element.door import require_choice, require_type
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from frames.checks.bounds import PropertyBounds
     from frames.checks.outcome import EquivalentLinear
     from frames.checks.superstructure import Superstructure
-    from frames.hazard.spectrum import Spectrum
     from lir_element import LIRBearing
 
 Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
@@ -209,10 +209,8 @@ def design(
     require_choice("least", least, _PREFERENCES, error=CheckError)
     target = DesignTarget() if target is None else target
     require_type("target", target, DesignTarget, "DesignTarget(...)")
-    system = structure
-    if isinstance(structure, Frame):
-        system = IsolationSystem.from_frame(structure, s_ms=spectrum.parameters.get("S_MS"))
-    require_type("structure", system, IsolationSystem, "a Frame or an IsolationSystem")
+    require_type("spectrum", spectrum, Spectrum, "a Spectrum")
+    system = _system(structure, spectrum)
     places, loads = grouped(system, sizes)
     known: dict[tuple[float, ...], EquivalentLinear] = {}
 
@@ -231,6 +229,13 @@ def design(
         for law in target.laws
     )
     return Design(system, _best(found, least), found, places)
+
+
+def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> IsolationSystem:
+    if isinstance(structure, Frame):
+        return IsolationSystem.from_frame(structure, s_ms=spectrum.parameters.get("S_MS"))
+    require_type("structure", structure, IsolationSystem, "a Frame or an IsolationSystem")
+    return structure
 
 
 def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple[Size, ...]]:
@@ -257,8 +262,8 @@ def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple
     CheckError
         If the number is out of bounds.
     """
-    if not isinstance(sizes, int) or sizes < 1:
-        msg = f"sizes = {sizes!r}: give a whole number of sliders, at least 1"
+    if sizes < 1:
+        msg = f"sizes = {sizes}: give a number of sliders, at least 1"
         raise CheckError(msg)
     columns = list(zip(system.loads, *system.combinations.values(), strict=True))
     largest = [max(column) for column in columns]
