@@ -19,6 +19,10 @@ from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
 from frames.frame import Frame as Frame
+from frames.hazard.motion_measures import motion_measures as motion_measures
+from frames.hazard.motion_set import MotionSet as MotionSet
+from frames.hazard.pair_spectra import pair_spectrum as pair_spectrum
+from frames.hazard.scaling import Scaling as Scaling
 from frames.hazard.spectrum import Spectrum as Spectrum
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
@@ -74,11 +78,13 @@ __all__ = [
     "ModelWarning",
     "Modes",
     "MotionError",
+    "MotionSet",
     "MotionWarning",
     "Pinching",
     "PlasticHinge",
     "RayleighDamping",
     "Recording",
+    "Scaling",
     "Section",
     "Spectrum",
     "Stop",
@@ -100,6 +106,8 @@ __all__ = [
     "member_forces",
     "modes",
     "moment_frame",
+    "motion_measures",
+    "pair_spectrum",
     "peaks",
     "save",
     "shear_building",
