@@ -60,7 +60,7 @@ def design_spectra(
         named = (
             dict(spectra)
             if isinstance(spectra, Mapping)
-            else {spectrum.name: spectrum for spectrum in spectra}
+            else {getattr(each, "name", "?"): each for each in spectra}
         )
     for name, spectrum in named.items():
         require_type(f"spectra[{name!r}]", spectrum, Spectrum, "a Spectrum")
@@ -74,30 +74,30 @@ def design_spectra(
     figure = ps.new_figure(3.1)
     left, right = ps.grid_of(figure, 1, 2)[0]
     one = len(named) == 1
-    handles: list[Artist] = []
+    names: list[Artist] = []
+    marks: list[Artist] = []
     for k, (name, spectrum) in enumerate(named.items()):
         corners = [c for c in spectrum.corner_periods.values() if c < end]
-        start, last = (
-            (spectrum.points[0][0], spectrum.points[-1][0])
-            if (spectrum.shape == "given")
-            else (0.0, end)
-        )
+        start, last = spectrum.reach
         periods = np.union1d(np.linspace(start, min(end, last), 400), corners)
         for j, damping in enumerate(dampings):
             look: dict[str, Any] = {
                 "color": ps.PALETTE[j if one else k],
                 "linestyle": ps.LINES[0 if one else j],
             }
-            label = f"{name}, {100.0 * damping:g} %" if not one else f"{100.0 * damping:g} %"
             left.plot(periods, spectrum.acceleration(periods, damping) / STANDARD_GRAVITY, **look)
             right.plot(periods, spectrum.displacement(periods, damping), **look)
-            handles.append(Line2D([], [], label=label, **look))
+            if one or k == 0:
+                kind = look if one else {**look, "color": ps.GREY}
+                marks.append(Line2D([], [], label=f"{100.0 * damping:g} %", **kind))
+        if not one:
+            names.append(Line2D([], [], label=name, color=ps.PALETTE[k]))
     for panel, text in ((left, "pseudo-acceleration [g]"), (right, "displacement [m]")):
         panel.set_xlim(0.0, end)
         panel.set_ylim(bottom=0.0)
         ps.caption(panel, x="period [s]", y=text)
     title = f"{next(iter(named))}, damping" if one else "Design spectra, damping"
-    ps.add_legend(figure, handles, columns=4 if one else 2, title=title)
+    ps.add_legend(figure, names + marks, columns=4 if one else 2, title=title)
     return figure
 
 
@@ -127,7 +127,7 @@ def motion_spectra(
     Returns
     -------
     Figure
-        Pseudo-accelerations, and the mean over the target where there is one.
+        Pseudo-accelerations and displacements, and the mean over the target where there is one.
 
     Raises
     ------
@@ -141,40 +141,44 @@ def motion_spectra(
     ratio = damping if damping is not None else done.damping if done else 0.05
     end = require_positive("longest", longest, "s", error=MotionError)
     periods = np.geomspace(SHORTEST, max(end, 2.0 * SHORTEST), POINTS)
-    table = motions.spectra(periods, ratio, kind)
-    mean = table.to_numpy().mean(axis=1)
-    figure = ps.new_figure(3.3 if goal is None else 4.9)
-    if goal is None:
-        upper = ps.grid_of(figure, 1, 1)[0][0]
-        panels = [upper]
-    else:
-        shapes = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (2.3, 1.0)})
-        panels = list(shapes)
-        upper = panels[0]
-        for panel in panels:
-            ps.style(panel)
-    handles: list[Artist] = _motions(upper, table.to_numpy(), mean, periods)
-    part = done.part if done else 1.0
+    table = motions.spectra(periods, ratio, kind).to_numpy()
+    mean = table.mean(axis=1)
+    figure = ps.new_figure(3.6 if goal is None else 5.0)
+    rows, heights = ("ad", (1.0,)) if goal is None else ("ad;rr", (1.7, 1.0))
+    panels = figure.subplot_mosaic(rows, height_ratios=heights)
+    for panel in panels.values():
+        ps.style(panel)
+        panel.set_xlim(0.0, end)
+        ps.caption(panel, x="period [s]")
+    shift = (periods / (2.0 * np.pi)) ** 2  # of pseudo-accelerations to displacements
+    sizes = {"a": np.full(POINTS, 1.0 / STANDARD_GRAVITY), "d": shift}
+    for key, size in sizes.items():
+        handles = _motions(panels[key], size[:, None] * table, size * mean, periods)
     if goal is not None:
-        level = np.asarray(goal.acceleration(periods, ratio), dtype=np.float64)
-        handles.append(_target(upper, periods, level, goal.name))
-        panels[1].plot(periods, mean / level, color=ps.PALETTE[0], linewidth=1.7)
-        panels[1].axhline(part, color=ps.PALETTE[1], linewidth=1.1, linestyle="--")
-        panels[1].set_ylim(0.0, max(1.6, 1.1 * float((mean / level)[periods > 0.5].max())))
-        ps.caption(panels[1], y="mean / target [-]")
+        known = (periods >= goal.reach[0]) & (periods <= goal.reach[1])
+        level = np.where(known, 1.0, np.nan)
+        level[known] = goal.acceleration(periods[known], ratio)
+        look: dict[str, Any] = {"color": ps.PALETTE[1], "linewidth": 1.4, "linestyle": "--"}
+        for key, size in sizes.items():
+            panels[key].plot(periods, size * level, **look)
+        handles.append(Line2D([], [], label=f"target: {goal.name}", **look))
+        panels["r"].plot(periods, mean / level, color=ps.PALETTE[0], linewidth=1.7)
+        panels["r"].axhline(done.part if done else 1.0, **look)
+        panels["r"].set_ylim(bottom=0.0)
+        ps.caption(panels["r"], y="mean / target [-]")
     if done is not None:
-        for panel in panels:
-            panel.axvspan(*done.periods, color=ps.PALETTE[4], alpha=0.15, linewidth=0.0)
         low, high = done.periods
-        handles.append(
-            Patch(color=ps.PALETTE[4], alpha=0.25, label=f"range {low:.3g} s to {high:.3g} s")
-        )
-    upper.set_xlim(0.0, end)
-    upper.set_ylim(bottom=0.0)
-    ps.caption(upper, y=f"{kind}, {100.0 * ratio:g} % damping [g]")
-    ps.caption(panels[-1], x="period [s]")
+        for panel in panels.values():
+            panel.axvspan(low, high, color=ps.PALETTE[4], alpha=0.15, linewidth=0.0)
+        text = f"range {low:.3g} s to {high:.3g} s"
+        handles.append(Patch(color=ps.PALETTE[4], alpha=0.25, label=text))
+    ps.caption(panels["a"], y="pseudo-acceleration [g]")
+    ps.caption(panels["d"], y="displacement [m]")
+    for key in sizes:
+        panels[key].set_ylim(bottom=0.0)
     rule = f", scaled by {done.rule}" if done else ""
-    ps.add_legend(figure, handles, columns=2, title=f"{len(motions)} motions{rule}")
+    title = f"{len(motions)} motions{rule}: {kind}, {100.0 * ratio:g} % damping"
+    ps.add_legend(figure, handles, columns=2, title=title)
     return figure
 
 
@@ -182,13 +186,6 @@ def _motions(panel: Axes, each: FloatArray, mean: FloatArray, periods: FloatArra
     """Draw all spectra and their mean, and return the entries of the legend."""
     thin: dict[str, Any] = {"color": "#999999", "linewidth": 0.6}
     thick: dict[str, Any] = {"color": ps.PALETTE[0], "linewidth": 2.0}
-    panel.plot(periods, each / STANDARD_GRAVITY, **thin)
-    panel.plot(periods, mean / STANDARD_GRAVITY, **thick)
+    panel.plot(periods, each, **thin)
+    panel.plot(periods, mean, **thick)
     return [Line2D([], [], label="motions", **thin), Line2D([], [], label="mean", **thick)]
-
-
-def _target(panel: Axes, periods: FloatArray, level: FloatArray, name: str) -> Line2D:
-    """Draw the target, and return the entry of the legend."""
-    look: dict[str, Any] = {"color": ps.PALETTE[1], "linewidth": 1.6, "linestyle": "--"}
-    panel.plot(periods, level / STANDARD_GRAVITY, **look)
-    return Line2D([], [], label=f"target: {name}", **look)
