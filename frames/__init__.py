@@ -51,6 +51,10 @@ from frames.checks.single_run import impact_checks as impact_checks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
+from frames.hazard.motion_measures import motion_measures as motion_measures
+from frames.hazard.motion_set import MotionSet as MotionSet
+from frames.hazard.pair_spectra import pair_spectrum as pair_spectrum
+from frames.hazard.scaling import Scaling as Scaling
 from frames.hazard.spectrum import Spectrum as Spectrum
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
@@ -122,6 +126,7 @@ __all__ = [
     "ModelWarning",
     "Modes",
     "MotionError",
+    "MotionSet",
     "MotionWarning",
     "NCh2745",
     "Pinching",
@@ -130,6 +135,7 @@ __all__ = [
     "PropertyFactors",
     "RayleighDamping",
     "Recording",
+    "Scaling",
     "Section",
     "Spectrum",
     "Stop",
@@ -165,7 +171,9 @@ __all__ = [
     "member_forces",
     "modes",
     "moment_frame",
+    "motion_measures",
     "overlap_area",
+    "pair_spectrum",
     "peaks",
     "repeated_motion",
     "rim_engagement",

@@ -51,6 +51,11 @@ class ElasticSpectrum:
         return MappingProxyType({key: self.parameters[key] for key in corners})
 
     @property
+    def reach(self) -> tuple[float, float]:
+        """Shortest and longest period at which the spectrum is defined [s]."""
+        return (self.points[0][0], self.points[-1][0]) if self.shape == "given" else (0.0, np.inf)
+
+    @property
     def standing(self) -> str:
         """Source of the formula, and how well it is known."""
         return sh.SHAPES[self.shape].standing
@@ -197,8 +202,7 @@ class ElasticSpectrum:
     def _checked_periods(self, period: npt.ArrayLike) -> FloatArray:
         """Return periods as an array, each where the spectrum is defined."""
         periods = np.asarray(period, dtype=np.float64)
-        low = self.points[0][0] if self.shape == "given" else 0.0
-        high = self.points[-1][0] if self.shape == "given" else np.inf
+        low, high = self.reach
         bad = periods[~(np.isfinite(periods) & (periods >= low) & (periods <= high))]
         if bad.size:
             bound = f"from {low:g} s to {high:g} s" if self.shape == "given" else ">= 0"

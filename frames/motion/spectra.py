@@ -130,12 +130,43 @@ def spectral_displacement(
     peaks = np.zeros(len(periods))
     for index, period in enumerate(periods):
         if period > 0.0:
-            divisions = min(MAX_DIVISIONS, max(1, math.ceil(POINTS_PER_PERIOD * dt / period)))
+            divisions = _divisions(dt, period)
             if divisions not in refined:
                 refined[divisions] = _refine(acceleration, divisions)
             step = dt / divisions
-            peaks[index] = _peak_displacement(refined[divisions], step, float(period), damping)
+            history = _history(refined[divisions], step, float(period), damping)
+            peaks[index] = np.abs(history).max()
     return peaks
+
+
+def displacement_history(
+    acceleration: FloatArray, dt: float, period: float, damping: float
+) -> FloatArray:
+    """Return the displacement of an elastic oscillator, and a period of its free vibration after.
+
+    Parameters
+    ----------
+    acceleration : ndarray, shape (n,)
+        Ground acceleration [m/s2], linear between its samples, zero after the last one.
+    dt : float
+        Time step [s].
+    period : float
+        Natural period [s], > 0.
+    damping : float
+        Part of the critical damping [-], in [0, 1).
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Displacement relative to the ground [m], at `POINTS_PER_PERIOD` points or more a period.
+    """
+    divisions = _divisions(dt, period)
+    return _history(_refine(acceleration, divisions), dt / divisions, period, damping)
+
+
+def _divisions(dt: float, period: float) -> int:
+    """Return into how many parts a step is divided."""
+    return min(MAX_DIVISIONS, max(1, math.ceil(POINTS_PER_PERIOD * dt / period)))
 
 
 def _refine(acceleration: FloatArray, divisions: int) -> FloatArray:
@@ -145,10 +176,8 @@ def _refine(acceleration: FloatArray, divisions: int) -> FloatArray:
     return np.interp(points, samples, acceleration)
 
 
-def _peak_displacement(
-    acceleration: FloatArray, step: float, period: float, damping: float
-) -> float:
-    """Return the largest displacement of one oscillator (equations of the module's docstring)."""
+def _history(acceleration: FloatArray, step: float, period: float, damping: float) -> FloatArray:
+    """Return the displacement of one oscillator (equations of the module's docstring)."""
     omega = 2.0 * math.pi / period
     omega_d = omega * math.sqrt(1.0 - damping**2)
     pole = complex(-damping * omega, omega_d)
@@ -162,4 +191,4 @@ def _peak_displacement(
     q, _ = lfilter([new, old], [1.0, -np.exp(z)], acceleration, zi=at_rest)
     after = np.arange(1, POINTS_PER_PERIOD + 1) * (period / POINTS_PER_PERIOD)
     free = q[-1] * np.exp(pole * after)
-    return float(max(np.abs(q.imag).max(), np.abs(free.imag).max())) / omega_d
+    return np.concatenate([q.imag, free.imag]) / -omega_d

