@@ -25,5 +25,9 @@ class CheckError(ValueError):
     """A design check, or a number of it, that cannot be used; the message names the culprit."""
 
 
+class ProjectError(ValueError):
+    """A project's file that cannot be used: a line for each thing that is wrong."""
+
+
 class AuditWarning(AnalysisWarning):
     """An analysis that was completed, in which something that was left out or doubtful mattered."""

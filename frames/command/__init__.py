@@ -1,0 +1,1 @@
+"""The command ``lir``: a design project from its file to results."""

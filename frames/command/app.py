@@ -1,0 +1,195 @@
+"""The command ``lir``: new, check, design, run, compare, schema."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import pandas as pd
+import typer
+from rich.console import Console
+
+from frames._errors import CheckError, ModelError, MotionError, ProjectError
+from frames.checks.check import CONFIRMED, Checks
+from frames.project.design_run import CODES, DEVICES, groundwork, run_project
+from frames.project.example import write_example
+from frames.project.files import write_run
+from frames.project.parts import Parts
+from frames.project.reading import read_project, schema
+from frames.sizing.proposal import Design, design
+from lir_element.errors import AnalysisError, AnalysisInterrupted
+from lir_element.tables import text_table
+
+FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
+_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}  # units of tables for people
+
+app = typer.Typer(
+    name="lir", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+    help="Buildings on LIR-DCFP bearings: a project's file, its analyses and design checks. "
+    "Exit codes: 0 all checks pass, 1 a check fails, 2 the input cannot be used, 3 an analysis "
+    "fails, 130 interrupted.",
+)  # fmt: skip
+out, err = Console(), Console(stderr=True)
+
+File = Annotated[Path, typer.Argument(help="The project's file.")]
+
+
+@app.command()
+def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = Path()) -> None:
+    """Write an example project: a commented file, and motions to try it with."""
+    with _told():
+        try:
+            written = write_example(folder)
+        except FileExistsError as cause:
+            msg = f"{cause} is there already: name another folder"
+            raise ProjectError(msg) from cause
+    out.print(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
+
+
+@app.command()
+def check(file: File = Path("project.toml")) -> None:
+    """Check a project's file, its model and motions; analyse it equivalent-linearly."""
+    with _told():
+        ground = groundwork(_parts(file))
+        out.print(f"[bold]{ground.frame.name}[/]: {len(ground.frame.bearings)} bearings", end="")
+        out.print(f" under {ground.system.seismic_weight * 1e-3:.0f} kN")
+        out.print(str(ground.frame.check()), markup=False, highlight=False, soft_wrap=True)
+        _frame_table("Motions", ground.motions.table())
+        out.print(repr(ground.equivalent), markup=False, highlight=False, soft_wrap=True)
+        _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
+    out.print("the file can be run: lir run")
+
+
+@app.command(name="design")
+def propose(
+    file: File = Path("project.toml"),
+    sizes: Annotated[int, typer.Option(help="Number of unlike sliders.")] = 1,
+    least: Annotated[str, typer.Option(help="base shear, displacement or plan diameter")] = (
+        "base shear"
+    ),
+) -> None:
+    """Propose LIR-DCFP bearings, beside plain ones; prints the section [bearing]."""
+    with _told():
+        parts = _parts(file)
+        frame = parts.provisional_frame()
+        found = design(
+            frame, parts.spectrum(), bounds=parts.bounds(), target=parts.target(),
+            superstructure=parts.superstructure(frame), code=CODES[parts.file.project.code](),
+            sizes=sizes, least=least,  # type: ignore[arg-type]  # design checks it
+        )  # fmt: skip
+        _frame_table("Proposed", found.table().T)
+        out.print(f"{found}\n", markup=False, highlight=False, soft_wrap=True)
+        for text in _sections(found):
+            out.print(text, markup=False, highlight=False)
+
+
+@app.command()
+def run(
+    file: File = Path("project.toml"),
+    results: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("results"),
+) -> None:
+    """Run a project at each bound of friction, check it, and write the results."""
+    with _told():
+        found = run_project(_parts(file), progress=True)
+        written = write_run(found, results, file.read_text(encoding="utf-8"))
+        _frame_table("Demands", found.demands)
+        _checks("Checks", found.checks)
+        out.print(f"{len(written)} files in {results}; checks.txt has each calculation")
+    if not found.checks.passed:
+        raise typer.Exit(FAILED_CHECKS)
+
+
+@app.command()
+def compare(file: File = Path("project.toml")) -> None:
+    """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
+    with _told():
+        parts = _parts(file)
+        ground = groundwork(parts)
+        tables = {
+            device: run_project(parts, device=device, progress=True, ground=ground).demands
+            for device in DEVICES
+        }
+        columns = {device: table["envelope"] for device, table in tables.items()}
+        units = tables["LIR-DCFP"]["unit"]
+        _frame_table("Envelope over bounds", pd.DataFrame({"unit": units} | columns))
+
+
+@app.command(name="schema")
+def print_schema() -> None:
+    """Print the JSON schema of a project's file, for editors."""
+    sys.stdout.write(schema() + "\n")
+
+
+def _parts(file: Path) -> Parts:
+    return Parts(read_project(file), file.resolve().parent)
+
+
+@contextmanager
+def _told() -> Generator[None, None, None]:
+    # Errors as lines with their exit code, warnings as lines.
+    with warnings.catch_warnings():
+        warnings.showwarning = _warned
+        try:
+            yield
+        except (ProjectError, CheckError, ModelError, MotionError) as cause:
+            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from cause
+        except AnalysisError as cause:
+            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
+            raise typer.Exit(FAILED_ANALYSIS) from cause
+        except (AnalysisInterrupted, KeyboardInterrupt) as cause:
+            err.print(str(cause) or "interrupted", markup=False, soft_wrap=True)
+            raise typer.Exit(INTERRUPTED) from cause
+
+
+def _warned(message: Warning | str, *_: object, **__: object) -> None:
+    err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
+
+
+def _checks(title: str, checks: Checks) -> None:
+    # A line each, those that fail in red.
+    out.print(f"\n[bold]{title}[/]: {len(checks)}, {len(checks.failed)} failed")
+    for each in checks:
+        word, style = ("ok   ", "green") if each.passed else ("FAILS", "red")
+        out.print(f"[{style}]{word}[/] ", end="")
+        star = "" if each.standing == CONFIRMED else " *"
+        text = f"{each}".replace(", passed [", " [").replace(", FAILED [", " [") + star
+        out.print(text, markup=False, highlight=False, soft_wrap=True)
+    if any(each.standing != CONFIRMED for each in checks):
+        out.print("* to be confirmed against the standard")
+
+
+def _frame_table(title: str, frame: pd.DataFrame) -> None:
+    # SI numbers, in mm and kN where a row has its unit.
+    rows = []
+    for name, row in zip(frame.index, frame.itertuples(index=False), strict=True):
+        unit, factor = "", 1.0
+        if "unit" in frame.columns:
+            unit, factor = _SHOWN.get(str(frame.loc[name, "unit"]), ("", 1.0))
+        rows.append((str(name), *(_cell(value, unit, factor) for value in row)))
+    out.print(f"\n[bold]{title}[/]")
+    text = text_table(rows, ("", *map(str, frame.columns)))
+    out.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def _cell(value: object, unit: str, factor: float) -> str:
+    if isinstance(value, float):
+        return f"{factor * value:.4g}"
+    return unit if unit and value in _SHOWN else str(value)
+
+
+def _sections(found: Design) -> list[str]:
+    # Each proposed bearing as it stands in a project's file.
+    return [
+        f'[bearing]\nradius = "{one.radii[0]:g} m"\n'
+        f'slider_height = "{1e3 * one.slider_height:.0f} mm"\n'
+        f'slider_radius = "{1e3 * one.slider_radius:.0f} mm"\n'
+        f'capacity = "{1e3 * one.lateral_capacity:.0f} mm"\n'
+        f"friction = {one.frictions[0].f_max:g}\n"
+        f"interface_friction = {one.interface_friction:g}\n"
+        for one in found.chosen.bearings
+    ]

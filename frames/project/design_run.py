@@ -1,0 +1,253 @@
+"""A project computed: equivalent-linear analysis, time histories at each bound, all checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from frames.analysis.recording import Recording
+from frames.checks.analysis import equivalent_linear
+from frames.checks.asce7 import ASCE7
+from frames.checks.capacity import engagement_checks
+from frames.checks.check import Checks
+from frames.checks.device import device_checks
+from frames.checks.en1998 import EN1998
+from frames.checks.histories import bounded_histories, history_checks, history_demands
+from frames.checks.isolation import IsolationSystem
+from frames.checks.nch2745 import NCh2745
+from frames.project.parts import RULES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import pandas as pd
+    import xarray as xr
+
+    from frames.analysis.cases import BatchProgress
+    from frames.checks.check import Bound
+    from frames.checks.outcome import EquivalentLinear
+    from frames.frame import Frame
+    from frames.hazard.motion_set import MotionSet
+    from frames.hazard.spectrum import Spectrum
+    from frames.project.parts import Parts
+
+CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
+"""Equivalent-linear analysis by a project's code."""
+
+_RANGES = {
+    "ASCE 7-22": (0.75, 1.25), "EN 1998": (0.2, 2.0), "NCh2745": (0.5, 1.25),
+}  # fmt: skip
+"""Range of periods of scaling, over the shortest and the longest effective period."""
+
+
+_ALWAYS = frozenset({"restoring force", "recentring, energy", "recentring, displacement"})
+"""Equivalent-linear checks that time histories do not make; the others are limits of that
+procedure, or have their counterpart in the histories."""
+
+DEVICES: tuple[Literal["LIR-DCFP", "DCFP"], ...] = ("LIR-DCFP", "DCFP")
+"""Bearings of a project, and the same with their sliders in one piece."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ProjectRun:
+    """What a project's run gives.
+
+    Attributes
+    ----------
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    spectrum : Spectrum
+        The design spectrum.
+    motions : MotionSet
+        As they were run, scaled.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    runs : mapping of str to xarray.Dataset
+        Time histories by bound, a row a motion.
+    demands : pandas.DataFrame
+        What the time histories give for design.
+    checks : Checks
+        Of the time histories, the bearing, and what of the equivalent-linear analysis they do
+        not replace.
+    """
+
+    frame: Frame
+    spectrum: Spectrum
+    motions: MotionSet
+    equivalent: EquivalentLinear
+    runs: Mapping[Bound, xr.Dataset]
+    demands: pd.DataFrame
+    checks: Checks
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Groundwork:
+    """What is known of a project before its time histories.
+
+    Attributes
+    ----------
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    system : IsolationSystem
+        The bearings with their places and loads.
+    spectrum : Spectrum
+        The design spectrum.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    motions : MotionSet
+        Scaled as the file asks.
+    """
+
+    frame: Frame
+    system: IsolationSystem
+    spectrum: Spectrum
+    equivalent: EquivalentLinear
+    motions: MotionSet
+
+
+def groundwork(parts: Parts) -> Groundwork:
+    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+
+    Returns
+    -------
+    Groundwork
+        All that needs no time history.
+
+    Raises
+    ------
+    ProjectError
+        If a section cannot be.
+    CheckError, ModelError, MotionError
+        If the analysis or the scaling fails.
+    """
+    frame, spectrum = parts.frame(), parts.spectrum()
+    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    code = CODES[parts.file.project.code]()
+    equivalent = equivalent_linear(
+        system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
+        code=code,
+    )  # fmt: skip
+    motions = scaled_motions(parts, spectrum, equivalent)
+    return Groundwork(
+        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
+    )
+
+
+def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinear) -> MotionSet:
+    """Return a project's motions scaled to the spectrum or by a number, as its file asks.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    spectrum : Spectrum
+        The target.
+    equivalent : EquivalentLinear
+        Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
+        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 to 1.25; to be confirmed.
+
+    Returns
+    -------
+    MotionSet
+        The motions as they are run.
+    """
+    motions, scale = parts.motions(), parts.file.motions.scale
+    if scale != "spectrum":
+        return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+    code = parts.file.project.code
+    low, high = _RANGES[code]
+    periods = [each.period for each in equivalent.bounds.values()]
+    return motions.scaled_to(
+        spectrum, rule=RULES[code], periods=(low * min(periods), high * max(periods))
+    )
+
+
+def run_project(
+    parts: Parts,
+    *,
+    device: Literal["LIR-DCFP", "DCFP"] = "LIR-DCFP",
+    progress: Callable[[BatchProgress], None] | bool | None = None,
+    ground: Groundwork | None = None,
+) -> ProjectRun:
+    """Run a project: equivalent-linear analysis, time histories at each bound, and checks.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    device : {"LIR-DCFP", "DCFP"}
+        The bearings of the file, or the same with their sliders in one piece.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+    ground : Groundwork, optional
+        If it is there already.
+
+    Returns
+    -------
+    ProjectRun
+        Results and checks.
+
+    Raises
+    ------
+    ProjectError, CheckError, ModelError, MotionError
+        If the project cannot be run.
+    AnalysisInterrupted
+        After Ctrl-C, with the runs that were complete.
+    """
+    known = groundwork(parts) if ground is None else ground
+    bounds, limits, code = parts.bounds(), parts.limits(), parts.file.project.code
+    frame = known.frame
+    if device == "DCFP":
+        bearings = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
+        frame = frame.with_bearings(bearings, f"{frame.name}, DCFP")
+    given = parts.file.analysis
+    runs = bounded_histories(
+        frame, known.motions, bounds, at=given.bounds, level=given.level, dt=given.dt,
+        workers=given.workers, progress=progress, record=Recording(every=None),
+    )  # fmt: skip
+    minima = known.equivalent if _has_minima(parts) else None
+    found = [c for c in known.equivalent.checks if c.title in _ALWAYS]
+    found += known.equivalent.general
+    found += history_checks(
+        runs, frame, RULES[code], bounds=bounds, limits=limits, equivalent=minima
+    )
+    demands = history_demands(runs, RULES[code])
+    if device == "LIR-DCFP":
+        found += _of_the_bearing(parts, known, demands)
+    return ProjectRun(
+        frame=frame, spectrum=known.spectrum, motions=known.motions,
+        equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
+    )  # fmt: skip
+
+
+def _has_minima(parts: Parts) -> bool:
+    # Of an equivalent-linear analysis under time histories.
+    return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
+
+
+def _of_the_bearing(parts: Parts, known: Groundwork, demands: pd.DataFrame) -> list[Any]:
+    # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
+    bearing, bounds = parts.bearing(), parts.bounds()
+    envelope = demands["envelope"]
+    loads = [load for load in _loads(known, envelope) if 0.0 < load < float("inf")]
+    slip = float(envelope.get("interface slip", 0.0))
+    checks = device_checks(
+        bearing, (min(loads), max(loads)), slip=slip, bounds=bounds, limits=parts.limits()
+    )
+    totals: dict[Bound, float] = {
+        each.bound: each.total_displacement for each in known.equivalent.bounds.values()
+    }
+    return [*checks, *engagement_checks(bearing, totals)]
+
+
+def _loads(known: Groundwork, envelope: pd.Series[float]) -> list[float]:
+    # Axial loads of all combinations and of the histories [N].
+    found = [*known.system.loads]
+    for loads in known.system.combinations.values():
+        found += loads
+    return found + [float(envelope[f"{which} axial force"]) for which in ("least", "largest")]

@@ -1,0 +1,189 @@
+"""What a project's file becomes: structure, bearings, spectrum, bounds, motions, limits."""
+
+from __future__ import annotations
+
+import os
+import runpy
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+from frames._errors import ProjectError
+from frames.checks.bounds import PropertyBounds, PropertyFactors
+from frames.checks.limits import DesignLimits
+from frames.checks.superstructure import Superstructure
+from frames.frame import Frame
+from frames.hazard.motion_set import MotionSet
+from frames.hazard.spectrum import Spectrum
+from frames.library.models import shear_building
+from frames.library.moment_frames import moment_frame
+from frames.project.schema import (
+    Asce7Spectrum,
+    En1998Spectrum,
+    MomentFrame,
+    OpenSeesModel,
+    ShearBuilding,
+)
+from frames.sizing.target import INTERFACE_PRESSURE, DesignTarget
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from frames.project import schema
+    from frames.project.schema import ProjectFile
+
+T = TypeVar("T")
+
+RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
+    "ASCE 7-22": "ASCE 7-22",
+    "EN 1998": "EN 1998-1",
+    "NCh2745": "NCh2745",
+}
+"""Rules for motions and time histories by a project's code."""
+
+
+class Parts:
+    """What a project's file becomes.
+
+    Parameters
+    ----------
+    file : ProjectFile
+        The file.
+    folder : Path
+        Its folder: other files are found from there.
+
+    Raises
+    ------
+    ProjectError
+        From its methods: a section that cannot be, with the section's name.
+    """
+
+    def __init__(self, file: ProjectFile, folder: Path) -> None:
+        self.file, self.folder = file, folder
+
+    def bearing(self) -> LIRBearing:
+        """Return the bearing under each column."""
+        given = self.file.bearing
+        if given is None:
+            msg = "[bearing] is missing: `lir design` proposes one"
+            raise ProjectError(msg)
+        return _of("bearing", lambda: LIRBearing(**_arguments(given)))
+
+    def frame(self) -> Frame:
+        """Return the structure on its bearings."""
+        return _of("structure", lambda: self._frame(self.bearing()))
+
+    def provisional_frame(self) -> Frame:
+        """Return the structure on bearings of any size, for its loads; they carry, no more."""
+        bearing = LIRBearing(
+            radius=2.0, slider_height=0.4, slider_radius=0.3, capacity=0.3,
+            friction=CoulombFriction(0.05), interface_friction=0.2,
+        )  # fmt: skip
+        return _of("structure", lambda: self._frame(bearing))
+
+    def _frame(self, bearing: LIRBearing) -> Frame:
+        given, name = self.file.structure, self.file.project.name
+        if isinstance(given, MomentFrame):
+            return moment_frame(
+                given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
+                storey_height=given.storey_height, floor_load=given.floor_load,
+                eccentricity=given.eccentricity, name=name,
+            )  # fmt: skip
+        if isinstance(given, ShearBuilding):
+            return shear_building(
+                bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
+                storey_height=given.storey_height, plan=(given.bays, given.bay_width),
+                eccentricity=given.eccentricity, name=name,
+            )  # fmt: skip
+        return self._opensees(given, bearing, name)
+
+    def _opensees(self, given: OpenSeesModel, bearing: LIRBearing, name: str) -> Frame:
+        from lir_element.opensees.library import opensees
+
+        script = self.folder / given.script
+        if not script.is_file():
+            msg = f"script = {given.script} is no file in {self.folder}: name the model's script"
+            raise ProjectError(msg)
+        opensees().wipe()
+        before = os.getcwd()
+        os.chdir(script.parent)  # as scripts read their own files
+        try:
+            runpy.run_path(script.name, run_name="__main__")
+        finally:
+            os.chdir(before)
+        return Frame.from_opensees(
+            given.base_nodes, bearing, length_unit=given.length_unit,
+            force_unit=given.force_unit, name=name,
+        )  # fmt: skip
+
+    def superstructure(self, frame: Frame) -> Superstructure | None:
+        """Return what stands on the bearings; None without ``[superstructure]``."""
+        above = self.file.superstructure
+        if above is None:
+            return None
+        given = above.model_dump()
+        return _of("superstructure", lambda: Superstructure.from_frame(frame, **given))
+
+    def spectrum(self) -> Spectrum:
+        """Return the design spectrum."""
+        given = self.file.spectrum
+        keys = given.model_dump(exclude={"code"})
+        if isinstance(given, Asce7Spectrum):
+            return _of("spectrum", lambda: Spectrum.asce7(**keys))
+        if isinstance(given, En1998Spectrum):
+            return _of("spectrum", lambda: Spectrum.en1998(**keys))
+        return _of("spectrum", lambda: Spectrum.nch2745(**keys))
+
+    def bounds(self) -> PropertyBounds:
+        """Return the bounds of friction."""
+        given = self.file.bounds
+
+        def made() -> PropertyBounds:
+            inner = None if given.interface is None else PropertyFactors(*given.interface)
+            return PropertyBounds(PropertyFactors(*given.friction), inner)
+
+        return _of("bounds", made)
+
+    def limits(self) -> DesignLimits:
+        """Return what the engineer allows."""
+        given = self.file.limits.model_dump(exclude_none=True)
+        return _of("limits", lambda: DesignLimits(**given))
+
+    def target(self) -> DesignTarget:
+        """Return what ``lir design`` chooses from."""
+        given = self.file.design.model_dump(exclude_none=True)
+        limits = self.file.limits.model_dump(exclude_none=True)
+        limits = {"interface_pressure": INTERFACE_PRESSURE} | limits
+        return _of("design", lambda: DesignTarget(**given, limits=DesignLimits(**limits)))
+
+    def motions(self) -> MotionSet:
+        """Return the motions as they are given, not scaled to the spectrum."""
+        given = self.file.motions
+
+        def made() -> MotionSet:
+            if given.folder is not None:
+                found = MotionSet.from_folder(self.folder / given.folder, given.table)
+            else:
+                found = MotionSet.fema_p695(str(given.fema_p695))
+            found = found.only(given.only) if given.only else found
+            return found.fault_normal() if given.fault_normal else found
+
+        return _of("motions", made)
+
+
+def _arguments(given: schema.Bearing) -> dict[str, Any]:
+    keys = given.model_dump(exclude={"friction"})
+    law = given.friction
+    if isinstance(law, float):
+        return keys | {"friction": CoulombFriction(law)}
+    return keys | {"friction": VelocityFriction(law.f_max, law.f_min, law.rate)}
+
+
+def _of(section: str, make: Callable[[], T]) -> T:
+    try:
+        return make()
+    except ProjectError:
+        raise
+    except (ValueError, TypeError) as cause:
+        msg = f"[{section}] {cause}"
+        raise ProjectError(msg) from cause

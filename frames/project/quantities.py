@@ -1,0 +1,94 @@
+"""Numbers with their units in a project's file, as SI numbers: '175 mm', '150 kN', '5 %'."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+from typing import Annotated
+
+import pint
+from pydantic import BeforeValidator, WithJsonSchema
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+_POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
+
+
+@cache
+def _units() -> pint.UnitRegistry[float]:
+    return pint.UnitRegistry()
+
+
+def si(value: object, unit: str, example: str) -> float:
+    """Return a number with its unit in SI.
+
+    Parameters
+    ----------
+    value : str
+        Such as "175 mm"; of a pure number also the number itself.
+    unit : str
+        The SI unit; "" for a pure number.
+    example : str
+        How it may be written, for messages.
+
+    Returns
+    -------
+    float
+        In the SI unit.
+
+    Raises
+    ------
+    ValueError
+        If it has no unit, an unknown one, or one of another kind.
+
+    Examples
+    --------
+    >>> si("175 mm", "m", "175 mm"), si("5 %", "", "0.05")
+    (0.175, 0.05)
+    """
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if unit:
+            msg = f'has no unit: write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
+            raise ValueError(msg)
+        return _finite(float(value))
+    found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    if found is None:
+        msg = f'is no number with a unit: write it as "{example}"'
+        raise ValueError(msg)
+    number, given = float(found[1]), _POWER.sub(r"^\1", found[2])
+    if unit and not given:
+        msg = f'has no unit: write it as "{example}"'
+        raise ValueError(msg)
+    try:
+        factor = _units().Quantity(1.0, given or "dimensionless").to(unit or "dimensionless")
+    except pint.UndefinedUnitError as cause:
+        msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
+        raise ValueError(msg) from cause
+    except pint.DimensionalityError as cause:
+        msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
+        raise ValueError(msg) from cause
+    return _finite(float(f"{number * factor.magnitude:.15g}"))
+
+
+def _finite(number: float) -> float:
+    if not math.isfinite(number):
+        msg = "is not finite: give a number"
+        raise ValueError(msg)
+    return number
+
+
+def _kind(unit: str, example: str) -> tuple[BeforeValidator, WithJsonSchema]:
+    schema = {"type": ["string"] if unit else ["number", "string"], "examples": [example]}
+    return BeforeValidator(lambda value: si(value, unit, example)), WithJsonSchema(schema)
+
+
+Length = Annotated[float, *_kind("m", "175 mm")]
+Force = Annotated[float, *_kind("N", "150 kN")]
+Pressure = Annotated[float, *_kind("Pa", "30 MPa")]
+Mass = Annotated[float, *_kind("kg", "200 t")]
+AreaMass = Annotated[float, *_kind("kg/m^2", "1450 kg/m2")]
+Stiffness = Annotated[float, *_kind("N/m", "400 kN/mm")]
+Time = Annotated[float, *_kind("s", "5 ms")]
+Acceleration = Annotated[float, *_kind("m/s^2", "3.5 m/s2")]
+SpeedRate = Annotated[float, *_kind("s/m", "100 s/m")]
+Ratio = Annotated[float, *_kind("", "0.05")]

@@ -1,0 +1,95 @@
+"""A project read from its file: every message names file, key, value and remedy."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from frames._errors import ProjectError
+from frames.project.schema import ProjectFile
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_KINDS = {"moment frame", "shear building", "opensees", "ASCE 7-22", "EN 1998", "NCh2745"}
+"""Of unions, which the place of an error names besides its keys."""
+
+
+def read_project(path: str | Path) -> ProjectFile:
+    """Return a project's file, checked.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file, as ``lir new`` writes one.
+
+    Returns
+    -------
+    ProjectFile
+        Sections with SI numbers; paths are those of the file's folder.
+
+    Raises
+    ------
+    ProjectError
+        If it cannot be read, with a line for each thing that is wrong.
+    """
+    file = Path(path)
+    try:
+        data = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as cause:
+        msg = f"{file}: {cause.strerror or cause}: give a project's file, `lir new` writes one"
+        raise ProjectError(msg) from cause
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as cause:
+        msg = f"{file} is no TOML: {cause}"
+        raise ProjectError(msg) from cause
+    try:
+        return ProjectFile.model_validate(data)
+    except ValidationError as cause:
+        lines = [_line(file.name, data, error) for error in cause.errors()]
+        raise ProjectError("\n".join(lines)) from cause
+
+
+def schema() -> str:
+    """Return the JSON schema of a project's file, for editors."""
+    return json.dumps(ProjectFile.model_json_schema(), indent=2)
+
+
+def _line(name: str, data: dict[str, Any], error: Any) -> str:
+    place = [str(part) for part in error["loc"] if part not in _KINDS]
+    key, kind = ".".join(place) or "the file", error["type"]
+    if kind == "missing":
+        return f"{name}: {key} is missing: give it, `lir new` shows how"
+    if kind == "extra_forbidden":
+        known = _known(data, error["loc"])
+        near = difflib.get_close_matches(place[-1], known, n=1)
+        meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
+        return f"{name}: {key} is not known{meant}"
+    text = error["msg"].removeprefix("Value error, ")
+    value = error["input"]
+    if isinstance(value, (dict, list)):
+        return f"{name}: {key}: {text}"
+    return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+
+
+def _known(data: dict[str, Any], place: Sequence[Any]) -> list[str]:
+    # Keys of the section in which an unknown one stands.
+    model: Any = ProjectFile
+    for part in place[:-1]:
+        field = model.model_fields.get(part) if hasattr(model, "model_fields") else None
+        model = _section(field.annotation, data.get(part, {})) if field is not None else model
+    return sorted(model.model_fields)
+
+
+def _section(annotation: Any, given: Any) -> Any:
+    # The class of a section: of several, the one of its kind.
+    parts = [one for one in getattr(annotation, "__args__", (annotation,)) if one is not type(None)]
+    for one in parts:
+        kind = getattr(one, "model_fields", {}).get("kind")
+        if kind is not None and given.get("kind") in getattr(kind.annotation, "__args__", ()):
+            return one
+    return parts[0]

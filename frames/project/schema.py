@@ -1,0 +1,221 @@
+"""What a project's file holds: sections, keys, units and defaults."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from frames.project.quantities import (
+    Acceleration,
+    AreaMass,
+    Force,
+    Length,
+    Mass,
+    Pressure,
+    Ratio,
+    SpeedRate,
+    Stiffness,
+    Time,
+)
+
+Pair = tuple[Ratio, Ratio]
+CodeName = Literal["ASCE 7-22", "EN 1998", "NCh2745"]
+
+
+class Section(BaseModel):
+    """A table of the file: no keys but those that it knows."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class About(Section):
+    """``[project]``: its name, and the standard that it is designed by."""
+
+    name: str = Field(min_length=1)
+    code: CodeName
+
+
+class MomentFrame(Section):
+    """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
+
+    kind: Literal["moment frame"]
+    bays: tuple[int, int]
+    bay_width: tuple[Length, Length]
+    storeys: int = Field(ge=1)
+    storey_height: Length
+    floor_load: AreaMass | None = None
+    eccentricity: Pair = (0.0, 0.0)
+
+
+class ShearBuilding(Section):
+    """``[structure]`` of kind "shear building": rigid floors on storey springs."""
+
+    kind: Literal["shear building"]
+    bays: tuple[int, int]
+    bay_width: tuple[Length, Length]
+    storey_mass: tuple[Mass, ...] = Field(min_length=1)
+    storey_stiffness: tuple[Stiffness, ...] = Field(min_length=1)
+    storey_height: Length
+    base_mass: Mass | None = None
+    eccentricity: Pair = (0.0, 0.0)
+
+
+class OpenSeesModel(Section):
+    """``[structure]`` of kind "opensees": a script that builds a model with OpenSeesPy."""
+
+    kind: Literal["opensees"]
+    script: Path
+    base_nodes: tuple[int, ...] = Field(min_length=1)
+    length_unit: Length = 1.0
+    force_unit: Force = 1.0
+
+
+Structure = Annotated[MomentFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")]
+
+
+class Above(Section):
+    """``[superstructure]``: what design formulas need of it besides the model."""
+
+    R: float = Field(gt=0.0)
+    importance: float = Field(default=1.0, gt=0.0)
+    wind_shear: Force = 0.0
+
+
+class Friction(Section):
+    """``friction = {f_max = 0.06, f_min = 0.03, rate = "100 s/m"}``."""
+
+    f_max: Ratio
+    f_min: Ratio
+    rate: SpeedRate
+
+
+class Bearing(Section):
+    """``[bearing]``: the LIR-DCFP under each column; arguments of `lir_element.LIRBearing`."""
+
+    radius: Length | tuple[Length, Length]
+    slider_height: Length
+    slider_radius: Length
+    capacity: Length
+    friction: Ratio | Friction
+    interface_friction: Ratio
+
+
+class Asce7Spectrum(Section):
+    """``[spectrum]`` of ASCE 7: MCE_R, accelerations in g as the standard has them."""
+
+    code: Literal["ASCE 7-22"]
+    s_ms: float = Field(gt=0.0)
+    s_m1: float = Field(gt=0.0)
+    t_l: Time = 8.0
+
+
+class En1998Spectrum(Section):
+    """``[spectrum]`` of EN 1998-1."""
+
+    code: Literal["EN 1998"]
+    a_g: Acceleration
+    ground_type: Literal["A", "B", "C", "D", "E"]
+    kind: Literal[1, 2] = 1
+    importance: float = Field(default=1.0, gt=0.0)
+
+
+class NChSpectrum(Section):
+    """``[spectrum]`` of NCh2745."""
+
+    code: Literal["NCh2745"]
+    soil: Literal["I", "II", "III"]
+    zone: Literal[1, 2, 3]
+
+
+DesignSpectrum = Annotated[
+    Asce7Spectrum | En1998Spectrum | NChSpectrum, Field(discriminator="code")
+]
+
+
+class Motions(Section):
+    """``[motions]``: records from a folder with a table, PEER files, or a set ready by name."""
+
+    folder: Path | None = None
+    table: str = "motions.csv"
+    fema_p695: Literal["far-field", "near-fault pulse", "near-fault no pulse"] | None = None
+    scale: Literal["spectrum"] | float = "spectrum"
+    fault_normal: bool = False
+    only: tuple[str, ...] = ()
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Motions:
+        if (self.folder is None) == (self.fema_p695 is None):
+            msg = 'needs one source: folder = "motions", or fema_p695 = "far-field"'
+            raise ValueError(msg)
+        return self
+
+
+class Bounds(Section):
+    """``[bounds]``: factors on friction, lower and upper; the interface's own if given."""
+
+    friction: Pair
+    interface: Pair | None = None
+
+
+class Limits(Section):
+    """``[limits]``: what the engineer allows; fields of `frames.DesignLimits`."""
+
+    margin: float | None = None
+    rim_strength: Force | None = None
+    eccentricity: float | None = None
+    interface_pressure: Pressure | None = None
+    liner_pressure: Pressure | None = None
+    lateral_force: Force | None = None
+    axial_force: Force | None = None
+    floor_acceleration: Acceleration | None = None
+    drift: Ratio | None = None
+    displacement_left: Length | None = None
+
+
+class Target(Section):
+    """``[design]``: what ``lir design`` chooses from; fields of `frames.DesignTarget`."""
+
+    radii: tuple[Length, ...] | None = None
+    frictions: tuple[Ratio, ...] | None = None
+    rim_share: Ratio | None = None
+    pressure: Pressure | None = None
+    largest_pressure: Pressure | None = None
+    max_displacement: Length | None = None
+    max_base_shear: Ratio | None = None
+    max_plan_diameter: Length | None = None
+
+
+class Analysis(Section):
+    """``[analysis]``: how time histories are run."""
+
+    level: Literal["pendulum", "contact"] = "pendulum"
+    dt: Time | None = None
+    workers: int | None = Field(default=None, ge=1)
+    bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
+
+
+class ProjectFile(Section):
+    """A whole file."""
+
+    project: About
+    structure: Structure
+    superstructure: Above | None = None
+    bearing: Bearing | None = None
+    spectrum: DesignSpectrum
+    motions: Motions
+    bounds: Bounds
+    limits: Limits = Limits()
+    design: Target = Target()
+    analysis: Analysis = Analysis()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _spectrum_of_its_code(cls, data: object) -> object:
+        # The project's code decides which keys its spectrum has.
+        if isinstance(data, dict):
+            about, given = data.get("project"), data.get("spectrum")
+            if isinstance(about, dict) and isinstance(given, dict):
+                return data | {"spectrum": {"code": about.get("code")} | given}
+        return data
