@@ -19,6 +19,8 @@ from frames.hazard.scaling import Scaling, scaled_so
 from frames.hazard.spectrum import Spectrum
 from frames.motion.ground_motion import GroundMotion
 from lir_element.door import require_choice, require_type
+from lir_element.tables import html_table
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -358,6 +360,21 @@ class MotionSet(Mapping[str, GroundMotion]):
         factors = {name: factor / before.get(name, 1.0) for name, factor in done.factors.items()}
         motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
         return MotionSet(motions, self.facts, done)
+
+    def _repr_html_(self) -> str:
+        factors = {} if self.scaling is None else self.scaling.factors
+        rows = [
+            (
+                name,
+                ", ".join(f"{axis} {peak / STANDARD_GRAVITY:.3f}" for axis, peak in m.peak.items()),
+                f"{m.duration:.4g}",
+                f"{factors[name]:.3f}" if factors else "",
+            )
+            for name, m in self.items()
+        ]
+        notes = [] if self.scaling is None else [f"Scaled to {self.scaling.target.name}."]
+        head = ("motion", "peaks [g]", "duration [s]", "factor")
+        return html_table(f"{len(self)} motions", rows, head, notes)
 
     def __repr__(self) -> str:
         """Name the motions, and the target of a scaled set."""

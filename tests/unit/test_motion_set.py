@@ -184,6 +184,7 @@ def test_scaling_twice_counts_from_the_start() -> None:
     twice = once.scaled_to(target.scaled(2.0), periods=(0.5, 2.5), limits=(0.01, 100.0))
     assert once.scaling is not None
     assert twice.scaling is not None
+    assert f"{twice.scaling.factors['shaken 1']:.3f}" in twice._repr_html_()
     for name, factor in twice.scaling.factors.items():
         assert factor == pytest.approx(2.0 * once.scaling.factors[name])
         np.testing.assert_allclose(twice[name].x, factor * SEVEN[name].x)
