@@ -374,9 +374,10 @@ class MotionSet(Mapping[str, GroundMotion]):
         """Return the set with each pair changed so that its spectrum follows the target.
 
         Wavelets change the motions within the range (`frames.hazard.matching`), up to a minute a
-        pair; of recorded pairs, some stay 10 to 15 % off at a period. The baseline is corrected, vertical components stay as they are. It takes the
-        scatter between motions away, and may change pulses: look at the histories. `scaled_to`
-        afterwards lifts the mean to what a code asks. Needs the extra "matching".
+        pair; of recorded pairs, some stay 10 to 15 % off at a period. The baseline is corrected,
+        vertical components stay as they are. Matching takes the scatter between motions away, and
+        may change pulses: look at the histories. `scaled_to` afterwards lifts the mean to what a
+        code asks. Needs the extra "matching".
 
         Parameters
         ----------
