@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-import numpy as np
-import pandas as pd
 
 from frames._errors import MotionError
 from frames.hazard.fault_axes import angle_of, to_fault
 from frames.hazard.fema_records import fema_p695_records
+from frames.hazard.matching import matched_pair
+from frames.hazard.motion_collection import MotionCollection
 from frames.hazard.motion_folder import read_at2_folder, read_table
-from frames.hazard.motion_measures import motion_measures
-from frames.hazard.pair_spectra import pair_spectrum
-from frames.hazard.scaling import Scaling, scaled_so
+from frames.hazard.scaling import checked_range, scaled_so
 from frames.hazard.spectrum import Spectrum
-from frames.motion.ground_motion import GroundMotion
 from lir_element.door import require_choice, require_type
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from frames.motion.records import PathLike
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MotionSet(Mapping[str, GroundMotion]):
+class MotionSet(MotionCollection):
     """Ground motions by name, with what is known of them; a mapping, for `time_histories`.
 
     Parameters
@@ -50,6 +44,8 @@ class MotionSet(Mapping[str, GroundMotion]):
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion
     >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
     >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
     >>> scaled = motions.scaled_to(
@@ -58,39 +54,6 @@ class MotionSet(Mapping[str, GroundMotion]):
     >>> round(scaled.scaling.least_ratio, 9)
     1.0
     """
-
-    motions: Mapping[str, GroundMotion] | Sequence[GroundMotion]
-    facts: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
-    scaling: Scaling | None = None
-
-    def __post_init__(self) -> None:
-        """Check and copy.
-
-        Raises
-        ------
-        MotionError
-            If the set is empty, or a name cannot be used.
-        """
-        given = self.motions
-        pairs = (
-            list(given.items())
-            if isinstance(given, Mapping)
-            else [(getattr(motion, "name", ""), motion) for motion in given]
-        )
-        for name, motion in pairs:
-            require_type(f"motions[{name!r}]", motion, GroundMotion, "a GroundMotion")
-        names = [name for name, _ in pairs]
-        bad = [name for name in names if not name or names.count(name) > 1]
-        if bad or not names:
-            found = f"name {bad[0]!r} is empty or there twice" if bad else "no motion is given"
-            msg = f"{found}: give motions by name, {{'name': motion}}"
-            raise MotionError(msg)
-        stray = set(self.facts) - set(names)
-        if stray:
-            msg = f"facts of {sorted(stray)[0]!r} belong to no motion: {', '.join(names)} are given"
-            raise MotionError(msg)
-        object.__setattr__(self, "motions", dict(pairs))
-        object.__setattr__(self, "facts", {n: dict(self.facts.get(n, {})) for n in names})
 
     @classmethod
     def from_folder(cls, path: PathLike, table: str = "motions.csv") -> MotionSet:
@@ -170,22 +133,6 @@ class MotionSet(Mapping[str, GroundMotion]):
         """
         return cls(*fema_p695_records(kind))
 
-    def __getitem__(self, name: str) -> GroundMotion:
-        """Return a motion by its name."""
-        return self._by_name[name]
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the names."""
-        return iter(self._by_name)
-
-    def __len__(self) -> int:
-        """Return the number of motions."""
-        return len(self._by_name)
-
-    @property
-    def _by_name(self) -> Mapping[str, GroundMotion]:
-        return self.motions if isinstance(self.motions, Mapping) else {}
-
     def only(self, names: Sequence[str]) -> MotionSet:
         """Return the set of some of the motions, not scaled as a set any more.
 
@@ -207,63 +154,6 @@ class MotionSet(Mapping[str, GroundMotion]):
         for name in names:
             require_choice("name", name, tuple(self), error=MotionError)
         return MotionSet({n: self[n] for n in names}, {n: self.facts[n] for n in names})
-
-    def spectra(
-        self, periods: npt.ArrayLike, damping: float = 0.05, measure: str = "RotD100"
-    ) -> pd.DataFrame:
-        """Return the response spectra of all motions.
-
-        Parameters
-        ----------
-        periods : array_like, shape (m,)
-            Natural periods [s].
-        damping : float
-            Part of the critical damping [-].
-        measure : str
-            Measure of a pair (`frames.hazard.pair_spectra.MEASURES`).
-
-        Returns
-        -------
-        pandas.DataFrame
-            Pseudo-accelerations [m/s2]: a row a period, a column a motion.
-
-        Raises
-        ------
-        MotionError
-            If a component is missing, or an argument out of its bounds.
-        """
-        columns = {n: pair_spectrum(m, periods, damping, measure) for n, m in self.items()}
-        return pd.DataFrame(columns, index=pd.Index(np.atleast_1d(periods), name="period [s]"))
-
-    def table(self, component: str = "x") -> pd.DataFrame:
-        """Return facts and measures of one component of all motions.
-
-        Parameters
-        ----------
-        component : {"x", "y", "z"}
-            The component.
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a motion; columns: facts, the factor of a scaled set, and those of
-            `frames.hazard.motion_measures.motion_measures`.
-
-        Raises
-        ------
-        MotionError
-            If a motion has no such component.
-        """
-        require_choice("component", component, ("x", "y", "z"), error=MotionError)
-        rows = []
-        for name, motion in self.items():
-            values = getattr(motion, component)
-            if values is None:
-                msg = f"{name} has no component {component}: choose one of {', '.join(motion.peak)}"
-                raise MotionError(msg)
-            factor = {} if self.scaling is None else {"factor": self.scaling.factors[name]}
-            rows.append({**self.facts[name], **factor, **motion_measures(values, motion.dt)})
-        return pd.DataFrame(rows, index=pd.Index(list(self), name="motion"))
 
     def fault_normal(self) -> MotionSet:
         """Return the set with x normal and y parallel to the fault.
@@ -359,7 +249,58 @@ class MotionSet(Mapping[str, GroundMotion]):
         motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
         return MotionSet(motions, self.facts, done)
 
-    def __repr__(self) -> str:
-        """Name the motions, and the target of a scaled set."""
-        label = "" if self.scaling is None else f", scaled to {self.scaling.target.name}"
-        return f"MotionSet of {len(self)}{label}: {', '.join(self)}"
+    def matched_to(
+        self,
+        spectrum: Spectrum,
+        *,
+        periods: tuple[float, float],
+        measure: str = "RotD100",
+        damping: float = 0.05,
+        tolerance: float = 0.10,
+    ) -> MotionSet:
+        """Return the set with each pair changed so that its spectrum follows the target.
+
+        Wavelets change the motions within the range (`frames.hazard.matching`), up to a minute a
+        pair; of recorded pairs, some stay 10 to 15 % off at a period. The baseline is corrected,
+        vertical components stay as they are. Matching takes the scatter between motions away, and
+        may change pulses: look at the histories. `scaled_to` afterwards lifts the mean to what a
+        code asks. Needs the extra "matching".
+
+        Parameters
+        ----------
+        spectrum : Spectrum
+            The target.
+        periods : tuple of float
+            Range of periods [s].
+        measure : {"RotD100", "RotD50"}
+            What is matched.
+        damping : float
+            Damping of the spectra [-].
+        tolerance : float
+            Difference of a spectrum from the target that passes without a warning [-].
+
+        Returns
+        -------
+        MotionSet
+            The matched motions.
+
+        Raises
+        ------
+        MotionError
+            If an argument is out of its bounds, there is no pair, or the correction of the
+            baseline would change a peak by more than 5 %.
+        ImportError
+            If the package `reqpy-m` is not installed.
+
+        Warns
+        -----
+        MotionWarning
+            If a spectrum is farther from the target than the tolerance.
+        """
+        require_type("spectrum", spectrum, Spectrum, "a Spectrum")
+        range_ = checked_range(periods)
+        changed = {
+            name: matched_pair(name, motion, spectrum, range_, damping, measure, tolerance)
+            for name, motion in self.items()
+        }
+        return MotionSet(changed, self.facts)

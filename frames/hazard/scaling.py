@@ -137,7 +137,7 @@ def scaled_so(
     require_choice("rule", rule, tuple(SCALING_RULES), error=MotionError)
     require_choice("how", how, ("amplitude", "common"), error=MotionError)
     code = SCALING_RULES[rule]
-    low, high = _range(periods)
+    low, high = checked_range(periods)
     wanted = code.part if part is None else require_positive("part", part, error=MotionError)
     kind = code.measure if measure is None else measure
     grid = np.concatenate([np.geomspace(low, high, POINTS), [0.0] if code.at_zero else []])
@@ -165,8 +165,8 @@ def scaled_so(
     )  # fmt: skip
 
 
-def _range(periods: tuple[float, float]) -> tuple[float, float]:
-    """Return a range of periods, checked."""
+def checked_range(periods: tuple[float, float]) -> tuple[float, float]:
+    """Return a range of periods [s], or raise a MotionError."""
     if np.shape(periods) != (2,):
         msg = f"periods = {periods!r}: give the shortest and the longest period in s"
         raise MotionError(msg)
