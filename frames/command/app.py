@@ -81,7 +81,6 @@ def propose(
             superstructure=parts.superstructure(frame), code=CODES[parts.file.project.code](),
             sizes=sizes, least=least,  # type: ignore[arg-type]  # design checks it
         )  # fmt: skip
-        _frame_table("Proposed", found.table().T)
         out.print(f"{found}\n", markup=False, highlight=False, soft_wrap=True)
         for text in _sections(found):
             out.print(text, markup=False, highlight=False)

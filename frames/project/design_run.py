@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -235,7 +236,9 @@ def _of_the_bearing(parts: Parts, known: Groundwork, demands: pd.DataFrame) -> l
     bearing, bounds = parts.bearing(), parts.bounds()
     envelope = demands["envelope"]
     loads = [load for load in _loads(known, envelope) if 0.0 < load < float("inf")]
-    slip = float(envelope.get("interface slip", 0.0))
+    slip = float(envelope["interface slip"])
+    if not math.isfinite(slip):  # runs failed: the most that it holds
+        slip = bearing.resolved()["slip_capacity"]
     checks = device_checks(
         bearing, (min(loads), max(loads)), slip=slip, bounds=bounds, limits=parts.limits()
     )

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from importlib import resources
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import signal
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from frames._types import FloatArray
 
-PULSES = {
-    "pulse-1.5s": 1.5, "pulse-1.8s": 1.8, "pulse-2.1s": 2.1, "pulse-2.4s": 2.4,
-    "pulse-2.7s": 2.7, "pulse-3.0s": 3.0, "pulse-3.4s": 3.4,
-}  # fmt: skip
-"""Period of each artificial pulse [s]."""
+PULSES = {f"artificial-{k}": 1.6 + 0.3 * k for k in range(1, 8)}
+"""Period of the pulse in each artificial motion [s]."""
 
-_STEP, _LENGTH = 0.005, 20.0  # s
+_STEP, _LENGTH = 0.005, 25.0  # s
+_GROUND = 2.0 * math.pi * 1.2, 0.7  # rad/s, -: filter of the noise (Kanai and Tajimi)
 
 
 def write_example(folder: Path) -> list[Path]:
     """Write a project's file and artificial motions into a folder.
 
-    The motions are velocity pulses (a harmonic under a bell of two periods) with a weaker, shorter
-    one across: there to try the project with, not to design by.
+    The motions are filtered noise with a pulse of velocity (a harmonic under a bell of two
+    periods) in it, weaker across: there to try the project with, not to design by.
 
     Parameters
     ----------
@@ -46,10 +46,11 @@ def write_example(folder: Path) -> list[Path]:
     text = resources.files("frames.project").joinpath("example.toml").read_text(encoding="utf-8")
     contents = {folder / "project.toml": text}
     table = ["name,x,y,dt,unit,near_fault"]
-    for name, period in PULSES.items():
+    for seed, (name, period) in enumerate(PULSES.items()):
         table.append(f"{name},{name}-x.txt,{name}-y.txt,{_STEP},m/s2,yes")
-        contents[motions / f"{name}-x.txt"] = _column(_pulse(period, 0.6))
-        contents[motions / f"{name}-y.txt"] = _column(_pulse(0.7 * period, 0.3))
+        for axis, share in (("x", 1.0), ("y", 0.6)):
+            values = share * _artificial(period, 2 * seed + (axis == "y"))
+            contents[motions / f"{name}-{axis}.txt"] = _column(values)
     contents[motions / "motions.csv"] = "\n".join(table) + "\n"
     for path in contents:
         if path.exists():
@@ -60,13 +61,28 @@ def write_example(folder: Path) -> list[Path]:
     return list(contents)
 
 
-def _pulse(period: float, speed: float) -> FloatArray:
-    # Acceleration of a velocity pulse that starts and ends at rest [m/s2].
+def _artificial(period: float, seed: int) -> FloatArray:
+    # Noise that a soil layer filters, under a bell, and a pulse that starts and ends at rest
+    # [m/s2]; both without what a record's processing takes out below 0.1 Hz.
     time = np.arange(0.0, _LENGTH, _STEP)
-    phase = (time - 3.0 - period) / period
+    white = np.random.default_rng(seed).standard_normal(len(time))
+    soil = signal.lfilter(*_layer(), white)
+    slow = signal.butter(4, 0.1, "highpass", fs=1.0 / _STEP, output="sos")
+    noise = signal.sosfiltfilt(slow, soil * np.sin(np.pi * time / _LENGTH) ** 2)
+    phase = (time - 8.0) / period
     bell = np.where(np.abs(phase) < 1.0, 0.5 * (1.0 + np.cos(np.pi * phase)), 0.0)
-    velocity = speed * bell * np.sin(2.0 * np.pi * phase)
-    return np.gradient(velocity, _STEP)
+    pulse = np.gradient(bell * np.sin(2.0 * np.pi * phase), _STEP)
+    found: FloatArray = 1.5 * noise / np.abs(noise).max() + 0.25 * pulse
+    return found
+
+
+def _layer() -> tuple[FloatArray, FloatArray]:
+    # The filter of Kanai and Tajimi as a recursion.
+    omega, ratio = _GROUND
+    upper = np.array([2.0 * ratio * omega, omega**2])
+    lower = np.array([1.0, 2.0 * ratio * omega, omega**2])
+    numerator, denominator, _ = signal.cont2discrete((upper, lower), _STEP)
+    return numerator.ravel(), denominator
 
 
 def _column(values: FloatArray) -> str:

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from frames.project import schema
     from frames.project.schema import ProjectFile
 
+BASE_DEPTH = 0.8
+"""Depth over which a base node of a moment frame has its mass, for rotary inertia [m]."""
+
 T = TypeVar("T")
 
 RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
@@ -84,11 +87,12 @@ class Parts:
     def _frame(self, bearing: LIRBearing) -> Frame:
         given, name = self.file.structure, self.file.project.name
         if isinstance(given, MomentFrame):
-            return moment_frame(
+            frame = moment_frame(
                 given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
                 storey_height=given.storey_height, floor_load=given.floor_load,
                 eccentricity=given.eccentricity, name=name,
             )  # fmt: skip
+            return _with_turning_nodes(frame, given)
         if isinstance(given, ShearBuilding):
             return shear_building(
                 bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
@@ -169,6 +173,16 @@ class Parts:
             return found.fault_normal() if given.fault_normal else found
 
         return _of("motions", made)
+
+
+def _with_turning_nodes(frame: Frame, given: MomentFrame) -> Frame:
+    # Nodes on bearings turn with what they carry: without inertia the moment of a rim may have no
+    # equilibrium.
+    mass = given.floor_load * given.bay_width[0] * given.bay_width[1]
+    inertia = mass * BASE_DEPTH**2 / 12.0
+    for link in frame.bearings.values():
+        frame.add_mass(link.j, 0.0, (inertia, inertia, 0.0))
+    return frame
 
 
 def _arguments(given: schema.Bearing) -> dict[str, Any]:

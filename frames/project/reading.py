@@ -66,14 +66,22 @@ def _line(name: str, data: dict[str, Any], error: Any) -> str:
         return f"{name}: {key} is missing: give it, `lir new` shows how"
     if kind == "extra_forbidden":
         known = _known(data, error["loc"])
-        near = difflib.get_close_matches(place[-1], known, n=1)
+        near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
         meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
         return f"{name}: {key} is not known{meant}"
-    text = error["msg"].removeprefix("Value error, ")
+    text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
     value = error["input"]
     if isinstance(value, (dict, list)):
         return f"{name}: {key}: {text}"
     return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+
+
+def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -> list[str]:
+    # Keys that a section knows and does not have yet.
+    section: Any = data
+    for part in place[:-1]:
+        section = section.get(part, {}) if isinstance(section, dict) else {}
+    return [key for key in known if key not in section]
 
 
 def _known(data: dict[str, Any], place: Sequence[Any]) -> list[str]:

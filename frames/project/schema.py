@@ -45,7 +45,7 @@ class MomentFrame(Section):
     bay_width: tuple[Length, Length]
     storeys: int = Field(ge=1)
     storey_height: Length
-    floor_load: AreaMass | None = None
+    floor_load: AreaMass
     eccentricity: Pair = (0.0, 0.0)
 
 

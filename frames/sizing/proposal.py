@@ -149,11 +149,11 @@ class Design:
         return html_table(repr(self), rows, head) + self.chosen.checks._repr_html_()
 
     def _cells(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-        table = self.table()
+        table = self.table().T
         rows = [
             (str(name), *(f"{value:.4g}" for value in row)) for name, *row in table.itertuples()
         ]
-        return ("device", *map(str, table.columns)), rows
+        return ("", *map(str, table.columns)), rows
 
 
 def design(

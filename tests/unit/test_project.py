@@ -1,0 +1,207 @@
+"""A project's file: units, messages, what it becomes; the command from an empty folder."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+import pandas as pd
+from typer.testing import CliRunner
+
+from frames import ProjectError, load, time_history
+from frames.command.app import app
+from frames.project.design_run import groundwork
+from frames.project.parts import Parts
+from frames.project.quantities import si
+from frames.project.reading import read_project, schema
+
+SMALL = """
+[project]
+name = "Two storeys"
+code = "NCh2745"
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["6 m", "600 cm"]
+storey_mass = ["100 t", "100 t"]
+storey_stiffness = ["400 kN/mm", "300 kN/mm"]
+storey_height = "3 m"
+base_mass = "100000 kg"
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "0.2 m"
+capacity = "180 mm"
+friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}
+interface_friction = 0.18
+[spectrum]
+soil = "II"
+zone = 2
+[motions]
+folder = "motions"
+only = ["artificial-1", "artificial-3", "artificial-5"]
+scale = 1.2
+[bounds]
+friction = [0.8, 1.3]
+interface = [0.9, 1.1]
+[limits]
+rim_strength = "5 MN"
+"""
+run = CliRunner().invoke
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Motions of the example, and a small project."""
+    assert run(app, ["new", str(tmp_path)]).exit_code == 0
+    (tmp_path / "small.toml").write_text(SMALL)
+    return tmp_path
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("175 mm", "m", 0.175), ("175mm", "m", 0.175), ("-3.5e-1 m", "m", -0.35),
+        ("12 in", "m", 0.3048), ("150 kN", "N", 150e3), ("1 kip", "N", 4448.2216152605),
+        ("1450 kg/m2", "kg/m^2", 1450.0), ("30 MPa", "Pa", 30e6), ("1 t", "kg", 1000.0),
+        ("100 s/m", "s/m", 100.0), ("0.3 s/in", "s/m", 0.3 / 0.0254), ("5 %", "", 0.05),
+        (0.05, "", 0.05), ("0.05", "", 0.05), ("0.35 m/s^2", "m/s^2", 0.35),
+    ],
+)  # fmt: skip
+def test_units_are_si(text: object, unit: str, value: float) -> None:
+    assert si(text, unit, "1 m") == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        (175, "m", 'write "175 mm"'), ("175", "m", "no unit"), ("175 kN", "m", "no unit of m"),
+        ("175 furz", "m", "unknown unit"), ("mm", "m", "no number"), (True, "", "no number"),
+        (math.inf, "", "not finite"), ("3 m", "", "a pure number"),
+    ],
+)  # fmt: skip
+def test_what_is_no_quantity_is_refused(text: object, unit: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        si(text, unit, "175 mm")
+
+
+def changed(folder: Path, old: str, new: str) -> Path:
+    assert old in SMALL
+    path = folder / "changed.toml"
+    path.write_text(SMALL.replace(old, new))
+    return path
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"180 mm"', "180", 'changed.toml: bearing.capacity = 180 has no unit: write "180 mm"'),
+        ("capacity", "capacty", 'bearing.capacty is not known; is "capacity" meant'),
+        ("capacity", "capacty", "bearing.capacity is missing"),
+        ("zone = 2", "zone = 7", "spectrum.zone = 7 must be 1, 2 or 3"),
+        ('soil = "II"', "s_ms = 1.0", "spectrum.s_ms is not known"),
+        ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
+        ('folder = "motions"', "", "motions: needs one source"),
+        ("[limits]", "[limit]", 'limit is not known; is "limits" meant'),
+        ("[bearing]", "[bearing", "is no TOML"),
+    ],
+)
+def test_messages_name_file_key_value_and_remedy(
+    tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    with pytest.raises(ProjectError, match=words):
+        read_project(changed(tmp_path, old, new))
+
+
+@pytest.mark.plain
+def test_a_section_that_cannot_be_is_named(tmp_path: Path) -> None:
+    for old, new, words in (
+        ("[0.8, 1.3]", "[1.2, 1.3]", r"\[bounds\] factors 1.2"),
+        ('"180 mm"', '"180 m"', r"\[bearing\] capacity = 180 m lies beyond"),
+        ('"motions"', '"nowhere"', r"\[motions\].*nowhere"),
+        ('"5 MN"', '"-5 MN"', r"\[limits\].*rim_strength"),
+    ):
+        parts = Parts(read_project(changed(tmp_path, old, new)), tmp_path)
+        with pytest.raises(ProjectError, match=words):
+            for make in (parts.bounds, parts.bearing, parts.limits, parts.motions):
+                make()
+
+
+@pytest.mark.plain
+def test_the_schema_knows_all_sections() -> None:
+    found = json.loads(schema())
+    assert {"project", "structure", "bearing", "spectrum", "bounds"} <= set(found["properties"])
+
+
+def test_the_example_is_a_project(folder: Path) -> None:
+    file = read_project(folder / "project.toml")
+    ground = groundwork(Parts(file, folder))
+    assert len(ground.frame.bearings) == 12
+    assert ground.motions.scaling is not None
+    assert ground.motions.scaling.least_ratio == pytest.approx(1.0)
+    assert len(ground.motions) == 7
+    for motion in ground.motions.values():
+        assert abs(motion.drift["x"].share) < 0.05
+
+
+def test_new_writes_over_nothing(folder: Path) -> None:
+    again = run(app, ["new", str(folder)])
+    assert again.exit_code == 2
+    assert "is there already" in again.stderr
+
+
+def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
+    results = folder / "out"
+    done = run(app, ["run", str(folder / "small.toml"), "--results", str(results)])
+    assert done.exit_code in {0, 1}, done.output
+    checks = pd.read_csv(results / "checks.csv")
+    facts = json.loads((results / "run.json").read_text())
+    assert facts["passed"] == checks["passed"].all() == (done.exit_code == 0)
+    assert len(checks) == facts["checks"] > 20
+    assert (results / "checks.txt").read_text().count("standing: ") == len(checks)
+    assert (results / "project.toml").read_text() == SMALL
+    runs = load(results / "runs-upper.nc")
+    parts = Parts(read_project(folder / "small.toml"), folder)
+    motion = parts.motions()["artificial-3"].scaled(1.2)
+    from frames import bounded
+
+    single = time_history(bounded(parts.frame(), "upper", parts.bounds()), motion)
+    ours = float(runs["reached_displacement"].isel(run=1).max())
+    size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
+    assert ours == pytest.approx(size.max(), rel=1e-12)
+    demands = pd.read_csv(results / "demands.csv", index_col=0)
+    each = runs["reached_displacement"].max("run")
+    assert demands.loc["isolator displacement", "upper"] == pytest.approx(float(each.max()))
+
+
+def test_the_devices_are_compared(folder: Path) -> None:
+    done = run(app, ["compare", str(folder / "small.toml")])
+    assert done.exit_code == 0, done.output
+    line = next(one for one in done.stdout.splitlines() if one.startswith("interface slip left"))
+    assert line.split()[-1] == "0"  # the slider in one piece
+
+
+def test_bearings_are_proposed_as_a_section(folder: Path) -> None:
+    done = run(app, ["design", str(folder / "project.toml")])
+    assert done.exit_code == 0, done.output
+    section = done.stdout[done.stdout.index("[bearing]") :]
+    text = (folder / "project.toml").read_text()
+    start, end = text.index("[bearing]"), text.index("[bounds]")
+    (folder / "project.toml").write_text(text[:start] + section + "\n" + text[end:])
+    assert read_project(folder / "project.toml").bearing is not None
+
+
+def test_what_cannot_be_used_ends_with_two(folder: Path) -> None:
+    done = run(app, ["check", str(changed(folder, '"180 mm"', "180"))])
+    assert done.exit_code == 2
+    assert "bearing.capacity = 180" in done.stderr
+    assert run(app, ["check", str(folder / "nowhere.toml")]).exit_code == 2
