@@ -6,6 +6,7 @@ from frames._errors import ModelError as ModelError
 from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
 from frames._errors import MotionWarning as MotionWarning
+from frames._errors import ProjectError as ProjectError
 from frames.analysis.batch import time_histories as time_histories
 from frames.analysis.cases import BatchProgress as BatchProgress
 from frames.analysis.model_check import ModelCheck as ModelCheck
@@ -131,6 +132,7 @@ __all__ = [
     "NCh2745",
     "Pinching",
     "PlasticHinge",
+    "ProjectError",
     "PropertyBounds",
     "PropertyFactors",
     "RayleighDamping",
