@@ -12,7 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from lir_element import (
+    CoulombFriction,
+    DesignWarning,
+    FrictionHeating,
+    LIRBearing,
+    PressureDependence,
+    VelocityFriction,
+)
 from lir_element.device.sliders import point_records, slider_record
 from lir_element.layout import PROPS_FIELDS
 
@@ -423,6 +430,7 @@ def test_equality_and_hash() -> None:
         "allow_weak_interface": True, "rims": (0.75 * 0.175 / 1.415,) * 2,
         "slider_density": 7000.0, "slider_mass": (3.0, 4.0), "contact_points": 12,
         "slider_inertia": ((0.1, 0.2), (0.1, 0.2)),
+        "pressure_dependence": PressureDependence(), "friction_heating": FrictionHeating(),
     }  # fmt: skip
     assert set(changes) == {f.name for f in dataclasses.fields(LIRBearing)}
     for name, value in changes.items():
