@@ -37,8 +37,7 @@ def exact_features(frame: FrameContents, motion: GroundMotion) -> Features:
     Features
         Only what takes no part at all is left out: the second direction where the motion has none
         and the model does not couple the x-z plane with the rest; velocity dependence where no
-        friction depends on speed, and so for pressure and temperature; rims and interface where no
-        bearing has them.
+        friction depends on speed; rims and interface where no bearing has them.
     """
     system = assemble(frame)
     bearings = [bearing for _, _, _, bearing in system.bearings]
@@ -49,10 +48,6 @@ def exact_features(frame: FrameContents, motion: GroundMotion) -> Features:
         lacking.append("rims")
     if all(law.f_max == law.f_min for b in bearings for law in b.frictions):
         lacking.append("velocity_dependence")
-    if all(b.pressure_dependence is None for b in bearings):
-        lacking.append("pressure_dependence")
-    if all(b.friction_heating is None for b in bearings):
-        lacking.append("friction_heating")
     if not motion.components[:, 1].any() and is_plane(system):
         lacking.append("second_direction")
     return Features.all().without(*lacking)

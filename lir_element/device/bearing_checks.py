@@ -81,13 +81,21 @@ def check_bearing(bearing: Specification) -> None:
         warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 
-def require_constant_friction(bearing: Specification) -> None:
-    """Refuse a bearing whose friction depends on pressure or temperature: not at 'rigid_body'."""
+AT_RIGID_BODY = 'level = "rigid_body" does not know', 'level="contact"'
+TO_OPENSEES = "the mapping to elements of OpenSees does not know", "bearing_element"
+"""Words of `require_constant_friction`."""
+
+
+def require_constant_friction(bearing: Specification, words: tuple[str, str]) -> None:
+    """Refuse a bearing whose friction depends on pressure or temperature.
+
+    `words` say who does not know that, and what does, for the message.
+    """
     for name in ("pressure_dependence", "friction_heating"):
         if getattr(bearing, name) is not None:
             msg = (
-                f'level = "rigid_body" does not know {name}: take level="contact", or a bearing '
-                f"without, dataclasses.replace(bearing, {name}=None)"
+                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+                f"dataclasses.replace(bearing, {name}=None)"
             )
             raise ValueError(msg)
 

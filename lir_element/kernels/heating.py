@@ -20,7 +20,8 @@ def left_by_heat(p: Props, temperature: float) -> float:
     """Return the share of friction that is left at a temperature [C]."""
     if p.softens == 0:
         return 1.0
-    return p.softening_scale * (p.softening_rest + math.exp(-p.softening_rate * temperature))
+    left = p.softening_rest + math.exp(-p.softening_rate * temperature)
+    return p.softening_scale * left  # (11.1)
 
 
 @kernel

@@ -10,7 +10,7 @@ import xarray as xr
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.bearing_checks import require_constant_friction
+from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
 from lir_element.door import require_choice, require_positive
 from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
@@ -91,7 +91,7 @@ def cyclic_test(
     path, loads = _path(displacement), _loads(axial_load, displacement)
     speed = require_positive("velocity", velocity, "m/s")
     if level == "rigid_body":
-        require_constant_friction(bearing)
+        require_constant_friction(bearing, AT_RIGID_BODY)
     props = bearing.to_record()
     contacts = None
     if level != "pendulum":

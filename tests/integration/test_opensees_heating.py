@@ -13,7 +13,7 @@ from lir_element import CoulombFriction, Element, FrictionHeating, LIRBearing, P
 
 pytest.importorskip("openseespy")
 
-from lir_element.opensees import bearing_response, builtin_commands, record_bearings
+from lir_element.opensees import bearing_response, builtin_commands, builtin_values, record_bearings
 from validation.opensees.model import ABOVE, BELOW, ELEMENT, gravity_analysis, solver, weigh_down
 from validation.opensees.model import stand as empty_stand
 
@@ -91,6 +91,14 @@ def test_temperature_is_that_of_fpbearingptv(reach: float, close: float) -> None
     assert_allclose(found[5:, 0], expected[5:], rtol=0.0, atol=close * rise)
     assert_allclose(found[5:, 1], fine[5:, 1], rtol=0.02)
     assert found[:, 1].min() < 0.05
+
+
+def test_other_elements_of_opensees_refuse_it() -> None:
+    for name, law in (
+        ("friction_heating", FrictionHeating()), ("pressure_dependence", PressureDependence()),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=f"elements of OpenSees does not know {name}: take be"):
+            builtin_values(device(RADIUS, **{name: law}), LOAD)
 
 
 def test_a_heated_bearing_answers_in_opensees_as_in_frames(stand: Any) -> None:
