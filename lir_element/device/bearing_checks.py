@@ -89,7 +89,17 @@ TO_OPENSEES = "the mapping to elements of OpenSees does not know", "bearing_elem
 def require_constant_friction(bearing: Specification, words: tuple[str, str]) -> None:
     """Refuse a bearing whose friction depends on pressure or temperature.
 
-    `words` say who does not know that, and what does, for the message.
+    Parameters
+    ----------
+    bearing : Specification
+        The device.
+    words : (str, str)
+        Who does not know that, and what does, for the message: `AT_RIGID_BODY`, `TO_OPENSEES`.
+
+    Raises
+    ------
+    ValueError
+        If it is.
     """
     for name in ("pressure_dependence", "friction_heating"):
         if getattr(bearing, name) is not None:
