@@ -279,7 +279,7 @@ SCRATCH_FIELDS = (
     Field("step_before", "s", "", "the one before"),
     Field("soft_low", "m", "", "least way to slip in a search by softer friction: surfaces", (2,)),
     Field("soft_high", "m", "", "the same: interface"),
-    Field("factor", "-", "", "share of friction that pressure and temperature leave", (2,)),
+    Field("lost", "-", "", "share of friction that pressure and temperature take: surfaces", (2,)),
     Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
     Field("q", "-", "", "their rotations", (4, 3, 3)),
     Field("g", "N, N m", "", "forces and moments on them", (24,)),

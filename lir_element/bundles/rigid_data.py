@@ -138,8 +138,6 @@ def rigid_run(
     masses[:2] = sliders["mass"][0][:, None]
     inertias[:2] = sliders["inertia"][0]
     masses[2], inertias[2] = mass, inertia
-    scratch = np.zeros(1, dtype=SCRATCH)
-    scratch["factor"] = 1.0  # friction that depends on neither pressure nor temperature
     bodies = np.repeat(contacts.bodies_old, 4)
     touches = np.repeat(contacts.touch_old, 4, axis=0)
     states = np.repeat(state, 3)
@@ -156,7 +154,7 @@ def rigid_run(
         free=np.concatenate([np.ones(12, np.int64), np.asarray(free, np.int64)]), driven=driven,
         bodies=bodies, touches=touches, states=states,
         bodies_words=as_rows(bodies), touches_words=as_rows(touches), states_words=as_rows(states),
-        scratch=scratch, energy=energy,
+        scratch=np.zeros(1, dtype=SCRATCH), energy=energy,
         energy_words=as_rows(energy), u=np.zeros(12), ground=np.zeros(3),
         ground_mean=np.zeros(3), drive=np.zeros(2),
         clock=np.zeros(1, dtype=RIGID_CLOCK), counts=np.zeros(1, dtype=RIGID_COUNTS),

@@ -212,14 +212,14 @@ def balance_by_softer_friction(s: BodyStep, pen: Work) -> int:
 
 
 @kernel
-def set_factors(p: Props, old: State, w: Scratch) -> None:
-    """Set the share of friction that pressure and temperature of the committed state leave.
+def set_losses(p: Props, old: State, w: Scratch) -> None:
+    """Set the share of friction that pressure and temperature of the committed state take.
 
     An unloaded bearing is taken to be under the pressure that its friction belongs to.
     """
     load = old.axial_force if old.axial_force > 0.0 else p.pressure_load
     for k in range(2):
-        w.factor[k] = left_by_pressure(p, load) * left_by_heat(p, old.temperature[k])
+        w.lost[k] = 1.0 - left_by_pressure(p, load) * left_by_heat(p, old.temperature[k])
 
 
 @kernel
@@ -236,7 +236,7 @@ def contact_trial(
     if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
         return code
     dt = pen.dt
-    set_factors(p, old, w)
+    set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
     aloft = old.axial_force == 0.0 and dt > 0.0
@@ -267,7 +267,7 @@ def look_at_committed(s: BodyStep, old: State) -> None:
     """Set forces and derivative at the committed state, as a static one, without moving it."""
     p, c, w = s.props, s.sliders, s.scratch
     b_old, b_new = s.old, s.new
-    set_factors(p, old, w)
+    set_losses(p, old, w)
     place_nodes(p, c, w, old.displacement)
     for k in range(2):
         for a in range(3):
