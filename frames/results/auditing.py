@@ -260,7 +260,7 @@ def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
-    if "pressure_rate" not in data:
+    if "pressure_rate" not in data or not data.variables["pressure_rate"].to_numpy().any():
         text = "no friction depends on pressure"
         return _finding("pressure_dependence", out, False, 0.0, text)
     share = _ratio(float(total(data, "sliding_work_pressed")), float(total(data, "sliding_work")))
@@ -269,11 +269,11 @@ def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
-    if "softening_rate" not in data:
+    if "softening_rate" not in data or not data.variables["softening_rate"].to_numpy().any():
         text = "no friction depends on temperature"
         return _finding("friction_heating", out, False, 0.0, text)
     share = _ratio(float(total(data, "sliding_work_heated")), float(total(data, "sliding_work")))
-    hottest = np.nanmax(largest(data, "temperature").values[:, :2])
+    hottest = float(np.nanmax(largest(data, "temperature").values[:, :2]))
     text = f"the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "
     text += _share(share, 1)
     return _finding("friction_heating", out, share > SMALL["friction_heating"], share, text)

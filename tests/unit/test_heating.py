@@ -20,7 +20,9 @@ from frames import (
     load,
     lumped_mass,
     moment_frame,
+    peaks,
     save,
+    time_histories,
     time_history,
 )
 from lir_element import (
@@ -433,4 +435,22 @@ def test_some_bearings_of_a_frame_may_be_heated():
     hot = data["temperature"].isel(time=-1)
     assert float(hot.sel(bearing=name, contact="bottom")) > 20.0
     assert int(np.isnan(hot).any("contact").sum()) == 3
-    assert finding(data, "friction_heating").number >= 0.0
+    table = peaks(data)
+    assert table.loc["temperature of plates", "where"] == name
+    assert table.loc["temperature of plates", "value"] == float(np.nanmax(data["temperature"]))
+    assert table.loc["temperature of interfaces", "unit"] == "degC"
+    chosen = Recording(bearings=tuple(n for n in frame.bearings if n != name))
+    others = time_history(mixed, motion(count=200), dt=DT, recording=chosen)
+    assert finding(others, "friction_heating").sentence.endswith("depends on temperature")
+    assert "temperature of plates" not in peaks(others).index
+
+
+def test_many_histories_know_it_too():
+    frame = lumped_mass(device(**BOTH), LOAD / 9.81)
+    shake = motion(count=300)
+    one = time_history(frame, shake, dt=DT)
+    data = time_histories(frame, shake, scales=(0.5, 1.0), dt=DT, workers=1)
+    expected = one["temperature"].max("time").to_numpy()
+    assert_allclose(data["reached_temperature"].isel(run=1), expected, rtol=1e-12)
+    assert (data["reached_temperature"].isel(run=0) < expected)[:, :2].all()
+    assert finding(one, "friction_heating").sentence in str(data["audit"].to_numpy()[1])
