@@ -69,6 +69,12 @@ class PressureDependence:
             "rate", self.rate, 0.0, 1e-6, "1/Pa", remedy="give 1/Pa (0.0071 1/MPa are 7.1e-9 1/Pa)"
         )
 
+    def __str__(self) -> str:
+        """Return it in words, for tables."""
+        p_0 = self.reference_pressure
+        at = "the design load" if p_0 is None else f"{1e-6 * p_0:.4g} MPa"
+        return f"{1e8 * self.rate:.3g} % less a MPa, from {at} on"
+
     def factor(self, pressure: float, reference: float | None = None) -> float:
         """Return k_p [-] at `pressure`; `reference` [Pa] stands for a reference left open."""
         p_0 = self.reference_pressure if self.reference_pressure is not None else reference
@@ -145,6 +151,11 @@ class FrictionHeating:
             remedy = meant(self.thickness, "m", LENGTHS, 2e-3, 0.5)
             require_between("thickness", self.thickness, 1e-3, 2.0, "m", remedy=remedy)
         require_between("share", self.share, 1e-6, 1.0 + 1e-12, "-", remedy="1 for all of it")
+
+    def __str__(self) -> str:
+        """Return it in words, for tables."""
+        plate = "half-space" if self.thickness is None else f"{1e3 * self.thickness:.4g} mm"
+        return f"{self.variant} at 200 C, {plate}, from {self.initial_temperature:g} C on"
 
     def factor(self, temperature: float) -> float:
         """Return k_T [-] at `temperature` [C]."""

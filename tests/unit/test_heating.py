@@ -112,8 +112,11 @@ def test_a_bearing_takes_nothing_else(name: str):
 
 def test_a_bearing_describes_them():
     words = device(**BOTH).describe()
-    assert "variant='half'" in words
-    assert "PressureDependence(" in words
+    assert "half at 200 C, half-space, from 20 C on" in words
+    assert "0.713 % less a MPa, from the design load on" in words
+    thin = FrictionHeating(thickness=0.05, initial_temperature=-5.0)
+    assert str(thin) == "half at 200 C, 50 mm, from -5 C on"
+    assert str(PressureDependence(reference_pressure=3e7)).endswith("from 30 MPa on")
 
 
 # Heating ---------------------------------------------------------------------------------------
