@@ -54,10 +54,10 @@ def axial(p: Props, old: State, w: Work) -> None:
         )
     w.vertical, w.stiff_vertical = 0.0, 0.0
     w.kept, w.kept_n, w.softer = 1.0, 0.0, 1.0
+    w.kept_low, w.kept_low_n, w.softer_low = 1.0, 0.0, 1.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
-        if p.pressure_rate != 0.0:
-            w.pressed, w.kept_low, w.kept_low_n = left_by_pressure(p, p.fixed_load), 1.0, 0.0
+        w.pressed, w.pressed_n = left_by_pressure(p, p.fixed_load), 0.0
         return
     w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
     if w.n_pos > p.axial_floor:
@@ -67,7 +67,8 @@ def axial(p: Props, old: State, w: Work) -> None:
     if w.dt > 0.0:
         w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
         w.softer = 2.0 / (1.0 + w.kept)
-    if p.pressure_rate != 0.0:
+        w.kept_low, w.kept_low_n, w.softer_low = w.kept, w.kept_n, w.softer
+    if w.varies != 0.0:
         press_surfaces(p, old, w)
 
 
@@ -77,12 +78,12 @@ def press_surfaces(p: Props, old: State, w: Work) -> None:
 
     A cycle of the axial force makes no energy where z goes with ``(mu N)^(-1/2)``.
     """
-    w.pressed = left_by_pressure(p, w.n_pos)
-    w.kept_low, w.kept_low_n = w.kept, w.kept_n
+    w.pressed, w.pressed_n = left_by_pressure(p, w.n_pos), p.pressure_rate
     if w.dt > 0.0:
         more = math.exp(0.5 * p.pressure_rate * (w.n_pos - max(old.axial_force, 0.0)))  # (11.2)
         w.kept_low = more * w.kept
         w.kept_low_n = more * (w.kept_n + 0.5 * p.pressure_rate * w.kept)
+        w.softer_low = 2.0 / (1.0 + w.kept_low)
 
 
 @kernel

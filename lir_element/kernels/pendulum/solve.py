@@ -41,7 +41,9 @@ def start_search(p: Props, old: State, w: Work) -> None:
     """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
     w.first_decay[0], w.first_decay[1] = 0.0, 0.0
-    if p.softens:
+    w.varies = 0.0
+    if p.softens or p.pressure_rate != 0.0:
+        w.varies = 1.0
         w.warm[0] = left_by_heat(p, old.temperature[0])
         w.warm[1] = left_by_heat(p, old.temperature[1])
     stiff = 0.0

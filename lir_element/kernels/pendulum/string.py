@@ -211,13 +211,10 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     d_2 = w.dw[k, 1] + w.spin * w.shift[k, 0]
     w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
-    kept, kept_n, softer = w.kept, w.kept_n, w.softer
-    if p.pressure_rate != 0.0:
-        kept, kept_n, softer = w.kept_low, w.kept_low_n, 2.0 / (1.0 + w.kept_low)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_step(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], w.z_size[k], d_1, d_2,
-        p.yield_displacement[k], w.per_yield[k], kept, kept_n, softer, before[0], before[1],
-        w.share,
+        p.yield_displacement[k], w.per_yield[k], w.kept_low, w.kept_low_n, w.softer_low, before[0],
+        before[1], w.share,
     )  # fmt: skip
     w.slid[k] = slid
     # sliding that unloads has no speed: friction must not grow meanwhile
@@ -228,15 +225,13 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     if p.friction_drop[k] != 0.0:
         decay = falling(w, k, p.friction_drop[k], p.friction_rate[k])
         mu, slope = mu - decay, p.friction_rate[k] * decay
-    if p.softens:
-        mu, slope = w.warm[k] * mu, w.warm[k] * slope
-    if p.pressure_rate != 0.0:
-        mu, slope = w.pressed * mu, w.pressed * slope
+    if w.varies != 0.0:
+        share = w.warm[k] * w.pressed
+        mu, slope = share * mu, share * slope
+        n_1, n_2 = n_1 - w.pressed_n * z_1, n_2 - w.pressed_n * z_2
     w.mu[k] = mu
     mu, slope = w.left[k] * mu, w.left[k] * slope
     by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2
-    if p.pressure_rate != 0.0 and p.fixed_load == 0.0:  # the pressure's part
-        n_1, n_2 = n_1 - p.pressure_rate * z_1, n_2 - p.pressure_rate * z_2
     w.phi_n[k, 0], w.phi_n[k, 1] = mu * n_1, mu * n_2
     w.z[k, 0], w.z[k, 1] = z_1, z_2
     w.phi[k, 0], w.phi[k, 1] = mu * z_1, mu * z_2
