@@ -36,7 +36,15 @@ from frames import (
 from frames.results.kept import REACHED
 from frames.results.reached import LEFT, QUANTITIES, TOTALS
 from frames.results.summary import table_of
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, RunStatus, cyclic_test
+from lir_element import (
+    AnalysisWarning,
+    CoulombFriction,
+    FrictionHeating,
+    LIRBearing,
+    PressureDependence,
+    RunStatus,
+    cyclic_test,
+)
 from lir_element.layout import STATE_FIELDS
 
 if TYPE_CHECKING:
@@ -130,6 +138,8 @@ def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
         capacity=0.1,
         friction=CoulombFriction(0.05),
         interface_friction=0.12,
+        pressure_dependence=PressureDependence(),
+        friction_heating=FrictionHeating(),
     )
     wave = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motion = GroundMotion(x=2.0 * wave, y=wave, z=0.5 * wave, dt=0.01, name="sine")
@@ -199,6 +209,7 @@ def coordinates(history: xr.Dataset) -> list[str]:
         "bearing": "names of the bearings, as in the model",
         "axis": "global axes; z points up",
         "surface": "concave surfaces",
+        "contact": "surfaces and interface; only where a bearing is heated",
         "end": "node i (below), node j (above)",
         "node": "names of the nodes",
         "dof": "displacements and rotations of a node",
@@ -209,7 +220,7 @@ def coordinates(history: xr.Dataset) -> list[str]:
         "hinge_force_component": "forces on a hinge, local axes of its member",
     }
     described(history.coords, texts, "coordinates")
-    fixed = ("axis", "surface", "end", "dof", "hinge_force_component")
+    fixed = ("axis", "surface", "contact", "end", "dof", "hinge_force_component")
     rows = [
         [code(name), text + ("" if name not in fixed else ": " + _values(history, name))]
         for name, text in texts.items()

@@ -9,7 +9,7 @@ import numpy as np
 from frames.assembly.basis import bearing_rows
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.features import apply
-from lir_element.element import initial_state
+from lir_element.element import heat_parts, initial_state
 from lir_element.layout import BODIES, STATE, WORK, Field, dtype_of
 
 if TYPE_CHECKING:
@@ -115,6 +115,7 @@ class Run(NamedTuple):
     old_words: Array
     new_words: Array
     work: Array
+    heat: Array  # (n_bearings or 0, 3, parts) of the temperatures (`heat_parts`)
     store_at_rest: Array  # (1,) in the elastic sliding of all friction under permanent loads
     push: Array  # (n_bearings, 3) force on node j before the committed state
     own: Array  # (n_bearings, 2) of these, horizontal and beside the bearings' forces: trial
@@ -250,7 +251,7 @@ def run_arrays(model: Model) -> Run:
     return Run(
         b=b(), v_b=b(), a_b=b(), mean_v_b=b(), mean_v_before=b(), e=e(), v_e=e(), a_e=e(),
         old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
-        work=np.zeros(count, dtype=WORK), store_at_rest=np.zeros(1),
+        work=np.zeros(count, dtype=WORK), heat=heat_parts(model.props), store_at_rest=np.zeros(1),
         push=np.zeros((count, 3)), moved=np.zeros((count, 6)),
         own=np.zeros((count, 2)), swing=np.zeros(4), carried=np.ones(count),
         force_old=b(), force=b(), force_before=np.zeros((2, n_b)),

@@ -5,6 +5,8 @@ from lir_element.device.bearing_checks import DesignWarning as DesignWarning
 from lir_element.device.features import Features as Features
 from lir_element.device.friction import CoulombFriction as CoulombFriction
 from lir_element.device.friction import VelocityFriction as VelocityFriction
+from lir_element.device.heating import FrictionHeating as FrictionHeating
+from lir_element.device.heating import PressureDependence as PressureDependence
 from lir_element.element import Element as Element
 from lir_element.errors import AnalysisError as AnalysisError
 from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
@@ -20,7 +22,9 @@ __all__ = [
     "DesignWarning",
     "Element",
     "Features",
+    "FrictionHeating",
     "LIRBearing",
+    "PressureDependence",
     "RunStatus",
     "VelocityFriction",
     "cyclic_test",

@@ -13,7 +13,7 @@ from lir_element.door import require_choice
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
 from lir_element.kernels.pendulum.trial import has_no_state, last_slip
-from lir_element.layout import STATE, STATE_BY_NAME, WORK, Floats, Records
+from lir_element.layout import HEAT_PARTS, STATE, STATE_BY_NAME, WORK, Floats, Records
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -38,7 +38,20 @@ def initial_state(props: Records) -> Records:
     state["string"] = string
     state["centres"][:, 2] = -string
     state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
+    state["temperature"] = props["initial_temperature"][:, None]
     return state
+
+
+def heat_parts(props: Records) -> Floats:
+    """Return the parts of the temperatures of bearings with properties `props` (n,), at the start.
+
+    Returns
+    -------
+    ndarray, (n, 3, HEAT_PARTS)
+        What bottom surface, top surface and interface have above the temperature at the start,
+        zeros [K]; n = 0 where no bearing is heated.
+    """
+    return np.zeros((len(props) if props["heats"].any() else 0, 3, HEAT_PARTS))
 
 
 class Element:
@@ -101,6 +114,7 @@ class Element:
         self._trial = self._start.copy()
         self._words = as_rows(self._committed), as_rows(self._trial)
         self._work = np.zeros(1, dtype=WORK)
+        self._heat = heat_parts(self._props)
         self._contacts = None
         if level == "contact":
             self._contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
@@ -204,7 +218,7 @@ class Element:
             return
         self._pending = False
         levels.bearing_commit(
-            self._props, self._committed, self._trial, *self._words, self._contacts, 0
+            self._props, self._committed, self._trial, *self._words, self._heat, self._contacts, 0
         )
         status = RunStatus(int(self._committed["status"][0]))
         if status is not RunStatus.OK:  # a trial without a state never gets here
@@ -227,6 +241,7 @@ class Element:
     def revert_to_start(self) -> None:
         """Forget everything: the undeformed, unloaded bearing at time zero."""
         self._committed[:] = self._start
+        self._heat[:] = 0.0
         if self._contacts is not None:
             reset(self._contacts, [self.bearing])
         self.revert_to_last_commit()

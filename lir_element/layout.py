@@ -25,6 +25,9 @@ class Field(NamedTuple):
     kind: str = "f8"
 
 
+HEAT_PARTS = 14
+"""Parts that decay at rates of their own, whose sum is the temperature of a contact."""
+
 PROPS_FIELDS = (
     Field("radius", "m", "R", "radius of the concave surface: bottom, top", (2,)),
     Field("lever", "m", "a", "distance from the node to the sphere's centre: bottom, top", (2,)),
@@ -32,6 +35,9 @@ PROPS_FIELDS = (
     Field("friction_max", "-", "f_max", "friction coefficient at high speed: bottom, top", (2,)),
     Field("friction_drop", "-", "f_max - f_min", "its drop at low speed: bottom, top", (2,)),
     Field("friction_rate", "s/m", "alpha", "rate parameter of Eq. (1): bottom, top", (2,)),
+    Field("pressure_rate", "1/N", "", "share of friction lost per axial force; 0: none"),
+    Field("softens", "-", "", "1 where friction follows the temperature", (), "i8"),
+    Field("heats", "-", "", "1 where temperatures are computed", (), "i8"),
     Field("interface_friction", "-", "mu_h", "friction coefficient of the plane interface"),
     Field("fused", "-", "", "1 where the slider is one piece (a plain DCFP)", (), "i8"),
     Field("bouc_wen", "-", "", "1 for Bouc-Wen, 0 for elastic-plastic friction", (), "i8"),
@@ -51,6 +57,14 @@ PROPS_FIELDS = (
     Field("slider_radius", "m", "a", "radius of the inner slider in plan"),
     Field("bilateral", "-", "", "1 where uplift is left out: the contact pulls", (), "i8"),
     Field("fixed_load", "N", "W", "constant vertical load without vertical coupling; 0: coupled"),
+    Field("pressure_load", "N", "", "axial force that the friction coefficients belong to"),
+    Field("softening_scale", "-", "", "friction left by heat: scale (rest + exp(-rate T))"),
+    Field("softening_rate", "1/K", "", "rate of that law"),
+    Field("softening_rest", "-", "", "rest of that law"),
+    Field("initial_temperature", "degC", "T_0", "temperature at the start"),
+    Field("heat_rate", "1/s", "", "rates at which parts of a temperature decay", (HEAT_PARTS,)),
+    Field("heat_gain", "K m2/J", "", "what heat that enters adds to them", (HEAT_PARTS,)),
+    Field("heat_skin", "K m2/W", "", "what flux that enters adds at once"),
 )
 
 STATE_FIELDS = (
@@ -100,6 +114,7 @@ STATE_FIELDS = (
     Field("travel", "m", "", "sliding path travelled since the start: bottom, top", (2,)),
     Field("interface_travel", "m", "", "path slipped in the interface since the start"),
     Field("largest_slip", "m", "", "largest interface slip since the start"),
+    Field("temperature", "degC", "T", "bottom, top, interface; 0 where it is not computed", (3,)),
     Field("status", "-", "", "a RunStatus code", (), "i8"),
     Field("iterations", "-", "", "iterations of the last state determination", (), "i8"),
 )
@@ -141,6 +156,13 @@ WORK_FIELDS = (
     Field("kept", "-", "", "share of z that the change of the axial force leaves"),
     Field("kept_n", "1/N", "", "its derivative by the axial force"),
     Field("softer", "-", "", "elastic sliding over u_y, 2 / (1 + kept)"),
+    Field("varies", "-", "", "1 where friction depends on pressure or temperature, else 0"),
+    Field("warm", "-", "", "share of friction that the surfaces' temperatures leave", _W_PAIR),
+    Field("pressed", "-", "", "the same of the pressure"),
+    Field("pressed_n", "1/N", "", "its logarithm's derivative by the axial force, falling"),
+    Field("kept_low", "-", "", "`kept` of the surfaces, whose friction may depend on pressure"),
+    Field("kept_low_n", "1/N", "", "its derivative by the axial force"),
+    Field("softer_low", "-", "", "`softer` of the surfaces"),
     Field("z_size", "-", "", "size of the old z: bottom, top, interface", _W_VECTOR),
     Field("per_yield", "1/m", "", "one over elastic sliding: bottom, top, interface", _W_VECTOR),
     Field("z", "-", "z", "hysteretic variable", (2, 2)),
@@ -260,6 +282,7 @@ SCRATCH_FIELDS = (
     Field("step_before", "s", "", "the one before"),
     Field("soft_low", "m", "", "least way to slip in a search by softer friction: surfaces", (2,)),
     Field("soft_high", "m", "", "the same: interface"),
+    Field("lost", "-", "", "share of friction that pressure and temperature take: surfaces", (2,)),
     Field("x", "m", "", "places of node i, sliders, node j", (4, 3)),
     Field("q", "-", "", "their rotations", (4, 3, 3)),
     Field("g", "N, N m", "", "forces and moments on them", (24,)),

@@ -19,6 +19,7 @@ from lir_element.results.dataset import (
     device_variables,
     labelled,
     some_bodies,
+    temperature_variables,
 )
 from lir_element.results.deferred import deferred
 from lir_element.results.eccentricity import interface_eccentricity
@@ -83,6 +84,7 @@ def build_dataset(
     variables = bearing_variables("time", states[:count], velocity, kept=kept)
     if state.contacts is not None:
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
+    variables |= temperature_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
     variables |= _device_variables(system)
     more, names = part_variables(system.parts, frame, out, count)

@@ -51,9 +51,10 @@ def places_of(data: xr.Dataset) -> Places:
 def can_gauge(state: GravityState) -> bool:
     """Return whether what a run reaches can be taken up without Datasets."""
     # without vertical coupling its force is formed over neighbouring steps; bearings that the tilt
-    # of their plates does not reach do not know it
-    kept = state.system.features
-    return state.contacts is None and kept.vertical_coupling and kept.plate_rotation
+    # of their plates does not reach do not know it; nor are friction's other laws looked at there
+    kept, records = state.system.features, device_records(state.system)
+    plain = not (records["heats"].any() or records["pressure_rate"].any())
+    return plain and state.contacts is None and kept.vertical_coupling and kept.plate_rotation
 
 
 def devices_of(state: GravityState) -> Devices:

@@ -364,6 +364,8 @@ def present_quantities(piece: xr.Dataset) -> list[str]:
         lacking |= {"line_drift"}
     if "body_rotation" not in piece:
         lacking |= {"tilt"}
+    if "temperature" not in piece:
+        lacking |= {"temperature"}
     for part in ("link", "hinge"):
         if part not in piece.dims:
             lacking |= {name for name, each in QUANTITIES.items() if part in each.dims}

@@ -266,7 +266,9 @@ def solve_gravity(
 def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
-        bearing_commit(model.props, run.old, run.new, run.old_words, run.new_words, contacts, k)
+        bearing_commit(
+            model.props, run.old, run.new, run.old_words, run.new_words, run.heat, contacts, k
+        )
     for a in range(run.force.shape[0]):
         run.force_before[1, a] = run.force_before[0, a]
         run.force_before[0, a] = run.force_old[a]

@@ -27,6 +27,8 @@ SMALL = {
     "velocity_dependence": 0.02,  # of friction
     "second_direction": 0.02,  # of the x direction
     "vertical_coupling": 0.05,  # of the static axial force
+    "pressure_dependence": 0.02,  # of friction
+    "friction_heating": 0.02,  # of friction
 }
 """What must not be exceeded by an effect that is left out."""
 
@@ -257,6 +259,26 @@ def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
     return _finding("vertical_coupling", out, share > SMALL["vertical_coupling"], share, text)
 
 
+def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
+    if "pressure_rate" not in data or not data.variables["pressure_rate"].to_numpy().any():
+        text = "no friction depends on pressure"
+        return _finding("pressure_dependence", out, False, 0.0, text)
+    share = _ratio(float(total(data, "sliding_work_pressed")), float(total(data, "sliding_work")))
+    text = f"over the paths slid, it changes friction by {_share(share, 1)}"
+    return _finding("pressure_dependence", out, share > SMALL["pressure_dependence"], share, text)
+
+
+def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
+    if "softening_rate" not in data or not data.variables["softening_rate"].to_numpy().any():
+        text = "no friction depends on temperature"
+        return _finding("friction_heating", out, False, 0.0, text)
+    share = _ratio(float(total(data, "sliding_work_heated")), float(total(data, "sliding_work")))
+    hottest = float(np.nanmax(largest(data, "temperature").values[:, :2]))
+    text = f"the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "
+    text += _share(share, 1)
+    return _finding("friction_heating", out, share > SMALL["friction_heating"], share, text)
+
+
 def _full_contact(data: xr.Dataset) -> Finding:
     share = float(largest(data, "eccentricity").values.max())
     if share <= KERN:
@@ -378,4 +400,6 @@ _JUDGES: dict[str, Callable[[xr.Dataset, bool], Finding]] = {
     "velocity_dependence": _velocity_dependence,
     "second_direction": _second_direction,
     "vertical_coupling": _vertical_coupling,
+    "pressure_dependence": _pressure_dependence,
+    "friction_heating": _friction_heating,
 }

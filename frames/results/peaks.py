@@ -60,7 +60,7 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
 
 def peaks_of(data: xr.Dataset) -> list[Peak]:
     """Return the rows of `peaks`."""
-    parts = _of_bearings, _of_uplift, _of_structure, _of_yielding, _of_run
+    parts = _of_bearings, _of_heat, _of_uplift, _of_structure, _of_yielding, _of_run
     return [row for part in parts for row in part(data)]
 
 
@@ -123,6 +123,20 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
     yield _peak("axial force", "N", largest(data, "axial_force"), names)
     least = _peak("least axial force", "N", largest(data, "axial_tension"), names)
     yield least._replace(value=0.0 - least.value)
+
+
+def _of_heat(data: xr.Dataset) -> Iterator[Peak]:
+    # Of bearings that are heated.
+    if "contact" not in data.dims:
+        return
+    found = largest(data, "temperature")
+    heated = np.isfinite(found.values[:, 0])
+    names = data.variables["bearing"].to_numpy()[heated]
+    for text, contacts in (("plates", (0, 1)), ("interfaces", (2,))):
+        if heated.any():
+            places = np.repeat(names, len(contacts))
+            each = Extreme(*(part[heated][:, contacts].ravel() for part in found))
+            yield _peak(f"temperature of {text}", "degC", each, places)
 
 
 def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:

@@ -288,6 +288,10 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "spin": Quantity(_B, "rad", "spin of the sliders", lambda d: np.abs(_of(d, "slider_spin"))),
     "tilt": Quantity(_B, "rad", "tilt of a slider with contact points", _tilt),
+    "temperature": Quantity(
+        (*_B, "contact"), "degC", "temperature of what each contact slides on",
+        lambda d: _of(d, "temperature", "contact"),
+    ),
     "centre_shift": Quantity(
         _B, "m", "shift of the spheres' centres by tilt of the plates",
         lambda d: np.linalg.norm(centre_shift(d), axis=-1),
@@ -386,6 +390,30 @@ def _work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
     return np.asarray((load * lower * speed).sum())
 
 
+def _work_pressed(data: xr.Dataset, first: int, last: int) -> FloatArray:
+    if "pressure_rate" not in data:
+        return np.zeros(())
+    speed, load = _slid(data, first, last)
+    rate, at = (data.variables[name].to_numpy() for name in ("pressure_rate", "pressure_load"))
+    changed = np.abs(1.0 - np.exp(-rate[:, None] * (load - at[:, None])))
+    return np.asarray((load * data.variables["friction_max"].to_numpy() * changed * speed).sum())
+
+
+def _work_heated(data: xr.Dataset, first: int, last: int) -> FloatArray:
+    if "softening_rate" not in data:
+        return np.zeros(())
+    speed, load = _slid(data, first, last)
+    scale, rate, rest = (
+        data.variables[f"softening_{name}"].to_numpy()[:, None]
+        for name in ("scale", "rate", "rest")
+    )
+    surfaces = _of(data, "temperature", "contact")[first:last, :, :2]
+    heated = np.isfinite(surfaces)  # of some bearings only
+    changed = np.abs(1.0 - scale * (rest + np.exp(-rate * np.where(heated, surfaces, 0.0))))
+    work = load * data.variables["friction_max"].to_numpy() * np.where(heated, changed, 0.0)
+    return np.asarray((work * speed).sum())
+
+
 def _uplifts(data: xr.Dataset, first: int, last: int) -> FloatArray:
     lifted = _of(data, "axial_force") <= 0.0
     begins = np.concatenate([lifted[:1], lifted[1:] & ~lifted[:-1]])
@@ -405,6 +433,12 @@ TOTALS: dict[str, Total] = {
     ),
     "sliding_work_lower": Total(
         (), "N m/s", "the same with what friction is below that at high speed", _work_lower
+    ),
+    "sliding_work_pressed": Total(
+        (), "N m/s", "the same with what the pressure changes of that", _work_pressed
+    ),
+    "sliding_work_heated": Total(
+        (), "N m/s", "the same with what the temperature changes of that", _work_heated
     ),
     "uplifts": Total((), "1", "how often bearings lifted off", _uplifts),
     "time_lifted": Total(_B, "s", "time lifted off", _time_lifted),

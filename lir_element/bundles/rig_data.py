@@ -22,6 +22,7 @@ class RigRun(NamedTuple):
     old_words: Words  # (1, words): the same memory
     new_words: Words
     work: Records
+    heat: Floats  # parts of the temperatures (`heat_parts`)
     path: Floats  # (n, 2) places of the top plate
     loads: Floats  # (n,) axial loads, linear between
     velocity: float
@@ -39,14 +40,17 @@ class RigRun(NamedTuple):
 
 
 def rig_run(
-    props: Records, start: Records, path: Floats, loads: Floats, velocity: float, increment: float
-) -> RigRun:
+    props: Records, start: Records, heat: Floats, path: Floats, loads: Floats, velocity: float,
+    increment: float,
+) -> RigRun:  # fmt: skip
     """Return a bearing at rest that is to follow a path.
 
     Parameters
     ----------
     props, start : records, (1,)
         Constants and undeformed state of the bearing.
+    heat : ndarray
+        Parts of its temperatures.
     path : ndarray, (n, 2)
         Places of the top plate [m].
     loads : ndarray, (n,)
@@ -63,7 +67,7 @@ def rig_run(
     states, bodies = np.zeros(len(path), dtype=STATE), np.zeros(len(path), dtype=BODIES)
     return RigRun(
         props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK),
-        path, loads, velocity, increment, np.zeros(12), np.zeros(12), np.zeros((12, 12)),
+        heat, path, loads, velocity, increment, np.zeros(12), np.zeros(12), np.zeros((12, 12)),
         states, np.zeros((len(path), 2)), bodies, as_rows(states), as_rows(bodies),
         np.zeros(2, dtype=np.int64), np.zeros(2),
     )  # fmt: skip

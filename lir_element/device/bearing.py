@@ -26,6 +26,11 @@ _UNITS = {
     "slider_inertia": "kg m2",
 }  # fmt: skip
 
+_FACTORS = (
+    "pressure_rate", "pressure_load", "softens", "softening_scale", "softening_rate",
+    "softening_rest", "heats", "initial_temperature", "heat_rate", "heat_gain", "heat_skin",
+)  # fmt: skip
+
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class LIRBearing(Specification):
@@ -87,6 +92,11 @@ class LIRBearing(Specification):
         the slider's edge, an even number from 8 on lies on two rings that act as a full disc.
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.
+    pressure_dependence : PressureDependence, optional
+        How low friction falls with the pressure on the slider. Default: it does not.
+    friction_heating : FrictionHeating, optional
+        How sliding heats the plates, and low friction falls with their temperature. Default: it
+        does not, and no temperature is computed.
 
     Raises
     ------
@@ -193,6 +203,23 @@ class LIRBearing(Specification):
         """Return the kernels' properties, a record array of shape (1,)."""
         return self._record.copy()
 
+    def _factors(self, load: float) -> dict[str, object]:
+        # Properties of friction that depends on pressure and temperature; zeros without.
+        values: dict[str, object] = dict.fromkeys(_FACTORS, 0.0)
+        area = math.pi * self.slider_radius**2
+        law, heating = self.pressure_dependence, self.friction_heating
+        if law is not None:
+            p_0 = law.reference_pressure
+            values["pressure_rate"] = law.rate / area
+            values["pressure_load"] = load if p_0 is None else p_0 * area
+        if heating is not None:
+            scale, rate, rest = heating.law
+            values |= {"softening_scale": scale, "softening_rate": rate, "softening_rest": rest}
+            values |= {"softens": True, "heats": True}
+            values["initial_temperature"] = heating.initial_temperature
+            values["heat_rate"], values["heat_gain"], values["heat_skin"] = heating.parts()
+        return values
+
     @cached_property
     def _record(self) -> Records:
         record = np.full(1, np.nan, dtype=[(f.name, "f8", f.shape) for f in PROPS_FIELDS])
@@ -219,6 +246,7 @@ class LIRBearing(Specification):
             "bilateral": False,
             "fixed_load": 0.0,
         }
+        values |= self._factors(options["design_load"])
         names = {f.name for f in PROPS_FIELDS}
         values |= {name: value for name, value in options.items() if name in names}
         for name, value in values.items():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.device.plausible import doubts, refuse_forces, refuse_sizes
 from lir_element.door import (
     as_pair,
@@ -16,6 +17,7 @@ from lir_element.door import (
     require_choice,
     require_non_negative,
     require_positive,
+    require_type,
 )
 from lir_element.units import LENGTHS, meant, per_cent
 
@@ -61,6 +63,13 @@ def check_bearing(bearing: Specification) -> None:
     for name in ("yield_displacement", "interface_yield_displacement"):
         require_positive(name, getattr(bearing, name), "m")
     _check_sliders(bearing)
+    for name, kind in (
+        ("pressure_dependence", PressureDependence),
+        ("friction_heating", FrictionHeating),
+    ):
+        value = getattr(bearing, name)
+        if value is not None:
+            require_type(name, value, kind, f"a {kind.__name__}, such as {kind.__name__}()")
     for name in ("torsional_friction", "allow_weak_interface"):
         if not isinstance(getattr(bearing, name), bool):
             msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
@@ -70,6 +79,35 @@ def check_bearing(bearing: Specification) -> None:
     refuse_forces(bearing)
     for doubt in doubts(bearing):
         warnings.warn(doubt, DesignWarning, stacklevel=4)
+
+
+AT_RIGID_BODY = 'level = "rigid_body" does not know', 'level="contact"'
+TO_OPENSEES = "the mapping to elements of OpenSees does not know", "bearing_element"
+"""Words of `require_constant_friction`."""
+
+
+def require_constant_friction(bearing: Specification, words: tuple[str, str]) -> None:
+    """Refuse a bearing whose friction depends on pressure or temperature.
+
+    Parameters
+    ----------
+    bearing : Specification
+        The device.
+    words : (str, str)
+        Who does not know that, and what does, for the message: `AT_RIGID_BODY`, `TO_OPENSEES`.
+
+    Raises
+    ------
+    ValueError
+        If it is.
+    """
+    for name in ("pressure_dependence", "friction_heating"):
+        if getattr(bearing, name) is not None:
+            msg = (
+                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+                f"dataclasses.replace(bearing, {name}=None)"
+            )
+            raise ValueError(msg)
 
 
 def _check_sliders(bearing: Specification) -> None:

@@ -37,6 +37,12 @@ class Features:
         The axial force enters friction and restoring force, and a lateral displacement lifts the
         plates. Left out: both use the force under permanent loads; what moves vertically has a
         spring and a damper of its own, which also pull. Uplift is then left out, too.
+    pressure_dependence : bool
+        Low friction depends on pressure (`LIRBearing.pressure_dependence`). Left out: it is that
+        at the reference pressure.
+    friction_heating : bool
+        Low friction depends on temperature (`LIRBearing.friction_heating`). Left out: it is that
+        at the reference temperature; temperatures are computed all the same.
 
     Raises
     ------
@@ -56,6 +62,8 @@ class Features:
     velocity_dependence: bool = True
     second_direction: bool = True
     vertical_coupling: bool = True
+    pressure_dependence: bool = True
+    friction_heating: bool = True
 
     def __post_init__(self) -> None:
         for name in self.names():
@@ -164,6 +172,10 @@ def apply(features: Features, props: Records, static_load: ArrayLike | None = No
         out["interface_friction"] = np.inf
     if not features.velocity_dependence:
         out["friction_drop"] = 0.0
+    if not features.pressure_dependence:
+        out["pressure_rate"] = 0.0
+    if not features.friction_heating:
+        out["softens"] = 0
     if not features.uplift:
         out["bilateral"] = 1
     if not features.vertical_coupling and static_load is not None:

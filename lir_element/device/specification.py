@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, cast
 
 from lir_element.device.friction import Friction
+from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.door import as_number, as_pair
 from lir_element.units import STANDARD_GRAVITY
 
@@ -45,6 +46,8 @@ class Specification:
     slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = None
     contact_points: int = 8
     allow_weak_interface: bool = False
+    pressure_dependence: PressureDependence | None = None
+    friction_heating: FrictionHeating | None = None
 
     @property
     def radii(self) -> tuple[float, float]:

@@ -74,7 +74,7 @@ def hold_by_load(run: RigRun, time: float, load: float) -> int:
 @kernel
 def accept(run: RigRun, contacts: Contacts | None) -> None:
     """Commit the trial state."""
-    bearing_commit(run.props, run.old, run.new, run.old_words, run.new_words, contacts, 0)
+    bearing_commit(run.props, run.old, run.new, run.old_words, run.new_words, run.heat, contacts, 0)
 
 
 @kernel

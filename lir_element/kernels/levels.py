@@ -12,6 +12,7 @@ from lir_element._jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
+from lir_element.kernels.heating import heat_up
 from lir_element.kernels.pendulum.nodes import fill_tangent
 from lir_element.kernels.pendulum.trial import copy_words, trial
 from lir_element.kernels.pendulum.work import accumulate, contact_defect
@@ -61,19 +62,23 @@ def bearing_tangent(
 
 @kernel
 def bearing_commit(
-    props: Records, old: Records, new: Records, old_words: Words, new_words: Words,
+    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, heat: Floats,
     contacts: Contacts | None, k: int,
 ) -> None:  # fmt: skip
-    """Accept the trial state of bearing `k`."""
+    """Accept the trial state of bearing `k`; `heat` as in `heat_parts`."""
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:
             contact_accumulate(bodies_of(props, contacts, k, at), old[k], new[k], 2)
+            if props[k].heats:
+                heat_up(props[k], heat[k], old[k], new[k])
             copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
             copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
             copy_words(new_words[k], old_words[k])
             return
     accumulate(props[k], old[k], new[k])
+    if props[k].heats:
+        heat_up(props[k], heat[k], old[k], new[k])
     copy_words(new_words[k], old_words[k])
 
 

@@ -16,7 +16,7 @@ from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.sliders import initial_bodies, initial_touches, point_records
 from lir_element.element import initial_state
 from lir_element.errors import RunStatus
-from lir_element.layout import BODIES, STATE, STATE_BY_NAME, WORK
+from lir_element.layout import BODIES, HEAT_PARTS, STATE, STATE_BY_NAME, WORK
 from lir_element.opensees.block.layout import (
     CONSTANT,
     FROM_FORCE,
@@ -239,6 +239,7 @@ class Hosted:
         self._keep("new", self._old.copy())
         self._keep("first", self._old.copy())
         self._keep("work", np.zeros(1, dtype=WORK))
+        self._keep("heat", np.zeros((1, 3, HEAT_PARTS)))
         self.block["realloc"] = ctypes.cast(_C.realloc, ctypes.c_void_p).value
         if self.level != "contact":
             return

@@ -19,6 +19,7 @@ from lir_element.results.dataset import (
     labelled,
     package_version,
     some_bodies,
+    temperature_variables,
 )
 from lir_element.results.eccentricity import interface_eccentricity
 
@@ -89,6 +90,7 @@ class BearingRecording:
         variables["static_axial_force"] = labelled(
             ("bearing",), self._loads, "N", "axial force when the recording began"
         )
+        variables |= temperature_variables("time", states, props)
         with_points = np.array([bearing.level == "contact" for bearing in self._bearings])
         if with_points.any():
             place = np.where(with_points, np.arange(len(parts)), -1)

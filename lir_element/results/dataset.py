@@ -36,6 +36,11 @@ DEVICE = (
 )  # fmt: skip
 """Properties of the bearings that a Dataset keeps, whatever the run left out."""
 
+PRESSURE = ("pressure_rate", "pressure_load")
+SOFTENING = ("softening_scale", "softening_rate", "softening_rest")
+"""The same of bearings whose friction depends on pressure, on temperature."""
+
+CONTACTS = (*SURFACES, "interface")
 BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
 
 
@@ -161,6 +166,36 @@ def _works(step: str, states: Records, own: Callable[[Floats], Floats]) -> dict[
     }
 
 
+def temperature_variables(step: str, states: Records, props: Records) -> dict[str, xr.Variable]:
+    """Return the temperatures of the contacts, NaN for bearings that are not heated.
+
+    Parameters
+    ----------
+    step : str
+        Name of the first dimension, 'time' or 'step'.
+    states, props : records, shape (n_steps, n_bearings), (n_bearings,)
+        Committed states, and properties.
+
+    Returns
+    -------
+    dict
+        Variables by name; nothing where no bearing is heated. Dimension 'contact' is bottom, top,
+        interface.
+    """
+    if not props["heats"].any():
+        return {}
+    values = np.where(props["heats"][:, None] == 1, states["temperature"], np.nan)
+    return {
+        "contact": xr.Variable(("contact",), list(CONTACTS)),
+        "temperature": labelled(
+            (step, "bearing", "contact"),
+            values,
+            "degC",
+            "temperature of what each contact slides on, at its middle",
+        ),
+    }
+
+
 def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str, xr.Variable]:
     """Return places and rotations of the bodies of a bearing with contact points.
 
@@ -229,7 +264,10 @@ def some_bodies(
 def device_variables(records: Records) -> dict[str, xr.Variable]:
     """Return what a Dataset keeps of the bearings' properties `records` (n_bearings,)."""
     variables = {}
-    for name in DEVICE:
+    names = [*DEVICE]
+    names += PRESSURE if records["pressure_rate"].any() else ()
+    names += SOFTENING if records["softens"].any() else ()
+    for name in names:
         field = PROPS_BY_NAME[name]
         dims = ("bearing", "surface") if field.shape else ("bearing",)
         unit = "1" if field.unit == "-" else field.unit

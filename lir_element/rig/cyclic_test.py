@@ -10,8 +10,9 @@ import xarray as xr
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
 from lir_element.door import require_choice, require_positive
-from lir_element.element import ALL_LEVELS, AnyLevel, initial_state, limit_detail
+from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.kernels.cyclic_kernel import begin_path, follow_path
 from lir_element.pieces import in_pieces, ready
@@ -22,6 +23,7 @@ from lir_element.results.dataset import (
     labelled,
     report,
     require_on_failure,
+    temperature_variables,
 )
 from lir_element.rig.rigid_rig import drive_path
 
@@ -88,12 +90,14 @@ def cyclic_test(
     require_on_failure(on_failure)
     path, loads = _path(displacement), _loads(axial_load, displacement)
     speed = require_positive("velocity", velocity, "m/s")
+    if level == "rigid_body":
+        require_constant_friction(bearing, AT_RIGID_BODY)
     props = bearing.to_record()
     contacts = None
     if level != "pendulum":
         contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
     largest = _INCREMENT * bearing.yield_displacement
-    run = rig_run(props, initial_state(props), path, loads, speed, largest)
+    run = rig_run(props, initial_state(props), heat_parts(props), path, loads, speed, largest)
     status, time, reached = RunStatus(begin_path(run, contacts)), 0.0, 0
     out, v_out, bodies, last = run.states, run.velocities, run.bodies, run.new
     if status is RunStatus.OK and level == "rigid_body" and contacts is not None:
@@ -107,6 +111,7 @@ def cyclic_test(
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
+    variables |= temperature_variables("step", out[:reached, None], props)
     variables["time"] = labelled(("step",), out["time"][:reached], "s", "time")
     if contacts is not None:
         variables |= body_variables(

@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from lir_element import CoulombFriction, Element, Features, LIRBearing, VelocityFriction
+from lir_element import (
+    CoulombFriction,
+    Element,
+    Features,
+    FrictionHeating,
+    LIRBearing,
+    PressureDependence,
+    VelocityFriction,
+)
 
 # Soft contacts (1e8 N/m): the pendulum's stiffness W/L must not drown in that of the contact.
 BASE: dict[str, Any] = {
@@ -49,6 +57,12 @@ VARIANTS: dict[str, dict[str, Any]] = {
     "one_rim": {"rims": (math.inf, 0.09)},
     "thick_plates": {"plate_thickness": (0.03, 0.08), "friction": VELOCITY},
     "flat_bottom": {"radius": (2.5, 0.6), "rims": (0.2, 0.05)},
+    "pressed_and_heated": {
+        "friction": VELOCITY,
+        "torsional_friction": True,
+        "pressure_dependence": PressureDependence(reference_pressure=5e6, rate=4e-8),
+        "friction_heating": FrictionHeating(variant="third", initial_temperature=0.0),
+    },
 }
 
 

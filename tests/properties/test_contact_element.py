@@ -26,7 +26,7 @@ from lir_element.layout import STATE_BY_NAME
 STILL = np.zeros(12)
 NAMES = (
     "coulomb", "velocity", "bouc_wen_velocity", "fused", "one_rim", "thick_plates", "random-1",
-    "random-2",
+    "random-2", "pressed_and_heated",
 )  # fmt: skip
 EACH = pytest.mark.parametrize("name", NAMES)
 UPSIDE = 8e-4  # of N: elastic slip of 0.4 mm, as the axial force swings

@@ -196,6 +196,17 @@ def test_tangent_is_none_of_the_callers_business(lab: SimpleNamespace) -> None:
         assert_array_equal(get(), kept)
 
 
+def factors(bearing: LIRBearing, load: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+    """Return k_p k_T of a surface under axial forces at temperatures, by the public laws."""
+    found = np.ones_like(load)
+    if bearing.pressure_dependence is not None:
+        pressure = load / (math.pi * bearing.slider_radius**2)
+        found = found * np.vectorize(bearing.pressure_dependence.factor)(pressure)
+    if bearing.friction_heating is not None:
+        found = found * np.vectorize(bearing.friction_heating.factor)(temperature)
+    return found
+
+
 def test_initial_stiffness(variant: str, lab: SimpleNamespace) -> None:
     """Closed form: contact k_v; laterally two surfaces and the interface in series, less N / L.
 
@@ -210,8 +221,9 @@ def test_initial_stiffness(variant: str, lab: SimpleNamespace) -> None:
     load = bearing.resolved()["design_load"]
     axial = bearing.resolved()["axial_stiffness"]
     length = bearing.effective_radius + load / axial
+    left = factors(bearing, load, Element(bearing).response("temperature")[0])
     turn = sum(
-        r * r * law.f_min * load / bearing.yield_displacement
+        r * r * law.f_min * left * load / bearing.yield_displacement
         for r, law in zip(bearing.radii, bearing.frictions, strict=True)
     )
     if math.isinf(bearing.interface_friction):
@@ -444,16 +456,19 @@ def test_friction_and_contact_stay_within_bounds(
     u, time = lab.smooth_path(bearing, seed, 250, swing=1.6)
     names = (
         "axial_force", "friction_force", "friction_coefficient", "interface_force", "rim_force",
-        "hysteresis", "interface_hysteresis", "torque", "closure", "string",
+        "hysteresis", "interface_hysteresis", "torque", "closure", "string", "temperature",
     )  # fmt: skip
     r = lab.walk(bearing, u, time, names)
+    start = Element(bearing).response("temperature")
+    warm = np.vstack([start, r.temperature[:-1]])  # that of its start governs a step
     size = np.linalg.norm(r.friction_force, axis=-1)
     limit = r.friction_coefficient * r.axial_force[:, None]
     # |z| <= 1 to an ulp or two
     assert (size <= limit * (1.0 + 1e-14)).all()
     for k, law in enumerate(bearing.frictions):
-        assert (r.friction_coefficient[:, k] >= law.f_min * (1.0 - 1e-14)).all()
-        assert (r.friction_coefficient[:, k] <= law.f_max).all()
+        left = factors(bearing, r.axial_force, warm[:, k])
+        assert (r.friction_coefficient[:, k] >= left * law.f_min * (1.0 - 1e-14)).all()
+        assert (r.friction_coefficient[:, k] <= left * law.f_max * (1.0 + 1e-15)).all()
     if math.isfinite(bearing.interface_friction):
         slip = np.linalg.norm(r.interface_force, axis=-1)
         assert (slip <= bearing.interface_friction * r.axial_force * (1.0 + 1e-14)).all()
@@ -471,6 +486,7 @@ def test_friction_and_contact_stay_within_bounds(
     assert_array_equal(r.resisting[free], 0.0)
     assert_array_equal(r.torque[lifted], 0.0)
     bound = 2 / 3 * bearing.slider_radius * max(f.f_max for f in bearing.frictions)
+    bound *= factors(bearing, np.zeros(1), start[:1])[0]  # unloaded and cold: the most there is
     assert (np.abs(r.torque) <= bound * r.axial_force * (1.0 + 1e-14)).all()
 
 

@@ -20,7 +20,10 @@ OUT = {
     "vertical coupling, interface": ("vertical_coupling", "interface"),
     "rims, velocity dependence": ("rims", "velocity_dependence"),
 }
-DEVICES = ["coulomb", "bouc_wen_velocity", "fused_velocity_torsion", "thick_plates", "random-1"]
+DEVICES = [
+    "coulomb", "bouc_wen_velocity", "fused_velocity_torsion", "thick_plates", "random-1",
+    "pressed_and_heated",
+]  # fmt: skip
 
 left_out = pytest.mark.parametrize("out", OUT)
 device = pytest.mark.parametrize("name", DEVICES)

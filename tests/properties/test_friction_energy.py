@@ -23,6 +23,7 @@ LAWS = {
     "bouc_wen": {},
     "fused": {},
     "bouc_wen_velocity": {},
+    "pressed_and_heated": {},
 }
 
 

@@ -12,7 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from lir_element import (
+    CoulombFriction,
+    DesignWarning,
+    FrictionHeating,
+    LIRBearing,
+    PressureDependence,
+    VelocityFriction,
+)
 from lir_element.device.sliders import point_records, slider_record
 from lir_element.layout import PROPS_FIELDS
 
@@ -423,6 +430,7 @@ def test_equality_and_hash() -> None:
         "allow_weak_interface": True, "rims": (0.75 * 0.175 / 1.415,) * 2,
         "slider_density": 7000.0, "slider_mass": (3.0, 4.0), "contact_points": 12,
         "slider_inertia": ((0.1, 0.2), (0.1, 0.2)),
+        "pressure_dependence": PressureDependence(), "friction_heating": FrictionHeating(),
     }  # fmt: skip
     assert set(changes) == {f.name for f in dataclasses.fields(LIRBearing)}
     for name, value in changes.items():
@@ -446,6 +454,8 @@ def test_replace_checks_again() -> None:
 
 
 def test_record_is_complete() -> None:
+    heating = FrictionHeating(variant="third", initial_temperature=5.0)
+    area = math.pi * 0.08**2
     b = LIRBearing(
         **(
             UNEQUAL
@@ -456,6 +466,8 @@ def test_record_is_complete() -> None:
                 "design_load": 2e5, "yield_displacement": 3e-4,
                 "interface_yield_displacement": 2e-4, "friction_law": "bouc-wen",
                 "bouc_wen_exponent": 3.0, "plate_thickness": (0.01, 0.04),
+                "pressure_dependence": PressureDependence(reference_pressure=1e7, rate=2e-9),
+                "friction_heating": heating,
             }
         )
     )  # fmt: skip
@@ -471,6 +483,10 @@ def test_record_is_complete() -> None:
         "rim_stiffness": 4e7, "rim_damping": 5e4, "rim_overrun": 0.006, "slip_capacity": 0.05,
         "torsion_lever": 2 / 3 * 0.08, "torsion_yield": 3e-4 / (2 / 3 * 0.08),
         "slider_radius": 0.08, "bilateral": 0, "fixed_load": 0.0,
+        "pressure_rate": 2e-9 / area, "pressure_load": 1e7 * area, "softens": 1, "heats": 1,
+        "softening_scale": 1.0 / (0.22 + 0.7**0.58), "softening_rate": -0.029 * math.log(0.7),
+        "softening_rest": 0.22, "initial_temperature": 5.0, "heat_rate": heating.parts()[0],
+        "heat_gain": heating.parts()[1], "heat_skin": heating.parts()[2],
     }  # fmt: skip
     assert set(expected) == set(record.dtype.names)
     for name, value in expected.items():

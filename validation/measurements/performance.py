@@ -35,7 +35,7 @@ from frames._jit import kernel
 from lir_element import LIRBearing
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.element import Level, initial_state
+from lir_element.element import Level, heat_parts, initial_state
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.layout import WORK, Floats, Records, Words
 from validation.cases import example_bearing
@@ -59,7 +59,8 @@ HISTORY = START + (
 @kernel
 def repeat_element(
     props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
-    contacts: Contacts | None, path: Floats, v: Floats, dt: float, with_tangent: bool, k: Floats,
+    heat: Floats, contacts: Contacts | None, path: Floats, v: Floats, dt: float,
+    with_tangent: bool, k: Floats,
 ) -> int:  # fmt: skip
     """Run trial (, tangent) and commit along `path` (n, 12), speeds `v`; returns the iterations."""
     total = 0
@@ -67,7 +68,7 @@ def repeat_element(
         bearing_trial(props, old, new, work, contacts, 0, path[step], v, (step + 1) * dt)
         if with_tangent:
             bearing_tangent(props, new, work, contacts, 0, k)
-        bearing_commit(props, old, new, old_words, new_words, contacts, 0)
+        bearing_commit(props, old, new, old_words, new_words, heat, contacts, 0)
         total += old[0].iterations
     return total
 
@@ -99,8 +100,8 @@ def element_microseconds(
             contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
         began = time.process_time()
         iterations = repeat_element(
-            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK), contacts, path,
-            np.zeros(12), 0.001, tangent, np.zeros((12, 12)),
+            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK),
+            heat_parts(props), contacts, path, np.zeros(12), 0.001, tangent, np.zeros((12, 12)),
         )  # fmt: skip
         times.append((time.process_time() - began) / len(path) * 1e6)
     return statistics.median(times[1:]), iterations / len(path)

@@ -17,6 +17,7 @@ from lir_element.kernels.contact.pairs import OWN, place_bodies, press, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
 from lir_element.kernels.contact.start import fly_on, follow_string, place_nodes, turn_back
 from lir_element.kernels.contact.state import bodies_status, fill_state
+from lir_element.kernels.heating import left_by_heat, left_by_pressure
 from lir_element.kernels.linear import solve_many
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
 from lir_element.kernels.pendulum.trial import has_no_state, trial
@@ -211,6 +212,17 @@ def balance_by_softer_friction(s: BodyStep, pen: Work) -> int:
 
 
 @kernel
+def set_losses(p: Props, old: State, w: Scratch) -> None:
+    """Set the share of friction that pressure and temperature of the committed state take.
+
+    An unloaded bearing is taken to be under the pressure that its friction belongs to.
+    """
+    load = old.axial_force if old.axial_force > 0.0 else p.pressure_load
+    for k in range(2):
+        w.lost[k] = 1.0 - left_by_pressure(p, load) * left_by_heat(p, old.temperature[k])
+
+
+@kernel
 def contact_trial(
     s: BodyStep, old: State, new: State, pen: Work, u: Floats, v: Floats, time: float
 ) -> int:
@@ -224,6 +236,7 @@ def contact_trial(
     if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
         return code
     dt = pen.dt
+    set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
     aloft = old.axial_force == 0.0 and dt > 0.0
@@ -254,6 +267,7 @@ def look_at_committed(s: BodyStep, old: State) -> None:
     """Set forces and derivative at the committed state, as a static one, without moving it."""
     p, c, w = s.props, s.sliders, s.scratch
     b_old, b_new = s.old, s.new
+    set_losses(p, old, w)
     place_nodes(p, c, w, old.displacement)
     for k in range(2):
         for a in range(3):

@@ -78,6 +78,7 @@ def sphere(
     mu, slope = friction_coefficient(
         p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
     )
+    grip *= 1.0 - w.lost[side]
     mu, slope = grip * mu, grip * slope
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2

@@ -16,6 +16,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import inlined, kernel
+from lir_element.kernels.heating import left_by_pressure
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:
@@ -53,8 +54,10 @@ def axial(p: Props, old: State, w: Work) -> None:
         )
     w.vertical, w.stiff_vertical = 0.0, 0.0
     w.kept, w.kept_n, w.softer = 1.0, 0.0, 1.0
+    w.kept_low, w.kept_low_n, w.softer_low = 1.0, 0.0, 1.0
     if w.fixed_length > 0.0:  # the string's own force follows: hold_load
         w.vertical, w.stiff_vertical = force, slope
+        w.pressed, w.pressed_n = left_by_pressure(p, p.fixed_load), 0.0
         return
     w.n_true, w.stiff_n, w.n_pos = force, slope, max(force, 0.0)
     if w.n_pos > p.axial_floor:
@@ -64,6 +67,23 @@ def axial(p: Props, old: State, w: Work) -> None:
     if w.dt > 0.0:
         w.kept, w.kept_n = kept_share(old.axial_force, w.n_pos, p.axial_floor)
         w.softer = 2.0 / (1.0 + w.kept)
+        w.kept_low, w.kept_low_n, w.softer_low = w.kept, w.kept_n, w.softer
+    if w.varies != 0.0:
+        press_surfaces(p, old, w)
+
+
+@kernel
+def press_surfaces(p: Props, old: State, w: Work) -> None:
+    """Set the share of the surfaces' friction that the pressure leaves, and of their z.
+
+    A cycle of the axial force makes no energy where z goes with ``(mu N)^(-1/2)``.
+    """
+    w.pressed, w.pressed_n = left_by_pressure(p, w.n_pos), p.pressure_rate
+    if w.dt > 0.0:
+        more = math.exp(0.5 * p.pressure_rate * (w.n_pos - max(old.axial_force, 0.0)))  # (11.2)
+        w.kept_low = more * w.kept
+        w.kept_low_n = more * (w.kept_n + 0.5 * p.pressure_rate * w.kept)
+        w.softer_low = 2.0 / (1.0 + w.kept_low)
 
 
 @kernel

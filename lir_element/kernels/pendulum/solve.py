@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._jit import kernel
+from lir_element.kernels.heating import left_by_heat
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.kernels.slip import step_share
@@ -40,6 +41,11 @@ def start_search(p: Props, old: State, w: Work) -> None:
     """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
     w.first_decay[0], w.first_decay[1] = 0.0, 0.0
+    w.varies = 0.0
+    if p.softens or p.pressure_rate != 0.0:
+        w.varies = 1.0
+        w.warm[0] = left_by_heat(p, old.temperature[0])
+        w.warm[1] = left_by_heat(p, old.temperature[1])
     stiff = 0.0
     for k in range(2):
         z = old.hysteresis[k]

@@ -213,8 +213,8 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     before = old.sliding_increment[k]
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_step(
         p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], w.z_size[k], d_1, d_2,
-        p.yield_displacement[k], w.per_yield[k], w.kept, w.kept_n, w.softer, before[0], before[1],
-        w.share,
+        p.yield_displacement[k], w.per_yield[k], w.kept_low, w.kept_low_n, w.softer_low, before[0],
+        before[1], w.share,
     )  # fmt: skip
     w.slid[k] = slid
     # sliding that unloads has no speed: friction must not grow meanwhile
@@ -225,6 +225,10 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     if p.friction_drop[k] != 0.0:
         decay = falling(w, k, p.friction_drop[k], p.friction_rate[k])
         mu, slope = mu - decay, p.friction_rate[k] * decay
+    if w.varies != 0.0:
+        share = w.warm[k] * w.pressed
+        mu, slope = share * mu, share * slope
+        n_1, n_2 = n_1 - w.pressed_n * z_1, n_2 - w.pressed_n * z_2
     w.mu[k] = mu
     mu, slope = w.left[k] * mu, w.left[k] * slope
     by_1, by_2 = slope * by_slip * s_1, slope * by_slip * s_2

@@ -93,7 +93,7 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
 
 @kernel
 def keep_works(old: State, new: State) -> None:
-    """Carry works and paths over to the trial: they grow when it is committed."""
+    """Carry works, paths and temperatures over to the trial: they change when it is committed."""
     for k in range(2):
         new.work_friction[k] = old.work_friction[k]
         new.work_rim[k] = old.work_rim[k]
@@ -107,6 +107,8 @@ def keep_works(old: State, new: State) -> None:
     new.work_sliders = old.work_sliders
     new.interface_travel = old.interface_travel
     new.largest_slip = old.largest_slip
+    for k in range(3):
+        new.temperature[k] = old.temperature[k]
 
 
 @kernel

@@ -70,6 +70,7 @@ SHARED_FIELDS = (
     Field("new", "", "", "address of the trial state", (), _ADDRESS),
     Field("first", "", "", "address of the state at the start", (), _ADDRESS),
     Field("work", "", "", "address of the scratch", (), _ADDRESS),
+    Field("heat", "", "", "address of the parts of the temperatures", (), _ADDRESS),
     Field("point_count", "-", "", "contact points of all interfaces", (), "i8"),
     Field("row", "", "", "address of `Contacts.row`, and so on", (), _ADDRESS),
     Field("sliders", "", "", "", (), _ADDRESS),

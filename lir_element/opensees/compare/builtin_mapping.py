@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
 from lir_element.door import require_positive
 
 if TYPE_CHECKING:
@@ -75,7 +76,8 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     Raises
     ------
     ValueError
-        If the slider is in two pieces, or friction cannot be written as one law.
+        If the slider is in two pieces, or friction cannot be written as one law, or depends on
+        pressure or temperature.
 
     Examples
     --------
@@ -100,6 +102,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
             'perfectly plastic; give friction_law="elastic-plastic"'
         )
         raise ValueError(msg)
+    require_constant_friction(bearing, TO_OPENSEES)
     radii, laws, length = bearing.radii, bearing.frictions, bearing.effective_radius
     least = min(law.f_min for law in laws)
     if least <= 0.0:

@@ -14,6 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
 from lir_element.door import require_choice, require_non_negative, require_positive
 from lir_element.opensees.library import opensees
 
@@ -283,6 +284,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
         msg = f"directions = {directions!r}: give 4, 8, 12, ...; the gaps stand crosswise"
         raise ValueError(msg)
     require_choice("restoring", restoring, ("series", "across"))
+    require_constant_friction(bearing, TO_OPENSEES)
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (
             f"interface_friction = {bearing.interface_friction:g} does not exceed the surfaces' "

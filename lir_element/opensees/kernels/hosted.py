@@ -17,7 +17,17 @@ from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
 from lir_element.kernels.linear import gather, scatter
 from lir_element.kernels.pendulum.trial import copy_words, has_no_state
-from lir_element.layout import BODIES, POINT, PROPS, SCRATCH, SLIDERS, STATE, TOUCH, WORK
+from lir_element.layout import (
+    BODIES,
+    HEAT_PARTS,
+    POINT,
+    PROPS,
+    SCRATCH,
+    SLIDERS,
+    STATE,
+    TOUCH,
+    WORK,
+)
 from lir_element.opensees.block.layout import (
     BODY_WORDS,
     LOAD_HIGH,
@@ -202,7 +212,8 @@ def host_commit(h: Host, contacts: Contacts | None) -> None:
     bearing_commit(
         carray(pointer(h.props), 1, PROPS), old, new,
         carray(pointer(h.old), (1, STATE_WORDS), WORDS),
-        carray(pointer(h.new), (1, STATE_WORDS), WORDS), contacts, 0,
+        carray(pointer(h.new), (1, STATE_WORDS), WORDS),
+        carray(pointer(h.heat), (1, 3, HEAT_PARTS), NUMBERS), contacts, 0,
     )  # fmt: skip
     if contacts is not None and h.has_tangent == 0:
         h.has_tangent = 2
@@ -265,6 +276,9 @@ def host_restart(h: Host) -> None:
     copy_words(
         carray(pointer(h.first), STATE_WORDS, WORDS), carray(pointer(h.old), STATE_WORDS, WORDS)
     )
+    heat = carray(pointer(h.heat), 3 * HEAT_PARTS, NUMBERS)
+    for k in range(3 * HEAT_PARTS):
+        heat[k] = 0.0
     if h.bodies_old != 0:
         copy_words(
             carray(pointer(h.bodies_first), BODY_WORDS, WORDS),

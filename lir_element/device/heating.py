@@ -1,0 +1,229 @@
+"""Friction that depends on pressure and temperature, as an engineer specifies it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from lir_element.door import require_between, require_choice, require_positive
+from lir_element.layout import HEAT_PARTS
+from lir_element.units import LENGTHS, MODULI, meant
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats
+
+_FALLS = {"half": (0.02, 0.40), "third": (0.029, 0.22), "two-thirds": (0.0085, 0.25)}
+"""Of 0.7^(rate T) + rest, by what is left at 200 C: rate [1/K] and rest."""
+
+_SHORTEST, _LONGEST = 1e-3, 200.0  # s, between which the sum of exponentials holds
+_FASTEST, _SLOWEST = 2e3, 3e-3  # 1/s, of its rates: both bounds are well covered
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PressureDependence:
+    r"""Low friction that falls as the pressure on the slider rises.
+
+    .. math:: k_p = e^{-r (p - p_0)}
+
+    multiplies the friction coefficient of both concave surfaces; p is the axial force over the
+    slider's area in plan. By default it is :math:`0.7^{0.02 (p - p_0)}` with p in MPa.
+
+    Parameters
+    ----------
+    reference_pressure : float, optional
+        Pressure p_0 [Pa] at which the friction coefficients were measured. Default: that of the
+        design load.
+    rate : float
+        Rate r [1/Pa], at least 0.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of bounds: the message names value, bound and remedy.
+
+    Notes
+    -----
+    Source: the factor of the bearing elements FPBearingPTV and TripleFrictionPendulumX of OpenSees.
+
+    Examples
+    --------
+    >>> round(PressureDependence(reference_pressure=20e6).factor(70e6), 3)
+    0.7
+    """
+
+    reference_pressure: float | None = None
+    rate: float = -0.02e-6 * math.log(0.7)
+
+    def __post_init__(self) -> None:
+        p = self.reference_pressure
+        if p is not None:
+            require_positive("reference_pressure", p, "Pa")
+            require_between(
+                "reference_pressure", p, 1e5, 3e9, "Pa", remedy=meant(p, "Pa", MODULI, 1e6, 3e8)
+            )
+        require_between(
+            "rate", self.rate, 0.0, 1e-6, "1/Pa", remedy="give 1/Pa (0.0071 1/MPa are 7.1e-9 1/Pa)"
+        )
+
+    def __str__(self) -> str:
+        """Return it in words, for tables."""
+        p_0 = self.reference_pressure
+        at = "the design load" if p_0 is None else f"{1e-6 * p_0:.4g} MPa"
+        return f"{1e8 * self.rate:.3g} % less a MPa, from {at} on"
+
+    def factor(self, pressure: float, reference: float | None = None) -> float:
+        """Return k_p [-] at `pressure`; `reference` [Pa] stands for a reference left open."""
+        p_0 = self.reference_pressure if self.reference_pressure is not None else reference
+        if p_0 is None:
+            msg = "reference_pressure is open: give it, or `reference`, the design pressure [Pa]"
+            raise ValueError(msg)
+        return math.exp(-self.rate * (pressure - p_0))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrictionHeating:
+    r"""Low friction that falls as sliding heats the plates.
+
+    .. math:: k_T = \frac{0.7^{r T} + c}{0.7^{r T_r} + c}
+
+    multiplies the friction coefficient of both concave surfaces, T being the temperature of the
+    plate at the middle of its surface [C]. What friction dissipates enters there while the slider
+    covers that place (docs/theory.md, section 11). The interface is heated, too, by its slip; its
+    temperature is recorded, its friction does not follow it.
+
+    Parameters
+    ----------
+    variant : {"half", "third", "two-thirds"}
+        What is left of friction at 200 C: (r, c) = (0.02, 0.40), (0.029, 0.22), (0.0085, 0.25).
+    conductivity : float
+        Thermal conductivity of the plates [W/(m K)]. Default: stainless steel.
+    diffusivity : float
+        Thermal diffusivity of the plates [m2/s]. Default: stainless steel.
+    initial_temperature : float
+        Temperature of the bearing before the analysis [C].
+    reference_temperature : float
+        Temperature T_r at which the friction coefficients were measured [C].
+    thickness : float, optional
+        Thickness of what takes up the heat [m], nothing passing through its back. Default: so
+        thick that heat does not reach it, a half-space.
+    share : float
+        Share of the heat that enters the plate [-], above 0 and at most 1; the rest goes to the
+        slider's liner. The usual assumption is 1.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of bounds: the message names value, bound and remedy.
+
+    Notes
+    -----
+    Source: the factors and defaults of TripleFrictionPendulumX of OpenSees; Constantinou et al.
+    (2007), MCEER-07-0012, for the heating.
+
+    Examples
+    --------
+    >>> round(FrictionHeating().factor(200.0), 2)
+    0.51
+    """
+
+    variant: Literal["half", "third", "two-thirds"] = "half"
+    conductivity: float = 18.0
+    diffusivity: float = 4.44e-6
+    initial_temperature: float = 20.0
+    reference_temperature: float = 20.0
+    thickness: float | None = None
+    share: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_choice("variant", self.variant, tuple(_FALLS))
+        require_between("conductivity", self.conductivity, 0.1, 1e4, "W/(m K)")
+        require_between(
+            "diffusivity", self.diffusivity, 1e-8, 1e-2, "m2/s",
+            remedy="give m2/s (4.44 mm2/s are 4.44e-6 m2/s)",
+        )  # fmt: skip
+        for name in ("initial_temperature", "reference_temperature"):
+            require_between(name, getattr(self, name), -100.0, 400.0, "C", remedy="give it in C")
+        if self.thickness is not None:
+            remedy = meant(self.thickness, "m", LENGTHS, 2e-3, 0.5)
+            require_between("thickness", self.thickness, 1e-3, 2.0, "m", remedy=remedy)
+        require_between("share", self.share, 1e-6, 1.0 + 1e-12, "-", remedy="1 for all of it")
+
+    def __str__(self) -> str:
+        """Return it in words, for tables."""
+        plate = "half-space" if self.thickness is None else f"{1e3 * self.thickness:.4g} mm"
+        return f"{self.variant} at 200 C, {plate}, from {self.initial_temperature:g} C on"
+
+    def factor(self, temperature: float) -> float:
+        """Return k_T [-] at `temperature` [C]."""
+        scale, rate, rest = self.law
+        return scale * (rest + math.exp(-rate * temperature))
+
+    @property
+    def law(self) -> tuple[float, float, float]:
+        """Scale, rate [1/K] and rest of k_T = scale (rest + exp(-rate T))."""
+        rate, rest = _FALLS[self.variant]
+        rate *= -math.log(0.7)
+        return 1.0 / (rest + math.exp(-rate * self.reference_temperature)), rate, rest
+
+    def parts(self) -> tuple[Floats, Floats, float]:
+        """Return how the temperature answers heat, as a sum of parts that decay.
+
+        Returns
+        -------
+        rate : ndarray, (HEAT_PARTS,)
+            Rates of decay [1/s].
+        gain : ndarray, (HEAT_PARTS,)
+            Rise of each part per heat that enters [K m2/J].
+        skin : float
+            Rise at once per flux [K m2/W]: what decays faster.
+        """
+        path = math.inf if self.thickness is None else self.thickness**2 / self.diffusivity
+        rate, weight, skin = _exponentials(path)
+        scale = self.share * math.sqrt(self.diffusivity / math.pi) / self.conductivity
+        return rate, scale * weight, scale * skin
+
+
+def response(time: Floats, path: float) -> Floats:
+    """Return a plate's temperature after a unit of heat, over ``sqrt(D / pi) / k`` [1/s^(1/2)].
+
+    Parameters
+    ----------
+    time : ndarray
+        Since the heat entered [s].
+    path : float
+        Square of the plate's thickness over its diffusivity [s]; infinite for a half-space.
+
+    Returns
+    -------
+    ndarray
+        Of (11.3): by images while heat has not been through the plate, then by modes.
+    """
+    squares = np.arange(1, 6)[:, None] ** 2
+    early = time < 0.3 * path
+    found = 1.0 / np.sqrt(time)
+    found[early] *= 1.0 + 2.0 * np.exp(-squares * path / time[early]).sum(axis=0)
+    late = time[~early]
+    if len(late):
+        modes = np.exp(-squares * math.pi**2 * late / path).sum(axis=0)
+        found[~early] = math.sqrt(math.pi / path) * (1.0 + 2.0 * modes)
+    return np.asarray(found)
+
+
+@cache
+def _exponentials(path: float) -> tuple[Floats, Floats, float]:
+    # Rates, weights and the integral of what is left before the shortest time: `response` as a sum
+    # of exponentials whose rates are in proportion, one of them constant. Least squares of the
+    # relative error, no weight below zero.
+    from scipy.optimize import nnls  # as long to import as numba, for bearings that are heated
+
+    slowest = max(math.pi**2 / path, _SLOWEST)
+    rate = np.append(np.geomspace(slowest, max(_FASTEST, 50.0 * slowest), HEAT_PARTS - 1), 0.0)
+    time = np.geomspace(_SHORTEST, _LONGEST, 500)
+    weight, _ = nnls(np.exp(-np.outer(time, rate)) / response(time, path)[:, None], np.ones(500))
+    done = np.where(rate > 0.0, -np.expm1(-rate * _SHORTEST) / np.maximum(rate, 1e-300), _SHORTEST)
+    whole = 2.0 * math.sqrt(_SHORTEST)
+    return rate, weight, whole - float(weight @ done)
