@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 from frames._errors import MotionError
 from frames.hazard.fault_axes import angle_of, to_fault
 from frames.hazard.fema_records import fema_p695_records
-from frames.hazard.matching import matched_pair
 from frames.hazard.motion_collection import MotionCollection
 from frames.hazard.motion_folder import read_at2_folder, read_table
-from frames.hazard.scaling import checked_range, scaled_so
+from frames.hazard.scaling import scaled_so
 from frames.hazard.spectrum import Spectrum
-from lir_element.door import require_choice, require_type
+from lir_element.door import require_choice
 
 if TYPE_CHECKING:
     from frames.motion.records import PathLike
@@ -248,59 +247,3 @@ class MotionSet(MotionCollection):
         factors = {name: factor / before.get(name, 1.0) for name, factor in done.factors.items()}
         motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
         return MotionSet(motions, self.facts, done)
-
-    def matched_to(
-        self,
-        spectrum: Spectrum,
-        *,
-        periods: tuple[float, float],
-        measure: str = "RotD100",
-        damping: float = 0.05,
-        tolerance: float = 0.10,
-    ) -> MotionSet:
-        """Return the set with each pair changed so that its spectrum follows the target.
-
-        Wavelets change the motions within the range (`frames.hazard.matching`), up to a minute a
-        pair; of recorded pairs, some stay 10 to 15 % off at a period. The baseline is corrected,
-        vertical components stay as they are. Matching takes the scatter between motions away, and
-        may change pulses: look at the histories. `scaled_to` afterwards lifts the mean to what a
-        code asks. Needs the extra "matching".
-
-        Parameters
-        ----------
-        spectrum : Spectrum
-            The target.
-        periods : tuple of float
-            Range of periods [s].
-        measure : {"RotD100", "RotD50"}
-            What is matched.
-        damping : float
-            Damping of the spectra [-].
-        tolerance : float
-            Difference of a spectrum from the target that passes without a warning [-].
-
-        Returns
-        -------
-        MotionSet
-            The matched motions.
-
-        Raises
-        ------
-        MotionError
-            If an argument is out of its bounds, there is no pair, or the correction of the
-            baseline would change a peak by more than 5 %.
-        ImportError
-            If the package `reqpy-m` is not installed.
-
-        Warns
-        -----
-        MotionWarning
-            If a spectrum is farther from the target than the tolerance.
-        """
-        require_type("spectrum", spectrum, Spectrum, "a Spectrum")
-        range_ = checked_range(periods)
-        changed = {
-            name: matched_pair(name, motion, spectrum, range_, damping, measure, tolerance)
-            for name, motion in self.items()
-        }
-        return MotionSet(changed, self.facts)

@@ -353,34 +353,6 @@ def test_the_records_of_fema_p695(kind: str, pairs: int) -> None:
         assert max(motion.peak.values()) / G == pytest.approx(published, abs=0.0051)
 
 
-def test_matching_wants_its_package(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "reqpy_M", None)
-    with pytest.raises(ImportError, match=r"lir-dcfp\[matching\]"):
-        SEVEN.matched_to(TARGET, periods=(0.5, 1.5))
-    with pytest.raises(MotionError, match="no pair"):
-        MotionSet({"a": GroundMotion(x=shaken(1).x, dt=DT)}).matched_to(TARGET, periods=(0.5, 1.5))
-    with pytest.raises(MotionError, match="measure"):
-        SEVEN.matched_to(TARGET, periods=(0.5, 1.5), measure="SRSS")
-
-
-def test_a_matched_pair_follows_the_target() -> None:
-    """By the spectra of this program, within 10 %; the ground is at rest at the end."""
-    pytest.importorskip("reqpy_M", reason="the extra 'matching' is not installed")
-    one = MotionSet({"a": shaken(2).resampled(0.02)})
-    matched = one.matched_to(TARGET, periods=(0.4, 1.5))["a"]
-    periods = np.linspace(0.4, 1.5, 23)
-    ratio = pair_spectrum(matched, periods) / TARGET.acceleration(periods)
-    assert abs(ratio - 1.0).max() < 0.10
-    before = pair_spectrum(one["a"], periods) / TARGET.acceleration(periods)
-    assert before.max() / before.min() > 1.5  # there was something to match
-    for left in matched.drift.values():
-        assert abs(left.velocity) < 1e-9
-        assert abs(left.displacement) < 1e-9
-    with pytest.warns(MotionWarning, match="after the matching"):
-        one.matched_to(TARGET, periods=(0.4, 1.5), tolerance=0.001)
-
-
-@pytest.mark.records
 def test_recorded_pairs(records: Path) -> None:
     """TCU065 and Lucerne: published peaks, and RotD100 between the larger one and the SRSS."""
     motion = GroundMotion.from_columns(
