@@ -35,11 +35,13 @@ app = typer.Typer(
 )  # fmt: skip
 out, err = Console(), Console(stderr=True)
 
+HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
+
 File = Annotated[Path, typer.Argument(help="The project's file.")]
 
 
 @app.command()
-def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = Path()) -> None:
+def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with _told():
         try:
@@ -51,7 +53,7 @@ def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = Pat
 
 
 @app.command()
-def check(file: File = Path("project.toml")) -> None:
+def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     with _told():
         ground = groundwork(_parts(file))
@@ -66,7 +68,7 @@ def check(file: File = Path("project.toml")) -> None:
 
 @app.command(name="design")
 def propose(
-    file: File = Path("project.toml"),
+    file: File = FILE,
     sizes: Annotated[int, typer.Option(help="Number of unlike sliders.")] = 1,
     least: Annotated[str, typer.Option(help="base shear, displacement or plan diameter")] = (
         "base shear"
@@ -88,8 +90,8 @@ def propose(
 
 @app.command()
 def run(
-    file: File = Path("project.toml"),
-    results: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("results"),
+    file: File = FILE,
+    results: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
 ) -> None:
     """Run a project at each bound of friction, check it, and write the results."""
     with _told():
@@ -103,7 +105,7 @@ def run(
 
 
 @app.command()
-def compare(file: File = Path("project.toml")) -> None:
+def compare(file: File = FILE) -> None:
     """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
     with _told():
         parts = _parts(file)
