@@ -214,20 +214,22 @@ class EquivalentLinear:
 
     def __str__(self) -> str:
         """Return results and checks as tables."""
-        return f"{text_table(self._rows(), self._head())}\n\n{self.checks}"
+        return f"{text_table(self.rows(), self.head())}\n\n{self.checks}"
 
     def __repr__(self) -> str:
         """Return the main numbers of each bound."""
         return "\n".join([f"{self.code}, equivalent-linear", *map(repr, self.bounds.values())])
 
     def _repr_html_(self) -> str:
-        table = html_table(f"{self.code}, equivalent-linear", self._rows(), self._head())
+        table = html_table(f"{self.code}, equivalent-linear", self.rows(), self.head())
         return table + self.checks._repr_html_()
 
-    def _head(self) -> tuple[str, ...]:
+    def head(self) -> tuple[str, ...]:
+        """Return the titles of `rows`, with units: mm, kN, per cent."""
         return ("bound", *(f"{name.replace('_', ' ')} [{u}]" for name, _, u in _COLUMNS))
 
-    def _rows(self) -> list[tuple[str, ...]]:
+    def rows(self) -> list[tuple[str, ...]]:
+        """Return a row for each bound as text, for tables."""
         return [
             (
                 name,

@@ -17,9 +17,9 @@ from frames._errors import CheckError, ModelError, MotionError, ProjectError
 from frames.checks.check import CONFIRMED, Checks
 from frames.project.design_run import CODES, DEVICES, groundwork, run_project
 from frames.project.example import write_example
-from frames.project.files import write_run
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
+from frames.report.files import write_run
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisError, AnalysisInterrupted
 from lir_element.tables import text_table

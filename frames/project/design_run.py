@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from frames.analysis.recording import Recording
+from frames.analysis.transient import time_history
 from frames.checks.analysis import equivalent_linear
 from frames.checks.asce7 import ASCE7
+from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
-from frames.checks.check import Checks
+from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.en1998 import EN1998
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.isolation import IsolationSystem
 from frames.checks.nch2745 import NCh2745
 from frames.project.parts import RULES
+from frames.sizing.candidate import PROCEDURE
+from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -25,6 +30,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.analysis.cases import BatchProgress
+    from frames.analysis.model_check import ModelCheck
+    from frames.checks.bounds import PropertyBounds
     from frames.checks.check import Bound
     from frames.checks.outcome import EquivalentLinear
     from frames.frame import Frame
@@ -70,6 +77,16 @@ class ProjectRun:
     checks : Checks
         Of the time histories, the bearing, and what of the equivalent-linear analysis they do
         not replace.
+    bounds : PropertyBounds
+        Bounds of friction.
+    model : ModelCheck
+        Totals of the structure.
+    loads : tuple of float, (n_bearings,)
+        Axial loads of the average combination [N].
+    governing : xarray.Dataset
+        Histories of the run that displaces a bearing most.
+    governing_case : str
+        Which that is.
     """
 
     frame: Frame
@@ -79,6 +96,11 @@ class ProjectRun:
     runs: Mapping[Bound, xr.Dataset]
     demands: pd.DataFrame
     checks: Checks
+    bounds: PropertyBounds
+    model: ModelCheck
+    loads: tuple[float, ...]
+    governing: xr.Dataset
+    governing_case: str
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -212,7 +234,7 @@ def run_project(
         workers=given.workers, progress=progress, record=Recording(every=None),
     )  # fmt: skip
     minima = known.equivalent if _has_minima(parts) else None
-    found = [c for c in known.equivalent.checks if c.title in _ALWAYS]
+    found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
     found += known.equivalent.general
     found += history_checks(
         runs, frame, RULES[code], bounds=bounds, limits=limits, equivalent=minima
@@ -220,10 +242,35 @@ def run_project(
     demands = history_demands(runs, RULES[code])
     if device == "LIR-DCFP":
         found += _of_the_bearing(parts, known, demands)
+    governing, case = _governing(parts, frame, known.motions, runs)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
         equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
+        bounds=bounds, model=frame.check(), loads=known.system.loads, governing=governing,
+        governing_case=case,
     )  # fmt: skip
+
+
+def _governing(
+    parts: Parts, frame: Frame, motions: MotionSet, runs: Mapping[Bound, xr.Dataset]
+) -> tuple[xr.Dataset, str]:
+    # Histories of the run that displaces a bearing most, run once more to keep them.
+    reached = {
+        (bound, int(run)): float(data["reached_displacement"].isel(run=run).max())
+        for bound, data in runs.items()
+        for run in range(data.sizes["run"])
+    }
+    bound, run = max(reached, key=lambda key: reached[key])
+    name, given = str(runs[bound]["motion"].to_numpy()[run]), parts.file.analysis
+    model = frame if bound == "" else bounded(frame, bound, parts.bounds())
+    with warnings.catch_warnings():  # as told of the same run among the others
+        warnings.simplefilter("ignore", AnalysisWarning)
+        data = time_history(model, motions[name], level=given.level, dt=given.dt)
+    return data, f"{name}, {bound} bound"
+
+
+def _is_for_any_analysis(check: Check) -> bool:
+    return check.title in _ALWAYS and not any(one in check.clause for one in PROCEDURE)
 
 
 def _has_minima(parts: Parts) -> bool:

@@ -70,7 +70,7 @@ FLOORS = (
     "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
     "frames.model", "frames.motion", "frames.hazard", "frames.assembly", "frames.kernels",
     "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.plots",
-    "frames.checks", "frames.sizing", "frames.project", "frames.command",
+    "frames.checks", "frames.sizing", "frames.project", "frames.report", "frames.command",
     "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
 )  # fmt: skip
 

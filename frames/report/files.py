@@ -6,6 +6,7 @@ import json
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
+from frames.report.writing import report_html
 from frames.results.storage import save
 from lir_element.results.dataset import package_version
 
@@ -32,7 +33,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     list of Path
         ``project.toml``; ``runs-<bound>.nc``, the time histories; ``equivalent-linear.csv``,
         ``demands.csv``, ``checks.csv`` in SI units; ``checks.txt`` with each calculation;
-        ``run.json``: versions, date, outcome.
+        ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
+        outcome.
     """
     folder.mkdir(parents=True, exist_ok=True)
     texts = {
@@ -41,6 +43,7 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         "demands.csv": run.demands.to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
+        "report.html": report_html(run, source),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     written = []
@@ -48,8 +51,9 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         path = folder / name
         path.write_text(text, encoding="utf-8")
         written.append(path)
-    for bound, data in run.runs.items():
-        path = folder / f"runs-{bound}.nc"
+    for name, data in {**{f"runs-{b}": d for b, d in run.runs.items()},
+                       "governing": run.governing}.items():  # fmt: skip
+        path = folder / f"{name}.nc"
         save(data, path, compress=True)
         written.append(path)
     return written

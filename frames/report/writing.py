@@ -1,0 +1,149 @@
+"""A run as one HTML file: what was asked, what came out, every check with its calculation."""
+
+from __future__ import annotations
+
+import platform
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, NamedTuple
+
+import jinja2
+from markupsafe import Markup
+
+from frames.checks.check import CONFIRMED
+from frames.checks.rendering import quantity
+from frames.report.figures import pictures
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import pandas as pd
+
+    from frames.checks.check import Check
+    from frames.project.design_run import ProjectRun
+
+
+class Table(NamedTuple):
+    """A table of the report: cells as text, the first column to the left."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+class Judged(NamedTuple):
+    """A check as the report shows it."""
+
+    check: Check
+    demand: str
+    limit: str
+    ratio: str
+    starred: bool
+    steps: list[tuple[Markup, str]]
+
+
+def report_html(run: ProjectRun, source: str) -> str:
+    """Return a run as a self-contained HTML page.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+    source : str
+        Text of the project's file.
+
+    Returns
+    -------
+    str
+        The page: styles and pictures are in it, nothing is fetched.
+    """
+    page = jinja2.Environment(
+        loader=jinja2.PackageLoader("frames.report", "."), autoescape=True,
+        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    ).get_template("report.html.j2")  # fmt: skip
+    device = next(iter(run.frame.bearings.values())).bearing
+    return page.render(
+        name=run.frame.name,
+        code=run.equivalent.code,
+        device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
+        case=run.governing_case,
+        failed=[_judged(check) for check in run.checks.failed],
+        checks=[_judged(check) for check in run.checks],
+        limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
+        model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
+        bearing=Markup(device._repr_html_()),  # noqa: S704
+        schedule=_schedule(run),
+        bounds=_bounds(run),
+        motions=_table(run.motions.table(), "motion"),
+        equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
+        demands=_demands(run.demands),
+        audit=run.governing.attrs["audit"].splitlines(),
+        pictures=pictures(run),
+        source=source,
+        facts=_facts(run),
+    )
+
+
+def _judged(check: Check) -> Judged:
+    return Judged(
+        check=check,
+        demand=quantity(check.demand, check.unit, check.shown),
+        limit=quantity(check.limit, check.unit, check.shown),
+        ratio=f"{check.ratio:.3f}",
+        starred=check.standing != CONFIRMED,
+        steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
+    )
+
+
+def _schedule(run: ProjectRun) -> Table:
+    # Where each bearing stands, what it carries, what the histories' envelope asks of it.
+    head = ("bearing", "x [m]", "y [m]", "average load [kN]", "slider radius [mm]", "rims [mm]")
+    rows = []
+    for link, load in zip(run.frame.bearings.items(), run.loads, strict=True):
+        name, place = link[0], run.frame.nodes[link[1].j]
+        device = link[1].bearing
+        numbers = (place.x, place.y, 1e-3 * load, 1e3 * device.slider_radius,
+                   1e3 * device.lateral_capacity)  # fmt: skip
+        rows.append((name, *(f"{number:.4g}" for number in numbers)))
+    return Table(head, rows)
+
+
+def _bounds(run: ProjectRun) -> Table:
+    factors = {"surfaces": run.bounds.friction, "interface": run.bounds.interface_factors}
+    rows = [(name, f"{one.lower:g}", f"{one.upper:g}") for name, one in factors.items()]
+    return Table(("factor on the friction of", "lower", "upper"), rows)
+
+
+def _table(frame: pd.DataFrame, index: str) -> Table:
+    rows = [(str(name), *map(_cell, row)) for name, *row in frame.itertuples()]
+    return Table((index, *map(str, frame.columns)), rows)
+
+
+def _demands(frame: pd.DataFrame) -> Table:
+    # Lengths in mm, forces in kN.
+    rows = []
+    for name, row in frame.iterrows():
+        unit, factor = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}.get(row["unit"], (row["unit"], 1.0))
+        cells = [_cell(factor * value if isinstance(value, float) else value)
+                 for key, value in row.items() if key != "unit"]  # fmt: skip
+        rows.append((str(name), unit, *cells))
+    heads = (str(name) for name in frame.columns if name != "unit")
+    return Table(("quantity", "unit", *heads), rows)
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    return {True: "yes", False: "no"}.get(value, str(value)) if value is not None else ""  # type: ignore[call-overload]
+
+
+def _facts(run: ProjectRun) -> dict[str, str]:
+    attrs = run.governing.attrs
+    return {
+        "written": datetime.now(tz=UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "lir-dcfp": package_version(),
+        "Python": platform.python_version(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "level, integrator, step control": (
+            f"{attrs['level']}, {attrs['integrator']}, {attrs['step_control']}"
+        ),
+    }

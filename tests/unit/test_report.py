@@ -1,0 +1,166 @@
+"""The report of a run: its numbers are those of the results, and a browser shows it whole."""
+
+import base64
+import re
+import shutil
+import subprocess  # noqa: S404
+from html import unescape
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("jinja2")
+pytest.importorskip("pydantic")
+pytest.importorskip("typer")
+
+import pandas as pd
+from typer.testing import CliRunner
+
+from frames.command.app import app
+
+PROJECT = """
+[project]
+name = "One storey <& small>"
+code = "ASCE 7-22"
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["6 m", "6 m"]
+storey_mass = ["100 t"]
+storey_stiffness = ["400 kN/mm"]
+storey_height = "3 m"
+base_mass = "100 t"
+[superstructure]
+R = 6.0
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "0.2 m"
+capacity = "180 mm"
+friction = 0.05
+interface_friction = 0.15
+[spectrum]
+s_ms = 1.2
+s_m1 = 0.6
+[motions]
+folder = "motions"
+[bounds]
+friction = [0.8, 1.3]
+interface = [0.9, 1.1]
+[analysis]
+bounds = ["lower", "upper"]
+"""
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("project")
+    run = CliRunner().invoke
+    assert run(app, ["new", str(folder)]).exit_code == 0
+    file = folder / "project.toml"
+    file.write_text(PROJECT)
+    done = run(app, ["run", str(file), "--results", str(folder / "results")])
+    assert done.exit_code in {0, 1}, done.output
+    return folder / "results"
+
+
+@pytest.fixture(scope="module")
+def page(results: Path) -> str:
+    return (results / "report.html").read_text(encoding="utf-8")
+
+
+def cells(page: str, first: str) -> list[str]:
+    """Return the cells of the row that begins with a word."""
+    for row in re.findall(r"<tr>(.*?)</tr>", page, re.S):
+        found = [unescape(c).strip() for c in re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)]
+        if found and found[0] == first:
+            return found
+    pytest.fail(f"no row {first}")
+
+
+def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
+    demands = pd.read_csv(results / "demands.csv", index_col=0)
+    factors = {"m": 1e3, "N": 1e-3}
+    for name, row in demands.iterrows():
+        shown = cells(page, name)
+        factor = factors.get(row["unit"], 1.0)
+        for text, column in zip(shown[2:], ("lower", "upper", "envelope"), strict=False):
+            assert float(text) == pytest.approx(factor * row[column], rel=1e-3, abs=1e-12)
+    linear = pd.read_csv(results / "equivalent-linear.csv", index_col=0)
+    for bound in ("lower", "upper"):
+        shown = cells(page, bound)
+        assert float(shown[1]) == pytest.approx(
+            1e3 * linear.loc[bound, "displacement [m]"], rel=1e-3
+        )
+
+
+def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> None:
+    checks = pd.read_csv(results / "checks.csv")
+    body = page[page.index('<h2 id="checks">') : page.index('<h2 id="input">')]
+    assert body.count('<section class="steps">') == len(checks)
+    table, calculations = body.split('<h2 id="calculations">')
+    assert table.count(">FAILS<") == calculations.count(">FAILS<") == (~checks["passed"]).sum()
+    assert calculations.count("<math") > 2 * len(checks)
+    assert table.count(" *</td>") == checks["standing"].str.startswith("to be confirmed").sum()
+    verdict = page[page.index('class="verdict') : page.index('<h2 id="structure">')]
+    assert f"{len(checks)} checks" in verdict
+
+
+def test_it_stands_alone(results: Path, page: str) -> None:
+    sources = re.findall(r'(?:src|href)="([^"#][^"]*)"', page)
+    assert sources
+    for source in sources:
+        assert source.startswith("data:")
+    pictures = [s for s in sources if s.startswith("data:image/png;base64,")]
+    assert len(pictures) >= 8
+    for picture in pictures:
+        data = base64.b64decode(picture.partition(",")[2], validate=True)
+        assert data.startswith(b"\x89PNG")
+    assert "One storey &lt;&amp; small&gt;" in page
+    assert (results / "project.toml").read_text().strip() in unescape(page)
+
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
+@pytest.mark.parametrize("width", [1280, 390])
+def test_a_browser_shows_it_whole(page: str, tmp_path: Path, width: int) -> None:
+    probe = """<script>window.onload = () => {
+      const ill = [...document.images].filter(i => !i.complete || i.naturalWidth === 0).length;
+      const wide = document.documentElement.scrollWidth - window.innerWidth;
+      const cut = [...document.querySelectorAll('td')].filter(
+        c => c.scrollWidth > c.clientWidth + 1).length;
+      const flat = [...document.querySelectorAll('math')].filter(
+        m => m.getBoundingClientRect().height < 5).length;
+      document.title = `probe ${ill} ${wide} ${cut} ${flat} ${document.images.length}`;
+    }</script>"""
+    file = tmp_path / "report.html"
+    file.write_text(page.replace("</body>", probe + "</body>"), encoding="utf-8")
+    done = subprocess.run(  # noqa: S603
+        [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+         f"--window-size={width},900", f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom",
+         file.as_uri()],
+        capture_output=True, text=True, timeout=120, check=True,
+    )  # fmt: skip
+    assert "CONSOLE" not in done.stderr
+    found = re.search(r"<title>probe (\d+) (-?\d+) (\d+) (\d+) (\d+)</title>", done.stdout)
+    assert found is not None
+    missing, beyond, cut, flat, pictures = map(int, found.groups())
+    assert (missing, cut, flat) == (0, 0, 0)
+    assert beyond <= 0  # tables scroll in their frames, the page does not
+    assert pictures >= 8
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
+def test_it_prints(results: Path, tmp_path: Path) -> None:
+    paper = tmp_path / "report.pdf"
+    subprocess.run(  # noqa: S603
+        [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu",
+         f"--user-data-dir={tmp_path / 'profile'}", f"--print-to-pdf={paper}",
+         (results / "report.html").as_uri()],
+        capture_output=True, timeout=120, check=True,
+    )  # fmt: skip
+    data = paper.read_bytes()
+    assert data.startswith(b"%PDF")
+    assert 5 <= data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") <= 60
