@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from frames.analysis.recording import Recording
@@ -17,6 +17,7 @@ from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.en1998 import EN1998
 from frames.checks.histories import bounded_histories, history_checks, history_demands
+from frames.checks.history_rules import HISTORY_RULES
 from frames.checks.isolation import IsolationSystem
 from frames.checks.nch2745 import NCh2745
 from frames.project.parts import RULES
@@ -236,10 +237,11 @@ def run_project(
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
     found += known.equivalent.general
-    found += history_checks(
-        runs, frame, RULES[code], bounds=bounds, limits=limits, equivalent=minima
-    )
-    demands = history_demands(runs, RULES[code])
+    rules = HISTORY_RULES[RULES[code]]
+    if given.uplift_allowed is not None:
+        rules = replace(rules, uplift_allowed=given.uplift_allowed)
+    found += history_checks(runs, frame, rules, bounds=bounds, limits=limits, equivalent=minima)
+    demands = history_demands(runs, rules)
     if device == "LIR-DCFP":
         found += _of_the_bearing(parts, known, demands)
     governing, case = _governing(parts, frame, known.motions, runs)

@@ -188,12 +188,13 @@ class Target(Section):
 
 
 class Analysis(Section):
-    """``[analysis]``: how time histories are run."""
+    """``[analysis]``: how time histories are run, and whether uplift voids them."""
 
     level: Literal["pendulum", "contact"] = "pendulum"
     dt: Time | None = None
     workers: int | None = Field(default=None, ge=1)
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
+    uplift_allowed: bool | None = None
 
 
 class ProjectFile(Section):

@@ -188,6 +188,15 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     assert demands.loc["isolator displacement", "upper"] == pytest.approx(float(each.max()))
 
 
+def test_uplift_counts_as_the_file_says(folder: Path) -> None:
+    for line, is_void in (("", True), ("[analysis]\nuplift_allowed = true\n", False)):
+        (folder / "uplift.toml").write_text(f"{SMALL}\n{line}")
+        done = run(app, ["run", str(folder / "uplift.toml"), "--results", str(folder / "up")])
+        assert done.exit_code == 1, done.output
+        demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)
+        assert math.isinf(demands.loc["isolator displacement", "lower"]) == is_void
+
+
 def test_the_devices_are_compared(folder: Path) -> None:
     done = run(app, ["compare", str(folder / "small.toml")])
     assert done.exit_code == 0, done.output
