@@ -2,7 +2,6 @@
 
 import dataclasses
 import signal
-import threading
 import tracemalloc
 import warnings
 
@@ -407,10 +406,15 @@ def test_interrupted_run_keeps_what_was_recorded(monkeypatch):
     monkeypatch.setattr(recorder, "BUFFER", 1e6)
     model, motion, _ = SCENES["uplift"]
     time_history(model, motion, duration=0.1, recording=Recording(every=50))
-    stop = threading.Timer(0.5, signal.raise_signal, (signal.SIGINT,))
-    stop.start()
+
+    def stop(share):
+        if share > 0.0:
+            signal.raise_signal(signal.SIGINT)
+
     with pytest.raises(AnalysisInterrupted) as caught:
-        time_history(model, motion, dt=1e-5, duration=50.0, recording=Recording(every=50))
+        time_history(
+            model, motion, dt=1e-5, duration=50.0, recording=Recording(every=50), progress=stop
+        )
     data = caught.value.data
     count = data.sizes["time"]
     assert count > 10

@@ -412,7 +412,7 @@ def test_displacement_by_en1998() -> None:
     np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
 
 
-@pytest.mark.parametrize(("mu", "radius"), [(0.10, 2.5), (0.05, 4.0)])
+@pytest.mark.parametrize(("mu", "radius"), [(0.12, 2.5), (0.05, 4.0)])
 def test_both_branches_of_the_spectrum(mu: float, radius: float) -> None:
     """Between T_C and T_D, and beyond T_D where the displacement stays."""
 
