@@ -12,6 +12,7 @@ from typing import Annotated
 import pandas as pd
 import typer
 from rich.console import Console
+from rich.markup import escape
 
 from frames._errors import CheckError, ModelError, MotionError, ProjectError
 from frames.checks.check import CONFIRMED, Checks
@@ -19,7 +20,7 @@ from frames.project.design_run import CODES, DEVICES, groundwork, run_project
 from frames.project.example import write_example
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
-from frames.report.files import write_run
+from frames.report.files import write_interrupted, write_run
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisError, AnalysisInterrupted
 from lir_element.tables import text_table
@@ -49,7 +50,7 @@ def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HER
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
-    out.print(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
+    _say(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
 
 
 @app.command()
@@ -57,13 +58,12 @@ def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     with _told():
         ground = groundwork(_parts(file))
-        out.print(f"[bold]{ground.frame.name}[/]: {len(ground.frame.bearings)} bearings", end="")
-        out.print(f" under {ground.system.seismic_weight * 1e-3:.0f} kN")
-        out.print(str(ground.frame.check()), markup=False, highlight=False, soft_wrap=True)
+        _say(f"{len(ground.frame.bearings)} bearings")
+        _say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
-        out.print(repr(ground.equivalent), markup=False, highlight=False, soft_wrap=True)
+        _say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
-    out.print("the file can be run: lir run")
+    _say(f"the file can be run: lir run {file}")
 
 
 @app.command(name="design")
@@ -74,7 +74,7 @@ def propose(
         "base shear"
     ),
 ) -> None:
-    """Propose LIR-DCFP bearings, beside plain ones; prints the section [bearing]."""
+    """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file."""
     with _told():
         parts = _parts(file)
         frame = parts.provisional_frame()
@@ -83,9 +83,9 @@ def propose(
             superstructure=parts.superstructure(frame), code=CODES[parts.file.project.code](),
             sizes=sizes, least=least,  # type: ignore[arg-type]  # design checks it
         )  # fmt: skip
-        out.print(f"{found}\n", markup=False, highlight=False, soft_wrap=True)
+        _say(f"{found}\n")
         for text in _sections(found):
-            out.print(text, markup=False, highlight=False)
+            _say(text)
 
 
 @app.command()
@@ -95,11 +95,16 @@ def run(
 ) -> None:
     """Run a project at each bound of friction, check it, and write the results."""
     with _told():
-        found = run_project(_parts(file), progress=True)
+        try:
+            found = run_project(_parts(file), progress=True)
+        except AnalysisInterrupted as stop:
+            kept = write_interrupted(stop.data, results)
+            err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
+            raise
         written = write_run(found, results, file.read_text(encoding="utf-8"))
         _frame_table("Demands", found.demands)
         _checks("Checks", found.checks)
-        out.print(f"{len(written)} files in {results}; checks.txt has each calculation")
+        _say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 
@@ -147,6 +152,11 @@ def _told() -> Generator[None, None, None]:
             raise typer.Exit(INTERRUPTED) from cause
 
 
+def _say(text: str) -> None:
+    # As it is, whatever is in it.
+    out.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
 def _warned(message: Warning | str, *_: object, **__: object) -> None:
     err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
 
@@ -159,9 +169,9 @@ def _checks(title: str, checks: Checks) -> None:
         out.print(f"[{style}]{word}[/] ", end="")
         star = "" if each.standing == CONFIRMED else " *"
         text = f"{each}".replace(", passed [", " [").replace(", FAILED [", " [") + star
-        out.print(text, markup=False, highlight=False, soft_wrap=True)
+        _say(text)
     if any(each.standing != CONFIRMED for each in checks):
-        out.print("* to be confirmed against the standard")
+        _say("* to be confirmed against the standard")
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
@@ -173,8 +183,7 @@ def _frame_table(title: str, frame: pd.DataFrame) -> None:
             unit, factor = _SHOWN.get(str(frame.loc[name, "unit"]), ("", 1.0))
         rows.append((str(name), *(_cell(value, unit, factor) for value in row)))
     out.print(f"\n[bold]{title}[/]")
-    text = text_table(rows, ("", *map(str, frame.columns)))
-    out.print(text, markup=False, highlight=False, soft_wrap=True)
+    _say(text_table(rows, ("", *map(str, frame.columns))))
 
 
 def _cell(value: object, unit: str, factor: float) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import runpy
+import traceback
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from frames._errors import ProjectError
@@ -27,7 +29,6 @@ from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from frames.project import schema
     from frames.project.schema import ProjectFile
@@ -109,12 +110,7 @@ class Parts:
             msg = f"script = {given.script} is no file in {self.folder}: name the model's script"
             raise ProjectError(msg)
         opensees().wipe()
-        before = os.getcwd()
-        os.chdir(script.parent)  # as scripts read their own files
-        try:
-            runpy.run_path(script.name, run_name="__main__")
-        finally:
-            os.chdir(before)
+        _run_script(script)
         return Frame.from_opensees(
             given.base_nodes, bearing, length_unit=given.length_unit,
             force_unit=given.force_unit, name=name,
@@ -173,6 +169,24 @@ class Parts:
             return found.fault_normal() if given.fault_normal else found
 
         return _of("motions", made)
+
+
+def _run_script(script: Path) -> None:
+    # In its own folder: it may read files there.
+    before = os.getcwd()
+    os.chdir(script.parent)
+    try:
+        runpy.run_path(script.name, run_name="__main__")
+    except (Exception, SystemExit) as cause:
+        if isinstance(cause, SystemExit) and not cause.code:
+            return
+        steps = traceback.extract_tb(cause.__traceback__)
+        lines = [step.lineno for step in steps if Path(step.filename).name == script.name]
+        where = f", line {lines[-1]}" if lines else ""
+        msg = f"script = {script.name}{where}: {type(cause).__name__}: {cause}"
+        raise ProjectError(msg) from cause
+    finally:
+        os.chdir(before)
 
 
 def _with_turning_nodes(frame: Frame, given: MomentFrame) -> Frame:

@@ -13,6 +13,8 @@ from lir_element.results.dataset import package_version
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import xarray as xr
+
     from frames.project.design_run import ProjectRun
 
 
@@ -57,6 +59,14 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         save(data, path, compress=True)
         written.append(path)
     return written
+
+
+def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
+    """Write the runs that were complete when a project's run was interrupted; return the file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "interrupted.nc"
+    save(data, path, compress=True)
+    return path
 
 
 def calculations(run: ProjectRun) -> str:

@@ -14,7 +14,8 @@ pytest.importorskip("typer")
 import pandas as pd
 from typer.testing import CliRunner
 
-from frames import ProjectError, bounded, load, time_history
+from frames import AnalysisInterrupted, ProjectError, bounded, load, time_history
+from frames.command import app as command
 from frames.command.app import app
 from frames.project.design_run import groundwork
 from frames.project.parts import Parts
@@ -212,6 +213,39 @@ def test_bearings_are_proposed_as_a_section(folder: Path) -> None:
     start, end = text.index("[bearing]"), text.index("[bounds]")
     (folder / "project.toml").write_text(text[:start] + section + "\n" + text[end:])
     assert read_project(folder / "project.toml").bearing is not None
+
+
+def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(*_: object, **__: object) -> None:
+        data = load(folder / "out" / "runs-lower.nc")
+        raise AnalysisInterrupted(1.0, data)
+
+    run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
+    monkeypatch.setattr(command, "run_project", stopped)
+    done = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
+    assert done.exit_code == 130
+    assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3
+
+
+@pytest.mark.parametrize(
+    ("script", "words"),
+    [
+        ("x = 1\nraise ZeroDivisionError('none')", "line 2: ZeroDivisionError: none"),
+        ("import sys\nsys.exit(3)", "line 2: SystemExit: 3"),
+        ("import sys\nsys.exit(0)", "structure"),  # no model
+    ],
+)
+def test_a_script_that_fails_is_input_that_cannot_be_used(
+    folder: Path, script: str, words: str
+) -> None:
+    pytest.importorskip("openseespy")
+    (folder / "model.py").write_text(script)
+    start, end = ASCE.index("[structure]"), ASCE.index("[bearing]")
+    kind = '[structure]\nkind = "opensees"\nscript = "model.py"\nbase_nodes = [1]\n'
+    (folder / "ops.toml").write_text(ASCE[:start] + kind + ASCE[end:])
+    done = run(app, ["check", str(folder / "ops.toml")])
+    assert done.exit_code == 2, done.output
+    assert words in done.stderr
 
 
 def test_what_cannot_be_used_ends_with_two(folder: Path) -> None:
