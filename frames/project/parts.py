@@ -29,6 +29,7 @@ from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from types import TracebackType
 
     from frames.project import schema
     from frames.project.schema import ProjectFile
@@ -110,7 +111,8 @@ class Parts:
             msg = f"script = {given.script} is no file in {self.folder}: name the model's script"
             raise ProjectError(msg)
         opensees().wipe()
-        _run_script(script)
+        with _Running(script):
+            runpy.run_path(script.name, run_name="__main__")
         return Frame.from_opensees(
             given.base_nodes, bearing, length_unit=given.length_unit,
             force_unit=given.force_unit, name=name,
@@ -171,22 +173,28 @@ class Parts:
         return _of("motions", made)
 
 
-def _run_script(script: Path) -> None:
-    # In its own folder: it may read files there.
-    before = os.getcwd()
-    os.chdir(script.parent)
-    try:
-        runpy.run_path(script.name, run_name="__main__")
-    except (Exception, SystemExit) as cause:
+class _Running:
+    # A script in its own folder, where it may read files; its failure names the line.
+
+    def __init__(self, script: Path) -> None:
+        self._script, self._before = script, Path.cwd()
+
+    def __enter__(self) -> None:
+        os.chdir(self._script.parent)
+
+    def __exit__(
+        self, kind: object, cause: BaseException | None, trace: TracebackType | None
+    ) -> bool:
+        os.chdir(self._before)
+        if cause is None or isinstance(cause, KeyboardInterrupt):
+            return False
         if isinstance(cause, SystemExit) and not cause.code:
-            return
-        steps = traceback.extract_tb(cause.__traceback__)
-        lines = [step.lineno for step in steps if Path(step.filename).name == script.name]
+            return True
+        name = self._script.name
+        lines = [s.lineno for s in traceback.extract_tb(trace) if Path(s.filename).name == name]
         where = f", line {lines[-1]}" if lines else ""
-        msg = f"script = {script.name}{where}: {type(cause).__name__}: {cause}"
+        msg = f"script = {name}{where}: {type(cause).__name__}: {cause}"
         raise ProjectError(msg) from cause
-    finally:
-        os.chdir(before)
 
 
 def _with_turning_nodes(frame: Frame, given: MomentFrame) -> Frame:
