@@ -402,6 +402,15 @@ def test_raised_failure_holds_what_was_recorded(whole):
     assert table_of(data).loc["interface slip"].equals(table_of(full).loc["interface slip"])
 
 
+@pytest.fixture
+def interruptible():
+    """Ctrl-C interrupts, also where a shell has started the tests without it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_interrupted_run_keeps_what_was_recorded(monkeypatch):
     monkeypatch.setattr(recorder, "BUFFER", 1e6)
     model, motion, _ = SCENES["uplift"]
