@@ -11,6 +11,7 @@ import numpy as np
 from frames._errors import CheckError
 from frames.analysis.static import gravity
 from frames.checks.pendulum import FrictionPendulum
+from frames.checks.rendering import quantity
 from frames.model.combining import isolator_combinations
 from lir_element.door import require_positive, require_vector
 from lir_element.units import STANDARD_GRAVITY
@@ -179,7 +180,7 @@ class IsolationSystem:
         radii = sorted({f"{p.effective_radius:.4g}" for p in self.pendulums})
         return (
             f"IsolationSystem: {len(self.bearings)} bearings of effective radius "
-            f"{', '.join(radii)} m under {1e-3 * self.seismic_weight:.4g} kN"
+            f"{', '.join(radii)} m under {quantity(self.seismic_weight, 'N', 'kN')}"
         )
 
     @property
