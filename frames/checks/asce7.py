@@ -13,6 +13,8 @@ from frames.checks.plan import (
     capacity_check,
     drift_checks,
     eccentricities,
+    enter_restoring,
+    enter_storeys,
     overturning,
     vertical_checks,
 )
@@ -173,9 +175,7 @@ class ASCE7:
         t("D_TM", "max(D_T)", "m", source=source, shown="mm")
 
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: Judge) -> Checks:
-        t.given("a_R", self.restoring)
-        t("Delta_F", "sum(P * (D_M / L + mu)) - sum(P * (D_M / (2 * L) + mu))", "N")
-        t("Delta_F_lim", "a_R * W", "N")
+        enter_restoring(t, "D_M", self.restoring)
         t.given("T_lim", self.longest_period, "s")
         t.given("beta_lim", self.most_damping, shown="%")
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
@@ -199,8 +199,7 @@ class ASCE7:
         spectrum: Spectrum,
         extremes: Extremes,
     ) -> None:
-        t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")
-        t.given_each("h_x", above.elevations, "m", note="above the base level")
+        enter_storeys(t, above)
         t("W_s", "sum(w_x)", "N")
         t.given("n_beta", self.exponent, source="ASCE 7-22 (17.5-7)")
         source = "ASCE 7-22 (17.5-7)"

@@ -124,16 +124,25 @@ class Check:
         """Whether demand and limit are as they must be, round-off (1e-9) aside."""
         return self.ratio <= 1.0 + _ROUND_OFF
 
-    def __str__(self) -> str:
-        """Return the check on one line."""
+    @property
+    def cited(self) -> str:
+        """The clause, with a star where it is to be confirmed."""
+        return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
+
+    @property
+    def statement(self) -> str:
+        """What is checked, with its numbers, on one line."""
         where = ", ".join(part for part in (self.subject, self.bound) if part)
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
-        word = "passed" if self.passed else "FAILED"
         return (
             f"{self.title}{f' ({where})' if where else ''}: {demand} {self.relation} {limit}, "
-            f"ratio {self.ratio:.3g}, {word} [{self.clause}]"
+            f"ratio {self.ratio:.3g}"
         )
+
+    def __str__(self) -> str:
+        """Return the check on one line."""
+        return f"{self.statement}, {'passed' if self.passed else 'FAILED'} [{self.clause}]"
 
 
 _HEAD = ("check", "concerns", "bound", "demand", "", "limit", "ratio", "", "clause")
@@ -234,7 +243,7 @@ class Checks(Sequence[Check]):
                 quantity(c.limit, c.unit, c.shown),
                 f"{c.ratio:.3f}",
                 "ok" if c.passed else "FAILS",
-                c.clause + ("" if c.standing == CONFIRMED else " *"),
+                c.cited,
             )
             for c in self
         ]

@@ -13,6 +13,8 @@ from frames.checks.plan import (
     capacity_check,
     drift_checks,
     eccentricities,
+    enter_restoring,
+    enter_storeys,
     overturning,
     vertical_checks,
 )
@@ -159,9 +161,7 @@ class EN1998:
         t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
         t("K_lim", "a_k * K_02", "N/m")
         t.given("xi_lim", self.most_damping, shown="%")
-        t.given("a_R", self.restoring)
-        t("Delta_F", "sum(P * (d_dc / L + mu)) - sum(P * (d_dc / (2 * L) + mu))", "N")
-        t("Delta_F_lim", "a_R * W", "N")
+        enter_restoring(t, "d_dc", self.restoring)
         t.given("a_S", self.energy_ratio)
         t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
         t.each("E_H", "P * mu * d_dc", "J", source="EN 15129 4.3", note="dissipated, 0 to d_dc")
@@ -190,8 +190,7 @@ class EN1998:
         return Checks(found)
 
     def _shears(self, t: Trace, above: Superstructure) -> None:
-        t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")
-        t.given_each("h_x", above.elevations, "m", note="above the base level")
+        enter_storeys(t, above)
         t.given("q", self.behaviour, source="EN 1998-1 10.10")
         source = "EN 1998-1 (10.9)"
         t.each("f_x", "w_x / g * S_e", "N", source=source, note="forces of the floors, q = 1")

@@ -13,6 +13,8 @@ from frames.checks.plan import (
     capacity_check,
     drift_checks,
     eccentricities,
+    enter_restoring,
+    enter_storeys,
     overturning,
     vertical_checks,
 )
@@ -136,9 +138,7 @@ class NCh2745:
             t(f"D_T{level}", f"max(D_T{level}_i)", "m", shown="mm")
 
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: Judge) -> Checks:
-        t.given("a_R", self.restoring)
-        t("Delta_F", "sum(P * (D_D / L + mu)) - sum(P * (D_D / (2 * L) + mu))", "N")
-        t("Delta_F_lim", "a_R * W", "N")
+        enter_restoring(t, "D_D", self.restoring)
         note = "else the capacity must be 3 D_TM"
         return Checks(
             [
@@ -148,8 +148,7 @@ class NCh2745:
         )
 
     def _shears(self, t: Trace, above: Superstructure, extremes: Extremes) -> None:
-        t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")
-        t.given_each("h_x", above.elevations, "m", note="above the base level")
+        enter_storeys(t, above)
         t.given("R", above.R)
         t.given("R_max", self.largest_reduction)
         t("R_1", "max(min(R, R_max), 1)", source="NCh2745 7.4")

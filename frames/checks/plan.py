@@ -50,6 +50,30 @@ def eccentricities(
         t(f"e_{axis}", f"abs({axis}_M - {axis}_R) + {accidental} * {side}", "m", source=source)
 
 
+def enter_storeys(t: Trace, above: Superstructure) -> None:
+    """Enter w_x and h_x, weights and elevations of the floors."""
+    t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")
+    t.given_each("h_x", above.elevations, "m", note="above the base level")
+
+
+def enter_restoring(t: Trace, displacement: str, share: float) -> None:
+    """Enter Delta_F, the force that the second half of a displacement adds, and its limit.
+
+    Parameters
+    ----------
+    t : Trace
+        With loads P, radii L, frictions mu and the weight W.
+    displacement : str
+        Symbol of the displacement.
+    share : float
+        Of the weight that the force must reach.
+    """
+    d = displacement
+    t.given("a_R", share)
+    t("Delta_F", f"sum(P * ({d} / L + mu)) - sum(P * ({d} / (2 * L) + mu))", "N")
+    t("Delta_F_lim", "a_R * W", "N")
+
+
 def overturning(t: Trace, moment: str, share: str) -> None:
     """Enter N_E, axial loads of the bearings from an overturning moment in any direction.
 

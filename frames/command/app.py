@@ -16,17 +16,17 @@ from rich.markup import escape
 
 from frames._errors import CheckError, ModelError, MotionError, ProjectError
 from frames.checks.check import CONFIRMED, Checks
-from frames.project.design_run import CODES, DEVICES, groundwork, run_project
+from frames.project.design_run import CODES, compare_devices, groundwork, run_project
 from frames.project.example import write_example
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
 from frames.report.files import write_interrupted, write_run
+from frames.report.tables import rows_of
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisError, AnalysisInterrupted
 from lir_element.tables import text_table
 
 FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
-_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}  # units of tables for people
 
 app = typer.Typer(
     name="lir", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
@@ -113,15 +113,7 @@ def run(
 def compare(file: File = FILE) -> None:
     """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
     with _told():
-        parts = _parts(file)
-        ground = groundwork(parts)
-        tables = {
-            device: run_project(parts, device=device, progress=True, ground=ground).demands
-            for device in DEVICES
-        }
-        columns = {device: table["envelope"] for device, table in tables.items()}
-        units = tables["LIR-DCFP"]["unit"]
-        _frame_table("Envelope over bounds", pd.DataFrame({"unit": units} | columns))
+        _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
 
 
 @app.command(name="schema")
@@ -167,29 +159,15 @@ def _checks(title: str, checks: Checks) -> None:
     for each in checks:
         word, style = ("ok   ", "green") if each.passed else ("FAILS", "red")
         out.print(f"[{style}]{word}[/] ", end="")
-        star = "" if each.standing == CONFIRMED else " *"
-        text = f"{each}".replace(", passed [", " [").replace(", FAILED [", " [") + star
-        _say(text)
+        star = each.cited.removeprefix(each.clause)
+        _say(f"{each.statement} [{each.clause}]{star}")
     if any(each.standing != CONFIRMED for each in checks):
         _say("* to be confirmed against the standard")
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
-    # SI numbers, in mm and kN where a row has its unit.
-    rows = []
-    for name, row in zip(frame.index, frame.itertuples(index=False), strict=True):
-        unit, factor = "", 1.0
-        if "unit" in frame.columns:
-            unit, factor = _SHOWN.get(str(frame.loc[name, "unit"]), ("", 1.0))
-        rows.append((str(name), *(_cell(value, unit, factor) for value in row)))
     out.print(f"\n[bold]{title}[/]")
-    _say(text_table(rows, ("", *map(str, frame.columns))))
-
-
-def _cell(value: object, unit: str, factor: float) -> str:
-    if isinstance(value, float):
-        return f"{factor * value:.4g}"
-    return unit if unit and value in _SHOWN else str(value)
+    _say(text_table(rows_of(frame), ("", *map(str, frame.columns))))
 
 
 def _sections(found: Design) -> list[str]:

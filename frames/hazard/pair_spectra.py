@@ -15,8 +15,8 @@ import numpy as np
 
 from frames._errors import MotionError
 from frames._types import FloatArray
-from frames.motion.spectra import displacement_history
-from lir_element.door import require_between, require_choice
+from frames.motion.spectra import checked_oscillators, displacement_history
+from lir_element.door import require_choice
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -96,12 +96,7 @@ def pair_spectrum(
     [5.0]
     """
     require_choice("measure", measure, tuple(MEASURES), error=MotionError)
-    ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
-    period = np.atleast_1d(np.asarray(periods, dtype=np.float64))
-    bad = period[~(np.isfinite(period) & (period >= 0.0))]
-    if bad.size:
-        msg = f"periods hold {bad[0]:g}: give finite periods in s, >= 0"
-        raise MotionError(msg)
+    period, ratio = checked_oscillators(periods, damping)
     needed = measure if measure in {"x", "y"} else "xy"
     missing = [axis for axis in needed if getattr(motion, axis) is None]
     if missing:

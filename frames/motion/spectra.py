@@ -70,13 +70,7 @@ def response_spectrum(
     MotionError
         If a period or the damping is out of its bounds.
     """
-    ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
-    period = np.atleast_1d(np.asarray(periods, dtype=np.float64))
-    bad = period[~(np.isfinite(period) & (period >= 0.0))]
-    if period.ndim != 1 or bad.size:
-        found = f"hold {bad[0]:g}" if bad.size else f"have shape {period.shape}"
-        msg = f"periods {found}: give one sequence of finite periods in s, >= 0"
-        raise MotionError(msg)
+    period, ratio = checked_oscillators(periods, damping)
     shift = spectral_displacement(acceleration, dt, period, ratio)
     omega = 2.0 * np.pi / np.where(period > 0.0, period, np.inf)
     rigid = np.abs(acceleration).max()
@@ -93,6 +87,18 @@ def response_spectrum(
         coords={"period": ("period", period, {"units": "s", "long_name": "natural period"})},
         attrs={"damping": ratio},
     )
+
+
+def checked_oscillators(periods: npt.ArrayLike, damping: float) -> tuple[FloatArray, float]:
+    """Return periods (m,) [s] and damping [-] of oscillators, or raise a MotionError."""
+    ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
+    period = np.atleast_1d(np.asarray(periods, dtype=np.float64))
+    bad = period[~(np.isfinite(period) & (period >= 0.0))]
+    if period.ndim != 1 or bad.size:
+        found = f"hold {bad[0]:g}" if bad.size else f"have shape {period.shape}"
+        msg = f"periods {found}: give one sequence of finite periods in s, >= 0"
+        raise MotionError(msg)
+    return period, ratio
 
 
 def spectral_displacement(

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING
+
+import pandas as pd
 
 from frames.analysis.recording import Recording
 from frames.analysis.transient import time_history
@@ -16,24 +18,24 @@ from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.en1998 import EN1998
+from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.history_rules import HISTORY_RULES
 from frames.checks.isolation import IsolationSystem
 from frames.checks.nch2745 import NCh2745
 from frames.project.parts import RULES
-from frames.sizing.candidate import PROCEDURE
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    import pandas as pd
     import xarray as xr
 
     from frames.analysis.cases import BatchProgress
     from frames.analysis.model_check import ModelCheck
     from frames.checks.bounds import PropertyBounds
     from frames.checks.check import Bound
+    from frames.checks.history_rules import HistoryRules
     from frames.checks.outcome import EquivalentLinear
     from frames.frame import Frame
     from frames.hazard.motion_set import MotionSet
@@ -52,9 +54,6 @@ _RANGES = {
 _ALWAYS = frozenset({"restoring force", "recentring, energy", "recentring, displacement"})
 """Equivalent-linear checks that time histories do not make; the others are limits of that
 procedure, or have their counterpart in the histories."""
-
-DEVICES: tuple[Literal["LIR-DCFP", "DCFP"], ...] = ("LIR-DCFP", "DCFP")
-"""Bearings of a project, and the same with their sliders in one piece."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -192,11 +191,7 @@ def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinea
 
 
 def run_project(
-    parts: Parts,
-    *,
-    device: Literal["LIR-DCFP", "DCFP"] = "LIR-DCFP",
-    progress: Callable[[BatchProgress], None] | bool | None = None,
-    ground: Groundwork | None = None,
+    parts: Parts, *, progress: Callable[[BatchProgress], None] | bool | None = None
 ) -> ProjectRun:
     """Run a project: equivalent-linear analysis, time histories at each bound, and checks.
 
@@ -204,12 +199,8 @@ def run_project(
     ----------
     parts : Parts
         The project.
-    device : {"LIR-DCFP", "DCFP"}
-        The bearings of the file, or the same with their sliders in one piece.
     progress : callable or bool, optional
         As for `frames.time_histories`.
-    ground : Groundwork, optional
-        If it is there already.
 
     Returns
     -------
@@ -223,27 +214,17 @@ def run_project(
     AnalysisInterrupted
         After Ctrl-C, with the runs that were complete.
     """
-    known = groundwork(parts) if ground is None else ground
-    bounds, limits, code = parts.bounds(), parts.limits(), parts.file.project.code
+    known, bounds, rules = groundwork(parts), parts.bounds(), _rules(parts)
     frame = known.frame
-    if device == "DCFP":
-        bearings = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
-        frame = frame.with_bearings(bearings, f"{frame.name}, DCFP")
-    given = parts.file.analysis
-    runs = bounded_histories(
-        frame, known.motions, bounds, at=given.bounds, level=given.level, dt=given.dt,
-        workers=given.workers, progress=progress, record=Recording(every=None),
-    )  # fmt: skip
+    runs = _histories(parts, frame, known.motions, progress)
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
     found += known.equivalent.general
-    rules = HISTORY_RULES[RULES[code]]
-    if given.uplift_allowed is not None:
-        rules = replace(rules, uplift_allowed=given.uplift_allowed)
-    found += history_checks(runs, frame, rules, bounds=bounds, limits=limits, equivalent=minima)
+    found += history_checks(
+        runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
+    )
     demands = history_demands(runs, rules)
-    if device == "LIR-DCFP":
-        found += _of_the_bearing(parts, known, demands)
+    found += _of_the_bearing(parts, known, demands)
     governing, case = _governing(parts, frame, known.motions, runs)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
@@ -251,6 +232,62 @@ def run_project(
         bounds=bounds, model=frame.check(), loads=known.system.loads, governing=governing,
         governing_case=case,
     )  # fmt: skip
+
+
+def compare_devices(
+    parts: Parts, *, progress: Callable[[BatchProgress], None] | bool | None = None
+) -> pd.DataFrame:
+    """Compare a project's bearings with the same ones whose sliders are in one piece.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        What time histories give for design, the envelope over the bounds: a column "unit" and one
+        for each device, in SI units.
+
+    Raises
+    ------
+    ProjectError, CheckError, ModelError, MotionError
+        If the project cannot be run.
+    AnalysisInterrupted
+        After Ctrl-C, with the runs of one device that were complete.
+    """
+    known = groundwork(parts)
+    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
+    frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
+    tables = {
+        device: history_demands(_histories(parts, frame, known.motions, progress), _rules(parts))
+        for device, frame in frames.items()
+    }
+    columns = {device: table["envelope"] for device, table in tables.items()}
+    return pd.DataFrame({"unit": tables["LIR-DCFP"]["unit"]} | columns)
+
+
+def _histories(
+    parts: Parts,
+    frame: Frame,
+    motions: MotionSet,
+    progress: Callable[[BatchProgress], None] | bool | None,
+) -> dict[Bound, xr.Dataset]:
+    given = parts.file.analysis
+    return bounded_histories(
+        frame, motions, parts.bounds(), at=given.bounds, level=given.level, dt=given.dt,
+        workers=given.workers, progress=progress, record=Recording(every=None),
+    )  # fmt: skip
+
+
+def _rules(parts: Parts) -> HistoryRules:
+    # Of the code, uplift as the file has it.
+    rules = HISTORY_RULES[RULES[parts.file.project.code]]
+    allowed = parts.file.analysis.uplift_allowed
+    return rules if allowed is None else replace(rules, uplift_allowed=allowed)
 
 
 def _governing(
@@ -272,7 +309,7 @@ def _governing(
 
 
 def _is_for_any_analysis(check: Check) -> bool:
-    return check.title in _ALWAYS and not any(one in check.clause for one in PROCEDURE)
+    return check.title in _ALWAYS and not is_limit_of_procedure(check)
 
 
 def _has_minima(parts: Parts) -> bool:
@@ -280,7 +317,7 @@ def _has_minima(parts: Parts) -> bool:
     return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
 
 
-def _of_the_bearing(parts: Parts, known: Groundwork, demands: pd.DataFrame) -> list[Any]:
+def _of_the_bearing(parts: Parts, known: Groundwork, demands: pd.DataFrame) -> list[Check]:
     # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
     bearing, bounds = parts.bearing(), parts.bounds()
     envelope = demands["envelope"]

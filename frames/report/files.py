@@ -76,12 +76,9 @@ def calculations(run: ProjectRun) -> str:
         lines = [str(check), f"standing: {check.standing}"]
         if check.note:
             lines.append(f"note: {check.note}")
-        blocks.append("\n".join([*lines, *(f"    {line}" for line in _lines(check.trace.text()))]))
+        lines += (f"    {line}" for line in check.trace.text().splitlines())
+        blocks.append("\n".join(lines))
     return "\n\n".join(blocks) + "\n"
-
-
-def _lines(text: str) -> list[str]:
-    return text.splitlines() if text else []
 
 
 def _facts(run: ProjectRun) -> dict[str, object]:

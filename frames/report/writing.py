@@ -7,11 +7,12 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, NamedTuple
 
 import jinja2
+import numpy as np
 from markupsafe import Markup
 
-from frames.checks.check import CONFIRMED
 from frames.checks.rendering import quantity
 from frames.report.figures import pictures
+from frames.report.tables import rows_of
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ class Judged(NamedTuple):
     demand: str
     limit: str
     ratio: str
-    starred: bool
     steps: list[tuple[Markup, str]]
 
 
@@ -75,7 +75,7 @@ def report_html(run: ProjectRun, source: str) -> str:
         bounds=_bounds(run),
         motions=_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
-        demands=_demands(run.demands),
+        demands=_table(run.demands, "quantity"),
         audit=run.governing.attrs["audit"].splitlines(),
         pictures=pictures(run),
         source=source,
@@ -89,7 +89,6 @@ def _judged(check: Check) -> Judged:
         demand=quantity(check.demand, check.unit, check.shown),
         limit=quantity(check.limit, check.unit, check.shown),
         ratio=f"{check.ratio:.3f}",
-        starred=check.standing != CONFIRMED,
         steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
     )
 
@@ -114,26 +113,13 @@ def _bounds(run: ProjectRun) -> Table:
 
 
 def _table(frame: pd.DataFrame, index: str) -> Table:
-    rows = [(str(name), *map(_cell, row)) for name, *row in frame.itertuples()]
-    return Table((index, *map(str, frame.columns)), rows)
+    return Table((index, *map(str, frame.columns)), rows_of(frame, _word))
 
 
-def _demands(frame: pd.DataFrame) -> Table:
-    # Lengths in mm, forces in kN.
-    rows = []
-    for name, row in frame.iterrows():
-        unit, factor = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}.get(row["unit"], (row["unit"], 1.0))
-        cells = [_cell(factor * value if isinstance(value, float) else value)
-                 for key, value in row.items() if key != "unit"]  # fmt: skip
-        rows.append((str(name), unit, *cells))
-    heads = (str(name) for name in frame.columns if name != "unit")
-    return Table(("quantity", "unit", *heads), rows)
-
-
-def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    return {True: "yes", False: "no"}.get(value, str(value)) if value is not None else ""  # type: ignore[call-overload]
+def _word(value: object) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    return "" if value is None else str(value)
 
 
 def _facts(run: ProjectRun) -> dict[str, str]:

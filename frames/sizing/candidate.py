@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
+from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.trace import Trace
 from lir_element import LIRBearing
 from lir_element.device.bearing_checks import LARGEST_SINE
@@ -22,10 +23,6 @@ if TYPE_CHECKING:
     from lir_element.device.friction import Friction
 
     Analyse = Callable[[LIRBearing], EquivalentLinear]
-
-PROCEDURE = ("17.4.1", "10.9.2", "10.9.3")
-"""Clauses that limit the equivalent-linear procedure, not the bearings: a time history is free of
-them, and rims that are met need one anyway."""
 
 UPLIFT = "no uplift"
 """How the check of axial loads on a rigid base begins: a time history has the uplift itself."""
@@ -214,7 +211,7 @@ def rounded_up(value: float, step: float) -> float:
 
 
 def _is_left_to_histories(check: Check) -> bool:
-    return check.title.startswith(UPLIFT) or any(one in check.clause for one in PROCEDURE)
+    return check.title.startswith(UPLIFT) or is_limit_of_procedure(check)
 
 
 def _by_pressure(size: Size, target: DesignTarget) -> float:

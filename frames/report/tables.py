@@ -1,0 +1,41 @@
+"""Tables for people: numbers of four digits, in mm and kN where a row has its unit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import pandas as pd
+
+_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}
+
+
+def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tuple[str, ...]]:
+    """Return the rows of a table as text, each after its name.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        Numbers in SI units; a column "unit" says which where a row has one.
+    text : callable
+        Writes what is no float.
+
+    Returns
+    -------
+    list of tuple of str
+        Name and cells.
+    """
+    rows = []
+    for name, cells in zip(frame.index, frame.itertuples(index=False), strict=True):
+        row = dict(zip(frame.columns, cells, strict=True))
+        factor = 1.0
+        if "unit" in row:
+            row["unit"], factor = _SHOWN.get(row["unit"], (row["unit"], 1.0))
+        shown = (
+            f"{factor * value:.4g}" if isinstance(value, float) else text(value)
+            for value in row.values()
+        )
+        rows.append((str(name), *shown))
+    return rows
