@@ -54,9 +54,13 @@ from frames.checks.trace import Trace as Trace
 from frames.frame import Frame as Frame
 from frames.hazard.motion_measures import motion_measures as motion_measures
 from frames.hazard.motion_set import MotionSet as MotionSet
+from frames.hazard.near_fault_pulse import NearFaultPulse as NearFaultPulse
 from frames.hazard.pair_spectra import pair_spectrum as pair_spectrum
 from frames.hazard.scaling import Scaling as Scaling
 from frames.hazard.spectrum import Spectrum as Spectrum
+from frames.hazard.stochastic_motion import PointSource as PointSource
+from frames.hazard.synthetic_motions import PulseScatter as PulseScatter
+from frames.hazard.synthetic_motions import synthetic_near_fault as synthetic_near_fault
 from frames.library.models import lumped_mass as lumped_mass
 from frames.library.models import moment_frame as moment_frame
 from frames.library.models import shear_building as shear_building
@@ -130,11 +134,14 @@ __all__ = [
     "MotionSet",
     "MotionWarning",
     "NCh2745",
+    "NearFaultPulse",
     "Pinching",
     "PlasticHinge",
+    "PointSource",
     "ProjectError",
     "PropertyBounds",
     "PropertyFactors",
+    "PulseScatter",
     "RayleighDamping",
     "Recording",
     "Scaling",
@@ -187,6 +194,7 @@ __all__ = [
     "storey_forces",
     "summary",
     "support_reactions",
+    "synthetic_near_fault",
     "time_histories",
     "time_history",
     "uplift_events",
