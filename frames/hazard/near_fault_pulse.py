@@ -1,4 +1,4 @@
-r"""The velocity pulse of Mavroeidis and Papageorgiou: what a near-fault motion shows of the rupture.
+r"""The velocity pulse of Mavroeidis and Papageorgiou, in closed form.
 
 With :math:`\tau = t - t_0`, :math:`\omega = 2 \pi f_p` and :math:`|\tau| \le \gamma / (2 f_p)`,
 

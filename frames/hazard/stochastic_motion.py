@@ -4,7 +4,8 @@ White Gaussian noise in an envelope of Saragoni and Hart is given the Fourier am
 
 .. math::
 
-    Y(f) = \frac{0.55 \cdot 2 \cdot 0.707}{4 \pi \rho \beta^3 R} M_0 \frac{(2 \pi f)^2}{1 + (f / f_c)^2}
+    Y(f) = \frac{0.55 \cdot 2 \cdot 0.707}{4 \pi \rho \beta^3 R} M_0
+           \frac{(2 \pi f)^2}{1 + (f / f_c)^2}
            \exp\left(-\frac{\pi f R}{Q \beta} - \pi \kappa f\right), \qquad
     f_c = 0.49 \beta \left(\frac{\Delta \sigma}{M_0}\right)^{1/3}
 
@@ -132,7 +133,7 @@ class PointSource:
         return 1.0 / self.corner_frequency + 0.05 * self.effective_distance
 
     def fourier_amplitudes(self, frequencies: npt.ArrayLike) -> FloatArray:
-        """Return Fourier amplitudes of the acceleration [m/s] at frequencies [Hz], in their shape."""
+        """Return Fourier amplitudes of the acceleration [m/s] at frequencies [Hz]."""
         f = np.asarray(frequencies, dtype=np.float64)
         r, beta = KILOMETRE * self.effective_distance, self.shear_velocity
         source = 0.55 * 2.0 * math.sqrt(0.5) / (4.0 * math.pi * self.density * beta**3 * r)
@@ -146,8 +147,12 @@ class PointSource:
         return np.asarray(source * self.moment * shape * path * site)
 
 
+PEAK, REST = 0.2, 0.05
+"""Of the envelope: time of its peak, and what is left of it, over and after twice the duration."""
+
+
 def envelope(
-    times: npt.ArrayLike, duration: float, peak: float = 0.2, rest: float = 0.05
+    times: npt.ArrayLike, duration: float, peak: float = PEAK, rest: float = REST
 ) -> FloatArray:
     """Return the envelope of Saragoni and Hart, 1 at its peak.
 

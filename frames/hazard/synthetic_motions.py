@@ -17,7 +17,7 @@ import numpy as np
 from frames._errors import MotionError
 from frames.hazard.motion_set import MotionSet
 from frames.hazard.near_fault_pulse import PULSE_VELOCITY, NearFaultPulse, pulse_period
-from frames.hazard.stochastic_motion import PointSource, envelope, stochastic_acceleration
+from frames.hazard.stochastic_motion import PEAK, PointSource, stochastic_acceleration
 from frames.motion.ground_motion import GroundMotion
 from lir_element.door import (
     require_between,
@@ -221,8 +221,7 @@ def _motion(
 ) -> GroundMotion:
     step = require_positive("dt", dt, "s", error=MotionError)
     reach = 2.0 * source.duration
-    strongest = float(np.linspace(0.0, reach, 1001)[envelope(
-        np.linspace(0.0, reach, 1001), source.duration).argmax()])  # fmt: skip
+    strongest = PEAK * reach
     before = max(0.0, 0.5 * pulse.duration - strongest)  # a pulse that begins first
     steps = math.ceil((before + max(reach, strongest + pulse.duration) + QUIET) / step) + 1
     lead = math.ceil((before + QUIET) / step)

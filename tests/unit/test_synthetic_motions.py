@@ -151,15 +151,14 @@ def test_what_makes_no_sense_is_refused() -> None:
         synthetic_near_fault(1, 10.5, 5.0, seed=1)
     with pytest.raises(MotionError, match="farther away"):
         synthetic_near_fault(1, 6.5, 50.0, seed=1)
+    source = PointSource(magnitude=6.5, distance=8.0)
     with pytest.raises(MotionError, match=r"source\.distance"):
-        source = PointSource(magnitude=6.5, distance=8.0)
         synthetic_near_fault(1, 6.5, 5.0, seed=1, source=source)
     with pytest.raises(TypeError, match="seed"):
         synthetic_near_fault(1, 6.5, 5.0, seed=None)  # type: ignore[arg-type]
     with pytest.raises(MotionError, match="count"):
         synthetic_near_fault(0, 6.5, 5.0, seed=1)
     with pytest.raises(MotionError, match="take more samples"):
-        source = PointSource(magnitude=6.5, distance=8.0)
         stochastic_acceleration(source, 0.01, 100, np.random.default_rng(1))
     with pytest.raises(MotionError, match="must rise"):
         PointSource(magnitude=6.0, distance=1.0, amplification=((2.0, 1.0), (1.0, 1.0)))
