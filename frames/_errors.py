@@ -25,6 +25,10 @@ class CheckError(ValueError):
     """A design check, or a number of it, that cannot be used; the message names the culprit."""
 
 
+class FragilityError(ValueError):
+    """Demands, capacities or a hazard of which no fragility or risk can be made."""
+
+
 class ProjectError(ValueError):
     """A project's file that cannot be used: a line for each thing that is wrong."""
 

@@ -1,0 +1,1 @@
+"""From many time histories to fragility, risk and what decides them."""

@@ -1,0 +1,388 @@
+"""Fragility fitted to stripes, to capacities and to clouds, with records resampled.
+
+Likelihoods of stripes and of censored capacities are those of the package pyFragility (Dahal,
+Burton and Onyambu 2022, Structural Safety 96:102185), the optional extra "fragility".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import pandas as pd
+
+from frames._errors import FragilityError
+from frames._types import FloatArray
+from frames.fragility.curve import CollapseFragility, Fragility
+from frames.fragility.likelihood import binomial, censored_lognormal
+from lir_element.door import require_choice, require_positive, require_type
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+RESAMPLES = 500
+"""Resamples of a confidence band, as a rule."""
+
+LEAST_FITS = 0.5
+"""Share of resamples that must allow a fit."""
+
+Fit = Callable[[FloatArray], FloatArray | None]
+"""Of the weights of the records (n,) to parameters, None where they allow no fit."""
+
+
+def fit_stripes(
+    im: npt.ArrayLike,
+    exceeded: npt.ArrayLike,
+    records: Sequence[str],
+    *,
+    name: str = "",
+    unit: str = "m/s2",
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility:
+    """Fit a lognormal curve to runs that exceed a limit state or do not, by maximum likelihood.
+
+    Parameters
+    ----------
+    im : array_like, shape (n,)
+        Intensity of each run.
+    exceeded : array_like, shape (n,)
+        1 where the limit state was exceeded, 0 where not; NaN is left out.
+    records : sequence of str
+        Record of each run: runs of one record are resampled together.
+    name, unit : str
+        The limit state, and the unit of the intensity.
+    resamples : int
+        Resamples of the records for the band.
+    seed : int
+        Seed of the resampling.
+
+    Returns
+    -------
+    Fragility
+        The curve; its covariance is robust, of records as clusters.
+
+    Raises
+    ------
+    FragilityError
+        If the runs do not determine a curve.
+    ImportError
+        If the package `pyFragility` is not installed.
+
+    Notes
+    -----
+    Source: Baker (2015), Earthquake Spectra 31:579-599; the same as a regression of probits.
+    """
+    at, over = _runs(im, exceeded, records)
+    known = ~np.isnan(over)
+    at, over = at[known], over[known]
+    labels = np.array(records, dtype=object)[known]
+    names, of = np.unique(labels.astype(str), return_inverse=True)
+    fitted = binomial(at, over, np.ones(len(at)), "probit", clusters=of)
+    if fitted is None:
+        raise FragilityError(_separated(at, over))
+    start = fitted.parameters
+    levels, level = np.unique(at, return_inverse=True)
+
+    def again(weights: FloatArray) -> FloatArray | None:
+        own = weights[of]
+        total = np.bincount(level, own, len(levels))
+        count = np.bincount(level, own * over, len(levels))
+        some = total > 0.0
+        found = binomial(levels[some], count[some], total[some], "probit", start=start)
+        return None if found is None else _lognormal(found.parameters)
+
+    median, dispersion = _lognormal(start)
+    b0, b1 = start
+    jacobian = np.array([[-1.0 / b1, b0 / b1**2], [0.0, -1.0 / b1**2]])
+    data = pd.DataFrame({
+        "im": levels, "exceeded": np.bincount(level, over), "total": np.bincount(level),
+    })  # fmt: skip
+    return Fragility(
+        name=name, unit=unit, method="maximum likelihood (Baker 2015)", records=tuple(names),
+        seed=seed, parameters=_resampled(len(names), again, 2, resamples, seed), data=data,
+        median=float(median), dispersion=float(dispersion),
+        covariance=jacobian @ fitted.covariance @ jacobian.T,
+    )  # fmt: skip
+
+
+def fit_capacities(
+    capacity: npt.ArrayLike,
+    records: Sequence[str],
+    *,
+    censored: npt.ArrayLike | None = None,
+    method: Literal["moments", "likelihood"] | None = None,
+    name: str = "",
+    unit: str = "m/s2",
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility:
+    """Fit a lognormal curve to the intensities at which records reach a limit state.
+
+    Parameters
+    ----------
+    capacity : array_like, shape (n,)
+        Intensity of each record, once a record.
+    records : sequence of str
+        The records.
+    censored : array_like of bool, shape (n,), optional
+        Where the limit state was not reached up to `capacity`.
+    method : {"moments", "likelihood"}, optional
+        Mean and standard deviation of the logarithms (of n - 1), or maximum likelihood, which
+        takes censored ones; by default the one that the data need.
+    name, unit : str
+        The limit state, and the unit of the intensity.
+    resamples, seed : int
+        Resamples of the records, and their seed.
+
+    Returns
+    -------
+    Fragility
+        The curve.
+
+    Raises
+    ------
+    FragilityError
+        If there are fewer than three capacities, or they are the same or not positive.
+    ImportError
+        If capacities are censored and the package `pyFragility` is not installed.
+
+    Notes
+    -----
+    Source: Ibarra and Krawinkler (2005), PEER 2005/06; Baker (2015), Earthquake Spectra 31:579.
+
+    Examples
+    --------
+    >>> curve = fit_capacities([1.0, 2.0, 4.0], ["a", "b", "c"])
+    >>> round(curve.median, 3), round(curve.dispersion, 3)
+    (2.0, 0.693)
+    """
+    at, over = _runs(capacity, np.ones(np.shape(capacity)), records)
+    open_ = np.zeros(len(at), dtype=bool) if censored is None else np.asarray(censored, dtype=bool)
+    if open_.shape != at.shape or len(set(records)) != len(at):
+        msg = "capacity, censored and records must be lists of one length, a record once"
+        raise FragilityError(msg)
+    chosen = method or ("likelihood" if open_.any() else "moments")
+    require_choice("method", chosen, ("moments", "likelihood"), error=FragilityError)
+    if chosen == "moments" and open_.any():
+        msg = f"{open_.sum()} capacities are censored: take method='likelihood', or run them higher"
+        raise FragilityError(msg)
+    order = np.argsort(np.array(records, dtype=str), kind="stable")  # as the resamples go
+    at, open_ = at[order], open_[order]
+    if (~open_).sum() < 3 or not np.ptp(at[~open_]) > 0.0:
+        msg = f"{(~open_).sum()} capacities, of which not all are equal: 3 at least are needed"
+        raise FragilityError(msg)
+    logs = np.log(at)
+
+    def moments(weights: FloatArray) -> FloatArray | None:
+        mean = np.average(logs, weights=weights)
+        square = (weights * (logs - mean) ** 2).sum() / (weights.sum() - 1.0)
+        return np.array([math.exp(mean), math.sqrt(square)]) if square > 1e-12 else None
+
+    def likely(weights: FloatArray) -> FloatArray | None:
+        own = np.repeat(np.arange(len(at)), weights.astype(np.int64))
+        found = censored_lognormal(at[own], open_[own])
+        return None if found is None else found.parameters
+
+    if chosen == "moments":
+        whole, fit = moments(np.ones(len(at))), moments
+        beta = math.nan if whole is None else float(whole[1])
+        covariance = beta**2 * np.diag([1.0 / len(at), 0.5 / (len(at) - 1.0)])
+    else:
+        found, fit = censored_lognormal(at, open_), likely
+        whole = None if found is None else found.parameters
+        covariance = np.zeros((2, 2)) if found is None else _of_log(found)
+    if whole is None:
+        msg = f"capacities {at.tolist()} determine no curve: run more records, or higher"
+        raise FragilityError(msg)
+    return Fragility(
+        name=name, unit=unit, method=f"IDA, {chosen} (Baker 2015)",
+        records=tuple(sorted(map(str, records))), seed=seed,
+        parameters=_resampled(len(at), fit, 2, resamples, seed),
+        data=pd.DataFrame({"capacity": at, "censored": open_}),
+        median=float(whole[0]), dispersion=float(whole[1]), covariance=covariance,
+    )  # fmt: skip
+
+
+def fit_cloud(
+    im: npt.ArrayLike,
+    demand: npt.ArrayLike,
+    limit: float,
+    records: Sequence[str],
+    *,
+    name: str = "",
+    unit: str = "m/s2",
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility | CollapseFragility:
+    """Fit a curve to a cloud: a line through the logarithms of demand and intensity.
+
+    Parameters
+    ----------
+    im, demand : array_like, shape (n,)
+        Intensity and demand [SI] of each run, both positive; an infinite demand is collapse, NaN
+        is left out.
+    limit : float
+        Limit of the demand [SI].
+    records : sequence of str
+        Record of each run.
+    name, unit : str
+        The limit state, and the unit of the intensity.
+    resamples, seed : int
+        Resamples of the records, and their seed.
+
+    Returns
+    -------
+    Fragility or CollapseFragility
+        A lognormal curve where nothing collapsed, else one of five parameters.
+
+    Raises
+    ------
+    FragilityError
+        If the runs do not determine a curve.
+    ImportError
+        If runs collapsed and the package `pyFragility` is not installed.
+
+    Notes
+    -----
+    Source: Jalayer, Ebrahimian, Miano, Manfredi and Sezen (2017), Earthquake Eng. Struct. Dyn.
+    46:2639-2663: the standard deviation is that of n - 2, collapse a logistic regression.
+    """
+    at, found = _runs(im, demand, records)
+    bound = require_positive("limit", limit, error=FragilityError)
+    known = ~np.isnan(found)
+    at, found = at[known], found[known]
+    if (found <= 0.0).any():
+        msg = f"demand = {found.min():g} must be positive: leave such runs out of the cloud"
+        raise FragilityError(msg)
+    names, of = np.unique(np.array(records, dtype=str)[known], return_inverse=True)
+    fell = np.isinf(found)
+    x, y = np.log(at), np.log(np.where(fell, 1.0, found))
+    line = _line(x[~fell], y[~fell], np.ones(int((~fell).sum())))
+    if line is None:
+        msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more"
+        raise FragilityError(msg)
+    common: dict[str, Any] = {
+        "name": name, "unit": unit, "records": tuple(names), "seed": seed,
+        "data": pd.DataFrame({"im": at, "demand": found, "collapsed": fell}),
+    }  # fmt: skip
+    goal = math.log(bound)
+    if not fell.any():
+
+        def plain(weights: FloatArray) -> FloatArray | None:
+            again = _line(x, y, weights[of])
+            return None if again is None else _of_line(again, goal)
+
+        median, dispersion = _of_line(line, goal)
+        return Fragility(
+            method="cloud (Jalayer et al. 2017)", median=float(median),
+            dispersion=float(dispersion), covariance=_cloud_covariance(x, line, goal),
+            parameters=_resampled(len(names), plain, 2, resamples, seed), **common,
+        )  # fmt: skip
+    fitted = binomial(at, fell.astype(np.float64), np.ones(len(at)), "logit")
+    if fitted is None:
+        raise FragilityError(_separated(at, fell.astype(np.float64)))
+    start = fitted.parameters
+
+    def both(weights: FloatArray) -> FloatArray | None:
+        own = weights[of]
+        some = own > 0.0
+        again = _line(x[~fell], y[~fell], own[~fell])
+        falls = binomial(at[some], (own * fell)[some], own[some], "logit", start=start)
+        return None if again is None or falls is None else np.array([*again, *falls.parameters])
+
+    return CollapseFragility(
+        method="cloud with collapse (Jalayer et al. 2017)", limit=bound,
+        values=(float(line[0]), float(line[1]), float(line[2]), float(start[0]), float(start[1])),
+        parameters=_resampled(len(names), both, 5, resamples, seed), **common,
+    )  # fmt: skip
+
+
+def _runs(
+    im: npt.ArrayLike, values: npt.ArrayLike, records: Sequence[str]
+) -> tuple[FloatArray, FloatArray]:
+    at, found = np.asarray(im, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    if at.ndim != 1 or at.shape != found.shape or len(records) != len(at):
+        msg = f"shapes {at.shape}, {found.shape}, {len(records)} records: give lists of one length"
+        raise FragilityError(msg)
+    if not (np.isfinite(at) & (at > 0.0)).all():
+        msg = f"intensity {at[~(at > 0.0)][:1].tolist()} must be positive and finite"
+        raise FragilityError(msg)
+    return at, found
+
+
+def _resampled(count: int, fit: Fit, size: int, resamples: int, seed: int) -> FloatArray:
+    # Parameters for records drawn with replacement; the same draws for the same count and seed.
+    require_type("seed", seed, int, "a whole number")
+    require_type("resamples", resamples, int, "a whole number")
+    require_positive("resamples", resamples, error=FragilityError)
+    rng = np.random.default_rng(seed)
+    found = np.full((resamples, size), np.nan)
+    for row in found:
+        again = fit(rng.multinomial(count, np.full(count, 1.0 / count)).astype(np.float64))
+        if again is not None:
+            row[:] = again
+    fits = int(np.isfinite(found).all(axis=1).sum())
+    if fits < LEAST_FITS * resamples:
+        msg = f"{fits} of {resamples} resamples allow a fit: run more records or intensities"
+        raise FragilityError(msg)
+    return found
+
+
+def _lognormal(parameters: FloatArray) -> FloatArray:
+    # Median and dispersion of a line of probits over logarithms.
+    b0, b1 = parameters
+    return np.array([math.exp(-b0 / b1), 1.0 / b1])
+
+
+def _of_log(found: Any) -> FloatArray:
+    # Covariance of ln median and dispersion, from that of both themselves.
+    change = np.diag([1.0 / found.parameters[0], 1.0])
+    return np.asarray(change @ found.covariance @ change)
+
+
+def _line(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray | None:
+    # Intercept, slope and standard deviation (of n - 2) of a line; None where it does not rise.
+    total = weights.sum()
+    if total < 3.0 or len(np.unique(x[weights > 0.0])) < 3:
+        return None
+    mean_x, mean_y = np.average(x, weights=weights), np.average(y, weights=weights)
+    slope = (weights * (x - mean_x) * (y - mean_y)).sum() / (weights * (x - mean_x) ** 2).sum()
+    start = mean_y - slope * mean_x
+    square = (weights * (y - start - slope * x) ** 2).sum() / (total - 2.0)
+    return np.array([start, slope, math.sqrt(square)]) if slope > 0.0 and square > 0.0 else None
+
+
+def _of_line(line: FloatArray, goal: float) -> FloatArray:
+    # Median and dispersion of the intensity at which a line reaches a logarithm.
+    start, slope, spread = line
+    return np.array([math.exp((goal - start) / slope), spread / slope])
+
+
+def _cloud_covariance(x: FloatArray, line: FloatArray, goal: float) -> FloatArray:
+    # Of ln median and dispersion, from least squares.
+    start, slope, spread = line
+    design = np.column_stack([np.ones_like(x), x])
+    whole = np.zeros((3, 3))
+    whole[:2, :2] = spread**2 * np.linalg.inv(design.T @ design)
+    whole[2, 2] = 0.5 * spread**2 / (len(x) - 2.0)
+    log_median = (goal - start) / slope
+    jacobian = np.array([
+        [-1.0 / slope, -log_median / slope, 0.0], [0.0, -spread / slope**2, 1.0 / slope],
+    ])  # fmt: skip
+    return np.asarray(jacobian @ whole @ jacobian.T)
+
+
+def _separated(at: FloatArray, over: FloatArray) -> str:
+    if not over.any() or over.all():
+        what = "no run exceeds" if not over.any() else "all runs exceed"
+        return f"{what} the limit state: run {'higher' if not over.any() else 'lower'} intensities"
+    return (
+        f"no fit: exceeded from {at[over == 1.0].min():.4g}, not exceeded up to "
+        f"{at[over == 0.0].max():.4g}; the outcomes must overlap and exceedance grow with the "
+        "intensity: run more records, or intensities between"
+    )

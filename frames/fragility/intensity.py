@@ -1,0 +1,124 @@
+"""Intensity measures of ground motions: what fragility is a function of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from frames._errors import FragilityError
+from frames.hazard.pair_spectra import MEASURES, pair_spectrum
+from frames.motion.baseline import integrated
+from lir_element.door import require_between, require_choice, require_positive
+
+if TYPE_CHECKING:
+    from frames.motion.ground_motion import GroundMotion
+
+UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "scale": "-"}
+"""Kinds of intensity measures, and their units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intensity:
+    """An intensity measure that grows in proportion to the factor on a motion.
+
+    Parameters
+    ----------
+    kind : {"Sa", "PGA", "PGV", "scale"}
+        Spectral pseudo-acceleration, peak acceleration or velocity of the ground, or the factor on
+        the motion itself.
+    period : float, optional
+        Natural period of Sa [s]; of the isolated structure, as a rule.
+    damping : float
+        Damping of Sa [-].
+    measure : str
+        What is taken of both horizontal components (`pair_spectrum`): "RotD50", "RotD100",
+        "geometric mean", "SRSS", "arithmetic mean", "x" or "y". The hazard must be of the same.
+
+    Raises
+    ------
+    FragilityError
+        If an argument is out of its bounds.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion
+    >>> motion = GroundMotion(x=[0.0, 2.0, -3.0, 0.0], dt=0.1)
+    >>> Intensity(kind="PGA", measure="x").of(motion)
+    3.0
+    """
+
+    kind: Literal["Sa", "PGA", "PGV", "scale"] = "Sa"
+    period: float | None = None
+    damping: float = 0.05
+    measure: str = "RotD50"
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises
+        ------
+        FragilityError
+            If an argument is out of its bounds.
+        """
+        require_choice("kind", self.kind, tuple(UNITS), error=FragilityError)
+        require_choice("measure", self.measure, tuple(MEASURES), error=FragilityError)
+        require_between("damping", self.damping, 0.0, 1.0, "-", error=FragilityError)
+        if self.kind == "Sa":
+            if self.period is None:
+                msg = 'period = None: give the period of Sa in s, or take kind="PGA" or "PGV"'
+                raise FragilityError(msg)
+            require_positive("period", self.period, "s", error=FragilityError)
+        elif self.period is not None:
+            msg = f'period = {self.period:g} s: only kind="Sa" has one, leave it out'
+            raise FragilityError(msg)
+
+    @property
+    def unit(self) -> str:
+        """Unit of its values."""
+        return UNITS[self.kind]
+
+    @property
+    def label(self) -> str:
+        """What it is, in a few words."""
+        if self.kind == "scale":
+            return "factor on the motion"
+        at = f"({self.period:g} s, {100.0 * self.damping:g} %)" if self.kind == "Sa" else ""
+        return f"{self.kind}{at}, {self.measure}"
+
+    def of(self, motion: GroundMotion) -> float:
+        """Return the intensity of a motion.
+
+        Parameters
+        ----------
+        motion : GroundMotion
+            The motion, with the horizontal components that the measure needs.
+
+        Returns
+        -------
+        float
+            Its intensity, in `unit`.
+
+        Raises
+        ------
+        FragilityError
+            If the motion has none.
+        MotionError
+            If a component is missing.
+        """
+        if self.kind == "scale":
+            return 1.0
+        if self.kind == "Sa":
+            found = float(pair_spectrum(motion, [self.period], self.damping, self.measure)[0])
+        elif self.kind == "PGA":
+            found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])
+        else:
+            pair = [np.zeros(motion.n_steps) if a is None else a for a in (motion.x, motion.y)]
+            pair_spectrum(motion, [0.0], 0.0, self.measure)  # the components are there
+            found = MEASURES[self.measure](*(integrated(a, motion.dt)[0] for a in pair))
+        if not found > 0.0:
+            msg = f"{motion.name or 'motion'} has no {self.label}: leave it out"
+            raise FragilityError(msg)
+        return found
