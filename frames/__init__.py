@@ -2,6 +2,7 @@
 
 from frames._errors import AuditWarning as AuditWarning
 from frames._errors import CheckError as CheckError
+from frames._errors import FragilityError as FragilityError
 from frames._errors import ModelError as ModelError
 from frames._errors import ModelWarning as ModelWarning
 from frames._errors import MotionError as MotionError
@@ -51,6 +52,32 @@ from frames.checks.single_run import event_checks as event_checks
 from frames.checks.single_run import impact_checks as impact_checks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
+from frames.fragility.analyses import IDA as IDA
+from frames.fragility.analyses import cloud_analysis as cloud_analysis
+from frames.fragility.analyses import ida as ida
+from frames.fragility.analyses import multiple_stripes as multiple_stripes
+from frames.fragility.comparison import Comparison as Comparison
+from frames.fragility.comparison import compare_fragility as compare_fragility
+from frames.fragility.curve import CollapseFragility as CollapseFragility
+from frames.fragility.curve import Fragility as Fragility
+from frames.fragility.curve import lognormal_fragility as lognormal_fragility
+from frames.fragility.fitting import fit_capacities as fit_capacities
+from frames.fragility.fitting import fit_cloud as fit_cloud
+from frames.fragility.fitting import fit_stripes as fit_stripes
+from frames.fragility.hazard_curve import HazardCurve as HazardCurve
+from frames.fragility.hunt_fill import HuntFill as HuntFill
+from frames.fragility.intensity import Intensity as Intensity
+from frames.fragility.limit_state import LimitState as LimitState
+from frames.fragility.of_runs import fragility_of as fragility_of
+from frames.fragility.risk import Risk as Risk
+from frames.fragility.risk import RiskWarning as RiskWarning
+from frames.fragility.risk import collapse_margin_ratio as collapse_margin_ratio
+from frames.fragility.risk import mean_annual_frequency as mean_annual_frequency
+from frames.fragility.runs import IntensityRuns as IntensityRuns
+from frames.fragility.sensitivity import SobolIndices as SobolIndices
+from frames.fragility.sensitivity import Tornado as Tornado
+from frames.fragility.sensitivity import sobol_indices as sobol_indices
+from frames.fragility.sensitivity import tornado as tornado
 from frames.frame import Frame as Frame
 from frames.hazard.motion_measures import motion_measures as motion_measures
 from frames.hazard.motion_set import MotionSet as MotionSet
@@ -104,6 +131,7 @@ __all__ = [
     "ASCE7",
     "EN1998",
     "HISTORY_RULES",
+    "IDA",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -112,19 +140,28 @@ __all__ = [
     "Check",
     "CheckError",
     "Checks",
+    "CollapseFragility",
+    "Comparison",
     "Design",
     "DesignLimits",
     "DesignTarget",
     "EquivalentLinear",
     "Features",
     "Finding",
+    "Fragility",
+    "FragilityError",
     "Frame",
     "FrictionPendulum",
     "GravityState",
     "GroundMotion",
+    "HazardCurve",
     "HertzStop",
     "HistoryRules",
+    "HuntFill",
+    "Intensity",
+    "IntensityRuns",
     "IsolationSystem",
+    "LimitState",
     "ModalDamping",
     "ModelCheck",
     "ModelError",
@@ -144,12 +181,16 @@ __all__ = [
     "PulseScatter",
     "RayleighDamping",
     "Recording",
+    "Risk",
+    "RiskWarning",
     "Scaling",
     "Section",
+    "SobolIndices",
     "Spectrum",
     "Stop",
     "Superstructure",
     "Tie",
+    "Tornado",
     "Trace",
     "ViscousDamper",
     "audit",
@@ -157,6 +198,9 @@ __all__ = [
     "bounded",
     "bounded_histories",
     "capacity_checks",
+    "cloud_analysis",
+    "collapse_margin_ratio",
+    "compare_fragility",
     "design",
     "device_checks",
     "drift_by_line",
@@ -166,21 +210,29 @@ __all__ = [
     "envelope",
     "equivalent_linear",
     "event_checks",
+    "fit_capacities",
+    "fit_cloud",
+    "fit_stripes",
     "floor_acceleration",
     "floor_spectrum",
     "force_tables",
+    "fragility_of",
     "gravity",
     "history_checks",
     "history_demands",
+    "ida",
     "impact_checks",
     "impact_demand",
     "isolator_combinations",
     "load",
+    "lognormal_fragility",
     "lumped_mass",
+    "mean_annual_frequency",
     "member_forces",
     "modes",
     "moment_frame",
     "motion_measures",
+    "multiple_stripes",
     "overlap_area",
     "pair_spectrum",
     "peaks",
@@ -189,6 +241,7 @@ __all__ = [
     "save",
     "shear_building",
     "slips_of_events",
+    "sobol_indices",
     "storey_drift",
     "storey_ductility",
     "storey_forces",
@@ -197,6 +250,7 @@ __all__ = [
     "synthetic_near_fault",
     "time_histories",
     "time_history",
+    "tornado",
     "uplift_events",
     "uplift_gap",
     "write_tables",

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from frames.model.contents import FrameContents
 
 
-
 @dataclass(frozen=True, eq=False)
 class IDA:
     """An incremental dynamic analysis: runs of each motion from low intensities to the limit.
@@ -112,7 +111,7 @@ class IDA:
             if not len(known):
                 msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
                 raise FragilityError(msg)
-            im, exceeds = table["im"].to_numpy()[known], over[known] == 1.0
+            im, exceeds = table["im"].to_numpy()[known], over[known] > 0.5
             values = None if demand is None else demand[known]
             found = _first_crossing(im, exceeds, values, state.limit)
             rows.append({**found, "failed": len(own) - len(known)})
@@ -269,9 +268,7 @@ def ida(
     return IDA(runs, state, rules)
 
 
-def _next_cases(
-    runs: IntensityRuns, rules: HuntFill, limit: LimitState
-) -> list[tuple[str, float]]:
+def _next_cases(runs: IntensityRuns, rules: HuntFill, limit: LimitState) -> list[tuple[str, float]]:
     over, im = runs.exceeded(limit), runs.table["im"].to_numpy()
     cases = []
     for motion in runs.motions:
@@ -323,7 +320,7 @@ def multiple_stripes(
     return run_at(model, grounds, cases, intensity, options)
 
 
-def cloud(
+def cloud_analysis(
     model: FrameContents,
     motions: object,
     *,

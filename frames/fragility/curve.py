@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from scipy.optimize import brentq
 from scipy.special import expit, ndtr, ndtri
 
 from frames._errors import FragilityError
 from frames._types import FloatArray
-from lir_element.door import require_between, require_choice, require_non_negative, require_positive
+from lir_element.door import require_between, require_non_negative, require_positive
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -97,7 +98,9 @@ class Estimate:
         low, high = np.nanquantile(self.resampled(im), [tail, 1.0 - tail], axis=0)
         return np.asarray(low), np.asarray(high)
 
-    def to_dataframe(self, im: npt.ArrayLike | None = None, confidence: float = 0.9) -> pd.DataFrame:
+    def to_dataframe(
+        self, im: npt.ArrayLike | None = None, confidence: float = 0.9
+    ) -> pd.DataFrame:
         """Return the curve with its band.
 
         Parameters
@@ -271,18 +274,28 @@ class CollapseFragility(Estimate):
     @property
     def median(self) -> float:
         """Intensity of a probability of one half."""
-        from scipy.optimize import brentq
+        return self._half(np.asarray(self.values))
+
+    def resampled_medians(self) -> FloatArray:
+        """Return the median of each resample, (resamples,); NaN where it allowed no fit."""
+        rows = self.parameters
+        return np.array([self._half(row) if np.isfinite(row).all() else np.nan for row in rows])
+
+    def _half(self, values: FloatArray) -> float:
+        # Both parts rise: one of them is at one half where the median is sought first.
+        log_a, b, _, c0, c1 = values
+        top = min((math.log(self.limit) - log_a) / b, -c0 / c1)
 
         def excess(log_im: float) -> float:
-            return float(self.probability(math.exp(log_im))) - 0.5
+            return float(_of_cloud(math.exp(log_im), self.limit, values)) - 0.5
 
-        middle = math.log(float(self.data["im"].median()))
-        low = next(x for x in middle - np.arange(1.0, 60.0) if excess(x) < 0.0)
-        high = next(x for x in middle + np.arange(1.0, 60.0) if excess(x) > 0.0)
-        return math.exp(float(brentq(excess, low, high)))
+        low = top - 1.0
+        while excess(low) > 0.0:
+            low -= 1.0
+        return math.exp(float(brentq(excess, low, top)))
 
 
-def lognormal(
+def lognormal_fragility(
     median: float, dispersion: float, *, name: str = "", unit: str = "m/s2"
 ) -> Fragility:
     """Return a lognormal curve that is given, not fitted.
@@ -308,7 +321,7 @@ def lognormal(
 
     Examples
     --------
-    >>> curve = lognormal(2.0, 0.4)
+    >>> curve = lognormal_fragility(2.0, 0.4)
     >>> curve.probability([2.0, 4.0]).round(3).tolist()
     [0.5, 0.958]
     """
@@ -323,8 +336,7 @@ def lognormal(
 
 def checked_confidence(confidence: float) -> float:
     """Return a confidence between 0 and 1, or raise a FragilityError."""
-    if confidence == 0.0:
-        require_choice("confidence", confidence, ("above 0",), error=FragilityError)
+    require_positive("confidence", confidence, "-", error=FragilityError)
     return require_between("confidence", confidence, 0.0, 1.0, "-", error=FragilityError)
 
 
@@ -342,4 +354,6 @@ def _of_cloud(im: npt.ArrayLike, limit: float, values: FloatArray) -> FloatArray
     log_a, b, dispersion, c0, c1 = values
     x = _distance(im, 1.0, 1.0)
     collapse = expit(c0 + c1 * x)
-    return np.asarray(collapse + (1.0 - collapse) * ndtr((log_a + b * x - math.log(limit)) / dispersion))
+    return np.asarray(
+        collapse + (1.0 - collapse) * ndtr((log_a + b * x - math.log(limit)) / dispersion)
+    )

@@ -16,7 +16,7 @@ import pandas as pd
 from frames._errors import FragilityError
 from frames._types import FloatArray
 from frames.fragility.curve import CollapseFragility, Fragility
-from frames.fragility.likelihood import binomial, censored_lognormal
+from frames.fragility.likelihood import Likely, binomial, censored_lognormal
 from lir_element.door import require_choice, require_positive, require_type
 
 if TYPE_CHECKING:
@@ -93,7 +93,13 @@ def fit_stripes(
         total = np.bincount(level, own, len(levels))
         count = np.bincount(level, own * over, len(levels))
         some = total > 0.0
-        found = binomial(levels[some], count[some], total[some], "probit", start=start)
+        found = binomial(
+            levels[some],
+            count[some].astype(np.float64),
+            total[some].astype(np.float64),
+            "probit",
+            start=start,
+        )
         return None if found is None else _lognormal(found.parameters)
 
     median, dispersion = _lognormal(start)
@@ -161,7 +167,7 @@ def fit_capacities(
     >>> round(curve.median, 3), round(curve.dispersion, 3)
     (2.0, 0.693)
     """
-    at, over = _runs(capacity, np.ones(np.shape(capacity)), records)
+    at, _ = _runs(capacity, np.ones(np.shape(capacity)), records)
     open_ = np.zeros(len(at), dtype=bool) if censored is None else np.asarray(censored, dtype=bool)
     if open_.shape != at.shape or len(set(records)) != len(at):
         msg = "capacity, censored and records must be lists of one length, a record once"
@@ -339,7 +345,7 @@ def _lognormal(parameters: FloatArray) -> FloatArray:
     return np.array([math.exp(-b0 / b1), 1.0 / b1])
 
 
-def _of_log(found: Any) -> FloatArray:
+def _of_log(found: Likely) -> FloatArray:
     # Covariance of ln median and dispersion, from that of both themselves.
     change = np.diag([1.0 / found.parameters[0], 1.0])
     return np.asarray(change @ found.covariance @ change)
@@ -382,7 +388,7 @@ def _separated(at: FloatArray, over: FloatArray) -> str:
         what = "no run exceeds" if not over.any() else "all runs exceed"
         return f"{what} the limit state: run {'higher' if not over.any() else 'lower'} intensities"
     return (
-        f"no fit: exceeded from {at[over == 1.0].min():.4g}, not exceeded up to "
-        f"{at[over == 0.0].max():.4g}; the outcomes must overlap and exceedance grow with the "
+        f"no fit: exceeded from {at[over > 0.5].min():.4g}, not exceeded up to "
+        f"{at[over < 0.5].max():.4g}; the outcomes must overlap and exceedance grow with the "
         "intensity: run more records, or intensities between"
     )

@@ -87,9 +87,7 @@ class HuntFill:
             msg = f"highest = {self.highest:g} is below first = {self.first:g}: raise it"
             raise FragilityError(msg)
 
-    def next_intensities(
-        self, im: npt.ArrayLike, exceeded: npt.ArrayLike
-    ) -> tuple[float, ...]:
+    def next_intensities(self, im: npt.ArrayLike, exceeded: npt.ArrayLike) -> tuple[float, ...]:
         """Return the intensities that a record is to be run at next; none: it is done.
 
         Parameters
@@ -119,11 +117,11 @@ class HuntFill:
             return (float(self.first),)
         if left <= 0:
             return ()
-        if not (over == 1.0).any():
+        if not (over > 0.5).any():
             higher = self._hunted(at)
             return (higher,) if higher is not None else self._filled(at, left)
-        upper = float(at[over == 1.0].min())
-        lower = float(at[(over == 0.0) & (at < upper)].max(initial=0.0))
+        upper = float(at[over > 0.5].min())
+        lower = float(at[(over < 0.5) & (at < upper)].max(initial=0.0))
         if upper - lower > self.resolution * upper:
             return (self._between(lower, upper, at),)
         return self._filled(at[at <= lower], left)

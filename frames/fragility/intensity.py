@@ -110,7 +110,7 @@ class Intensity:
         """
         if self.kind == "scale":
             return 1.0
-        if self.kind == "Sa":
+        if self.period is not None:  # of Sa
             found = float(pair_spectrum(motion, [self.period], self.damping, self.measure)[0])
         elif self.kind == "PGA":
             found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, IntArray
+    from frames._types import BoolArray, FloatArray, IntArray
 
 
 class Likely(NamedTuple):
@@ -75,7 +75,7 @@ def binomial(
     return Likely(fit.params, fit.covariance("mle" if clusters is None else "sandwich"))
 
 
-def censored_lognormal(capacity: FloatArray, censored: FloatArray) -> Likely | None:
+def censored_lognormal(capacity: FloatArray, censored: BoolArray) -> Likely | None:
     """Fit a lognormal distribution to capacities of which some are only known to be larger.
 
     Parameters

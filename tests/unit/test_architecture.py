@@ -69,8 +69,9 @@ FLOORS = (
     "lir_element.rig", "lir_element.opensees.block", "lir_element.opensees.kernels",
     "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
     "frames.model", "frames.motion", "frames.hazard", "frames.assembly", "frames.kernels",
-    "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.plots",
-    "frames.checks", "frames.sizing", "frames.project", "frames.report", "frames.command",
+    "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.fragility",
+    "frames.plots", "frames.checks", "frames.sizing", "frames.project", "frames.report",
+    "frames.command",
     "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
 )  # fmt: skip
 
