@@ -185,8 +185,9 @@ class IDA:
         for each in percent:
             place = (len(table) - 1) * each / 100.0
             low, high = table[math.floor(place)], table[math.ceil(place)]
-            share, open_ = place - math.floor(place), np.isfinite(high)
-            mixed = np.where(open_, low + share * np.where(open_, high - low, 0.0), high)
+            share, known = place - math.floor(place), np.isfinite(high)
+            mixed = high.copy()
+            mixed[known] = low[known] + share * (high[known] - low[known])
             columns[f"{each:g} %"] = np.where(np.isnan(table).any(axis=0), np.nan, mixed)
         return pd.DataFrame(columns, index=pd.Index(at, name=f"im [{self.runs.intensity.unit}]"))
 

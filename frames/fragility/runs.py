@@ -151,7 +151,7 @@ class IntensityRuns:
         table = pd.DataFrame({
             "motion": used,
             "scale": scale,
-            "im": np.abs(scale) * [each[name] for name in used],
+            "im": [_round(abs(s) * each[name]) for s, name in zip(scale, used, strict=True)],
             "outcome": [outcome_of(s) for s in status],
             "status": status,
             "message": [str(m) for m in own["message"].to_numpy()],
@@ -249,6 +249,11 @@ class IntensityRuns:
     def to_dataframe(self) -> pd.DataFrame:
         """Return a copy of the table."""
         return self.table.copy()
+
+
+def _round(im: float) -> float:
+    # So that runs of one stripe have one intensity.
+    return float(f"{im:.10g}")
 
 
 def run_at(

@@ -1,6 +1,7 @@
 """Figures of results: loops, orbits, histories, profiles over the height, energies, sections.
 
-And of models in space: at rest, at an instant, in their modes; of design spectra and motions.
+And of models in space: at rest, at an instant, in their modes; of design spectra and motions; of
+fragility and risk.
 
 Each function takes one Dataset of `frames.time_history`, or several by name for comparison, and
 returns a matplotlib Figure of the width of a page, which a notebook shows as a picture; it draws on
@@ -11,11 +12,16 @@ between figures of the same systems.
 
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
+from frames.plots.plot_fragility import fragility_curves as fragility_curves
+from frames.plots.plot_fragility import risk_deaggregation as risk_deaggregation
+from frames.plots.plot_fragility import tornado_chart as tornado_chart
 from frames.plots.plot_hazard import design_spectra as design_spectra
 from frames.plots.plot_hazard import motion_spectra as motion_spectra
 from frames.plots.plot_hinges import hinge_map as hinge_map
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
+from frames.plots.plot_ida import ida_curves as ida_curves
+from frames.plots.plot_ida import stripes as stripes
 from frames.plots.plot_links import link_loops as link_loops
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
@@ -34,15 +40,20 @@ __all__ = [
     "design_spectra",
     "energy",
     "floor_spectra",
+    "fragility_curves",
     "hinge_map",
     "histories",
     "hysteresis",
+    "ida_curves",
     "link_loops",
     "mode_shapes",
     "model_film",
     "model_view",
     "motion_spectra",
     "orbits",
+    "risk_deaggregation",
     "storey_profiles",
+    "stripes",
+    "tornado_chart",
     "worst_bearing",
 ]
