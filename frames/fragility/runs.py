@@ -297,7 +297,11 @@ def run_at(
     if fixed:
         msg = f"{sorted(fixed)[0]} is decided here: leave it out"
         raise FragilityError(msg)
-    ((name, structure),) = named_models(model).items()
+    structures = named_models(model)
+    if len(structures) > 1:
+        msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
+        raise FragilityError(msg)
+    ((name, structure),) = structures.items()
     each = {motion: intensity.of(motions[motion]) for motion, _ in cases}
     wanted = [(name, motion, level / each[motion]) for motion, level in cases]
     with warnings.catch_warnings():

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator
 
 from frames._errors import FragilityError
 from frames.fragility.curve import CollapseFragility, Fragility, checked_confidence
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 
 CURVE_POINTS = 200
 
+Curve: TypeAlias = Fragility | CollapseFragility
+"""A curve of either kind."""
+
 
 def shown_intensity(unit: str, label: str = "intensity") -> tuple[float, str]:
     """Return the factor that intensities are drawn with, accelerations in g, and their label."""
@@ -36,7 +41,7 @@ def shown_intensity(unit: str, label: str = "intensity") -> tuple[float, str]:
 
 
 def fragility_curves(
-    curves: Fragility | CollapseFragility | Sequence[Fragility | CollapseFragility],
+    curves: Curve | Sequence[Curve] | Mapping[str, Curve],
     *,
     confidence: float = 0.9,
     label: str = "intensity",
@@ -45,8 +50,8 @@ def fragility_curves(
 
     Parameters
     ----------
-    curves : Fragility or CollapseFragility, or a sequence of up to six
-        The curves, of one intensity measure.
+    curves : Fragility or CollapseFragility, or a sequence or mapping of up to six
+        The curves, of one intensity measure; by the names of a mapping, else by their own.
     confidence : float
         Confidence of the bands [-]; bands of a curve that was given are not drawn.
     label : str
@@ -62,12 +67,8 @@ def fragility_curves(
     FragilityError
         If there is none or too many, or their units differ.
     """
-    many = [curves] if isinstance(curves, (Fragility, CollapseFragility)) else list(curves)
-    for k, curve in enumerate(many):
-        require_type(f"curves[{k}]", curve, (Fragility, CollapseFragility), "a fragility curve")
-    if not 1 <= len(many) <= len(ps.PALETTE) or len({curve.unit for curve in many}) > 1:
-        msg = f"{len(many)} curves: give 1 to {len(ps.PALETTE)} of one intensity measure"
-        raise FragilityError(msg)
+    named = _named("curves", curves, (Fragility, CollapseFragility), "a fragility curve")
+    many = [curve for _, curve in named]
     checked_confidence(confidence)
     figure = ps.new_figure(3.9)
     panel = ps.grid_of(figure, 1, 1)[0][0]
@@ -75,14 +76,14 @@ def fragility_curves(
     end = max(float(curve.grid(1)[-1]) for curve in many)
     im = np.linspace(0.0, end, CURVE_POINTS + 1)[1:]
     handles: list[Artist] = []
-    for k, curve in enumerate(many):
+    for k, (name, curve) in enumerate(named):
         look = ps.line_of(k, 0.3)
         if curve.records:
             panel.fill_between(size * im, *curve.band(im, confidence), color=look["color"],
                                alpha=0.15, linewidth=0.0)  # fmt: skip
         panel.plot(size * im, curve.probability(im), **look)
         _data(panel, curve, size, look["color"])
-        handles.append(Line2D([], [], label=curve.name or f"curve {k + 1}", **look))
+        handles.append(Line2D([], [], label=name, **look))
     if any(curve.records for curve in many):
         band = f"{100.0 * confidence:g} % band, records resampled"
         handles.append(Patch(color=ps.GREY, alpha=0.2, label=band))
@@ -93,9 +94,27 @@ def fragility_curves(
     return figure
 
 
+def _named(what: str, given: Any, kinds: tuple[type, ...], one: str) -> list[tuple[str, Any]]:
+    # What is drawn, by name.
+    if isinstance(given, kinds):
+        given = [given]
+    pairs = (
+        list(given.items())
+        if isinstance(given, Mapping)
+        else [(getattr(each, "name", ""), each) for each in given]
+    )
+    for name, each in pairs:
+        require_type(f"{what}[{name!r}]", each, kinds, one)
+    if not 1 <= len(pairs) <= len(ps.PALETTE) or len({each.unit for _, each in pairs}) > 1:
+        msg = f"{len(pairs)} {what}: give 1 to {len(ps.PALETTE)} of one intensity measure"
+        raise FragilityError(msg)
+    return [(name or f"limit state {k}", each) for k, (name, each) in enumerate(pairs, 1)]
+
+
 def _data(panel: Axes, curve: Fragility | CollapseFragility, size: float, color: str) -> None:
     # Shares of stripes, capacities in their order; a cloud has its runs at 0 and 1.
-    data, mark = curve.data, {"color": color, "linestyle": "none", "markersize": 3.5}
+    data = curve.data
+    mark: dict[str, Any] = {"color": color, "linestyle": "none", "markersize": 3.5}
     if "total" in data:
         share = data["exceeded"] / data["total"]
         panel.plot(size * data["im"], share, marker="o", clip_on=False, **mark)
@@ -108,12 +127,14 @@ def _data(panel: Axes, curve: Fragility | CollapseFragility, size: float, color:
         panel.plot(size * data["im"], over, marker="|", clip_on=False, **mark)
 
 
-def risk_deaggregation(risks: Risk | Sequence[Risk], *, label: str = "intensity") -> Figure:
+def risk_deaggregation(
+    risks: Risk | Sequence[Risk] | Mapping[str, Risk], *, label: str = "intensity"
+) -> Figure:
     """Draw which intensities contribute to the mean annual frequency of exceedance.
 
     Parameters
     ----------
-    risks : Risk, or a sequence of up to six
+    risks : Risk, or a sequence or mapping of up to six
         Of `mean_annual_frequency`, of one intensity measure.
     label : str
         What the intensity is.
@@ -128,24 +149,24 @@ def risk_deaggregation(risks: Risk | Sequence[Risk], *, label: str = "intensity"
     FragilityError
         If there is none or too many, or their units differ.
     """
-    many = [risks] if isinstance(risks, Risk) else list(risks)
-    for k, one in enumerate(many):
-        require_type(f"risks[{k}]", one, Risk, "a Risk")
-    if not 1 <= len(many) <= len(ps.PALETTE) or len({one.unit for one in many}) > 1:
-        msg = f"{len(many)} risks: give 1 to {len(ps.PALETTE)} of one intensity measure"
-        raise FragilityError(msg)
+    named = _named("risks", risks, (Risk,), "a Risk")
+    many = [one for _, one in named]
     figure = ps.new_figure(3.6)
     panel = ps.grid_of(figure, 1, 1)[0][0]
     size, text = shown_intensity(many[0].unit, label)
     handles: list[Artist] = []
-    for k, one in enumerate(many):
+    for k, (name, one) in enumerate(named):
         look = ps.line_of(k, 0.3)
         panel.fill_between(size * one.im, one.contribution, color=look["color"], alpha=0.12,
                            linewidth=0.0)  # fmt: skip
         panel.plot(size * one.im, one.contribution, **look)
-        name = f"{one.name or 'limit state'}: {one.rate:.2e} a year"
-        handles.append(Line2D([], [], label=name, **look))
+        text_of = f"{name}: {one.rate:.2e} a year"
+        handles.append(Line2D([], [], label=text_of, **look))
     panel.set_xscale("log")
+    for axis in (panel.xaxis.set_major_formatter, panel.xaxis.set_minor_formatter):
+        axis("{x:g}")
+    panel.xaxis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+    panel.tick_params(which="minor", labelsize=ps.SMALL)
     panel.set_xlim(size * min(_middle(one)[0] for one in many),
                    size * max(_middle(one)[1] for one in many))  # fmt: skip
     panel.set_ylim(bottom=0.0)

@@ -72,10 +72,10 @@ def ida_curves(
     for motion, at in ends.iterrows():
         curve = found.curve(str(motion), quantity)
         holds = curve[(curve["demand"] < np.inf) & (curve["im"] <= at["capacity"])]
-        x, y = [0.0, *(factor * holds["demand"])], [0.0, *(size * holds["im"])]
-        panel.plot(x, y, marker=".", markersize=2.5, **thin)
+        shown = [0.0, *(factor * holds["demand"])]
+        panel.plot(shown, [0.0, *(size * holds["im"])], marker=".", markersize=2.5, **thin)
         if not at["censored"]:
-            panel.plot([x[-1], end], [size * at["capacity"]] * 2, linestyle=":", **thin)
+            panel.plot([shown[-1], end], [size * at["capacity"]] * 2, linestyle=":", **thin)
     handles: list[Artist] = [
         Line2D([], [], label="a motion", marker=".", markersize=4.0, **thin),
         Line2D([], [], label="failure of a bearing", linestyle=":", **thin),

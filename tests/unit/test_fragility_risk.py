@@ -1,0 +1,185 @@
+"""Risk, comparison and sensitivity: against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.special import ndtr
+from scipy.stats import uniform
+
+from frames import (
+    FragilityError,
+    HazardCurve,
+    RiskWarning,
+    collapse_margin_ratio,
+    compare_fragility,
+    fit_capacities,
+    fit_stripes,
+    lognormal_fragility,
+    mean_annual_frequency,
+    sobol_indices,
+    tornado,
+)
+
+RECORDS = [f"record {k:02d}" for k in range(30)]
+
+
+@pytest.mark.parametrize("slope", [1.5, 2.5, 4.0])
+@pytest.mark.parametrize("dispersion", [0.2, 0.5])
+def test_cornells_closed_form(slope: float, dispersion: float) -> None:
+    hazard = HazardCurve.power(2e-3, slope, 1e-3, 1e4)
+    found = mean_annual_frequency(lognormal_fragility(4.0, dispersion), hazard)
+    closed = 2e-3 * 4.0**-slope * math.exp(0.5 * (slope * dispersion) ** 2)
+    assert found.rate == pytest.approx(closed, rel=2e-4)
+    # the deaggregation by parts: -H P, and the rate's share of a lognormal that is shifted
+    z = np.log(found.im / 4.0) / dispersion
+    up_to = closed * ndtr(z + slope * dispersion) - 2e-3 * found.im**-slope * ndtr(z)
+    table = found.to_dataframe()
+    np.testing.assert_allclose(table["share"], up_to / closed, atol=2e-3)
+    area = np.trapezoid(found.contribution, np.log(found.im))
+    assert area == pytest.approx(found.rate, rel=1e-3)
+
+
+def test_a_sharp_limit_is_the_hazard_itself() -> None:
+    hazard = HazardCurve([0.1, 1.0, 2.0, 20.0], [0.5, 1e-2, 2e-3, 1e-7])
+    found = mean_annual_frequency(lognormal_fragility(1.5, 0.01), hazard)
+    between = 1e-2 * (2e-3 / 1e-2) ** (math.log(1.5) / math.log(2.0))
+    assert found.rate == pytest.approx(between, rel=1e-3)
+    assert found.probability(50.0) == pytest.approx(1.0 - math.exp(-50.0 * found.rate))
+
+
+def test_probability_in_fifty_years_of_a_code() -> None:
+    """A return period of 475 years is 10 % in 50 years."""
+    hazard = HazardCurve.power(1.0 / 475.0, 3.0, 1e-3, 1e4)
+    found = mean_annual_frequency(lognormal_fragility(1.0, 0.001), hazard)
+    assert found.probability(50.0) == pytest.approx(0.1, abs=1e-3)
+    assert hazard.to_dataframe().shape == (2, 2)
+
+
+def test_what_the_hazard_does_not_cover_is_told() -> None:
+    curve = lognormal_fragility(2.0, 0.5, name="collapse")
+    with pytest.warns(RiskWarning, match=r"collapse: .* give the curve for more"):
+        mean_annual_frequency(curve, HazardCurve.power(1e-3, 2.0, 0.1, 2.0))
+    with pytest.warns(RiskWarning):
+        mean_annual_frequency(curve, HazardCurve.power(1e-3, 2.0, 1.9, 100.0))
+    with pytest.raises(FragilityError, match="out of the hazard curve"):
+        HazardCurve.power(1e-3, 2.0, 0.1, 2.0).rates([3.0])
+
+
+def test_interval_of_the_rate_by_hand() -> None:
+    values = 2.0 * np.exp(0.3 * np.random.default_rng(1).standard_normal(30))
+    curve = fit_capacities(values, RECORDS, resamples=40)
+    hazard = HazardCurve.power(1e-3, 2.5, 1e-2, 1e3)
+    found = mean_annual_frequency(curve, hazard)
+    closed = [1e-3 * m**-2.5 * math.exp(0.5 * (2.5 * b) ** 2) for m, b in curve.parameters]
+    np.testing.assert_allclose(found.resampled, closed, rtol=1e-3)
+    assert found.interval(0.9) == pytest.approx(tuple(np.quantile(closed, [0.05, 0.95])), rel=1e-3)
+
+
+def test_pairs_tell_more_than_two_samples() -> None:
+    """Capacities that are 20 % higher record by record: the ratio is known without doubt."""
+    values = np.exp(0.4 * np.random.default_rng(2).standard_normal(30))
+    first, second = (
+        fit_capacities(factor * values, RECORDS, resamples=100) for factor in (1.0, 1.2)
+    )
+    hazard = HazardCurve.power(1e-3, 2.0, 1e-3, 1e3)
+    found = compare_fragility(first, second, hazard).to_dataframe()
+    median, ratio = found.loc["median, ratio [-]"], found.loc["rate, ratio [-]"]
+    assert tuple(median) == pytest.approx((1.2, 1.2, 1.2, 1.0))
+    assert tuple(ratio)[:3] == pytest.approx([1.2**-2.0] * 3, rel=1e-3)
+    assert found.loc["rate, difference [1/year]", "value"] < 0.0
+    assert compare_fragility(first, second).rates is None
+
+
+def test_unlike_records_are_not_compared() -> None:
+    values = np.exp(0.4 * np.random.default_rng(2).standard_normal(30))
+    one = fit_capacities(values, RECORDS, resamples=10)
+    for other in (
+        fit_capacities(values[1:], RECORDS[1:], resamples=10),
+        fit_capacities(values, RECORDS, resamples=10, seed=2),
+        lognormal_fragility(1.0, 0.4),
+    ):
+        with pytest.raises(FragilityError, match="same records"):
+            compare_fragility(one, other)
+    with pytest.raises(FragilityError, match="one intensity measure"):
+        compare_fragility(one, fit_capacities(values, RECORDS, unit="m/s"))
+
+
+def test_stripes_and_capacities_of_the_same_records_are_paired() -> None:
+    """A step of the levels that is fine makes the resamples of both methods nearly the same."""
+    values = np.exp(0.4 * np.random.default_rng(3).standard_normal(30))
+    levels = np.geomspace(0.2, 5.0, 25)
+    im = np.tile(levels, 30)
+    over = (im > np.repeat(values, 25)).astype(float)
+    stripes = fit_stripes(im, over, list(np.repeat(RECORDS, 25)), resamples=40)
+    moments = fit_capacities(values, RECORDS, resamples=40)
+    pair = np.log([stripes.parameters[:, 0], moments.parameters[:, 0]])
+    assert np.corrcoef(pair)[0, 1] > 0.9
+
+
+def test_collapse_margin_ratio() -> None:
+    assert collapse_margin_ratio(2.4, 1.5, 1.25) == pytest.approx(2.0)
+    with pytest.raises(FragilityError, match="maximum_considered"):
+        collapse_margin_ratio(2.4, 0.0)
+
+
+def test_a_tornado_of_a_line() -> None:
+    calls = []
+
+    def result(sets: list[dict[str, float]]) -> list[float]:
+        calls.append(len(sets))
+        return [3.0 * each["a"] - 2.0 * each["b"] + each["c"] for each in sets]
+
+    found = tornado(result, {"a": (0.9, 1.0, 1.1), "b": (0.0, 1.0, 2.0), "c": (1.0, 1.0, 1.0)})
+    assert calls == [7]
+    assert found.base == 2.0
+    assert list(found.table.index) == ["b", "a", "c"]
+    assert found.table["swing"].tolist() == pytest.approx([4.0, 0.6, 0.0])
+    assert found.table.loc["b", ["at low", "at high"]].tolist() == [4.0, 0.0]
+
+
+def test_sobol_indices_of_ishigami() -> None:
+    """Closed form: S = 0.3139, 0.4424, 0; total 0.5576, 0.4424, 0.2437; variance 13.845."""
+
+    def ishigami(sets: list[dict[str, float]]) -> np.ndarray:
+        a, b, c = (np.array([each[name] for each in sets]) for name in "abc")
+        return np.sin(a) + 7.0 * np.sin(b) ** 2 + 0.1 * c**4 * np.sin(a)
+
+    angles = uniform(-math.pi, 2.0 * math.pi)
+    found = sobol_indices(ishigami, dict.fromkeys("abc", angles), samples=1024)
+    assert found.runs == 5 * 1024
+    assert found.mean == pytest.approx(3.5, abs=0.02)
+    assert found.deviation == pytest.approx(math.sqrt(13.845), rel=0.02)
+    table = found.table
+    np.testing.assert_allclose(table["first"], [0.3139, 0.4424, 0.0], atol=0.03)
+    np.testing.assert_allclose(table["total"], [0.5576, 0.4424, 0.2437], atol=0.03)
+    for kind, exact in (("first", [0.3139, 0.4424, 0.0]), ("total", [0.5576, 0.4424, 0.2437])):
+        assert (table[f"{kind}, low"] < exact).all()
+        assert (exact < table[f"{kind}, high"]).all()
+    again = sobol_indices(ishigami, dict.fromkeys("abc", angles), samples=1024)
+    assert (again.table == table).all(axis=None)
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    for im, rate, words in (
+        ([1.0], [0.1], "2 at least"), ([1.0, 2.0], [0.1, 0.2], "fall"),
+        ([2.0, 1.0], [0.2, 0.1], "rise"), ([1.0, 2.0], [0.1, 0.0], "positive"),
+    ):  # fmt: skip
+        with pytest.raises(FragilityError, match=words):
+            HazardCurve(im, rate)
+    with pytest.raises(FragilityError, match="one unit"):
+        mean_annual_frequency(
+            lognormal_fragility(1.0, 0.4, unit="m/s"), HazardCurve([1.0, 2.0], [0.2, 0.1])
+        )
+    with pytest.raises(FragilityError, match="in this order"):
+        tornado(lambda sets: [0.0 for _ in sets], {"a": (2.0, 1.0, 3.0)})
+    with pytest.raises(FragilityError, match="one number for each"):
+        tornado(lambda _: [0.0], {"a": (0.0, 1.0, 3.0)})
+    with pytest.raises(FragilityError, match="must be finite"):
+        tornado(lambda sets: [math.nan for _ in sets], {"a": (0.0, 1.0, 3.0)})
+    with pytest.raises(FragilityError, match="power of 2"):
+        sobol_indices(lambda sets: [0.0 for _ in sets], {"a": uniform(0, 1)}, samples=100)
+    with pytest.raises(FragilityError, match="nothing depends"):
+        sobol_indices(lambda sets: [1.0 for _ in sets], {"a": uniform(0, 1)})
+    with pytest.raises(FragilityError, match="give distributions"):
+        sobol_indices(lambda sets: [1.0 for _ in sets], {"a": 1.0})
