@@ -20,6 +20,8 @@ from frames import (
     sobol_indices,
     tornado,
 )
+from frames.plots import risk_deaggregation, tornado_chart
+from lir_element.units import STANDARD_GRAVITY
 
 RECORDS = [f"record {k:02d}" for k in range(30)]
 
@@ -183,3 +185,25 @@ def test_what_makes_no_sense_is_refused() -> None:
         sobol_indices(lambda sets: [1.0 for _ in sets], {"a": uniform(0, 1)})
     with pytest.raises(FragilityError, match="give distributions"):
         sobol_indices(lambda sets: [1.0 for _ in sets], {"a": 1.0})
+
+
+def test_figures_of_risk_and_tornado() -> None:
+    hazard = HazardCurve.power(1e-3, 2.5, 1e-2, 1e3)
+    found = mean_annual_frequency(lognormal_fragility(STANDARD_GRAVITY, 0.4), hazard)
+    figure = risk_deaggregation({"a": found, "b": found})
+    im, contribution = figure.axes[0].lines[1].get_data()
+    np.testing.assert_allclose(im * STANDARD_GRAVITY, found.im)
+    np.testing.assert_allclose(contribution, found.contribution)
+    low, high = figure.axes[0].get_xlim()
+    assert low < math.exp(-2.5 * 0.4**2) < high
+    assert figure.legends[0].get_texts()[1].get_text() == f"b: {found.rate:.2e} a year"
+    swings = tornado(
+        lambda sets: [3.0 * each["a"] - each["b"] for each in sets],
+        {"a": (0.0, 1.0, 2.0), "b": (0.0, 1.0, 2.0)},
+    )
+    bars = tornado_chart(swings, label="shift", unit="m").axes[0]
+    assert [text.get_text() for text in bars.get_yticklabels()] == ["b", "a"]  # widest on top
+    spans = sorted((bar.get_x(), bar.get_x() + bar.get_width()) for bar in bars.patches)
+    assert spans == [(2.0, -1.0), (2.0, 1.0), (2.0, 3.0), (2.0, 5.0)]
+    with pytest.raises(TypeError, match="a Risk"):
+        risk_deaggregation([1.0])  # type: ignore[list-item]

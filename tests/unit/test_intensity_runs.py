@@ -1,0 +1,207 @@
+"""Intensities, limit states and what runs say of them: by hand."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from frames import (
+    IDA,
+    FragilityError,
+    GroundMotion,
+    HuntFill,
+    Intensity,
+    IntensityRuns,
+    LimitState,
+    MotionError,
+    fragility_of,
+    pair_spectrum,
+)
+from frames.demo import bearing_for
+from frames.fragility.runs import outcome_of
+from frames.plots import fragility_curves, ida_curves, stripes
+from lir_element import RunStatus
+from lir_element.units import STANDARD_GRAVITY
+
+SCALE = Intensity(kind="scale")
+
+
+def runs(rows: list[tuple[str, float, float | str]]) -> IntensityRuns:
+    """Return runs by motion, intensity, and demand [m] or status."""
+    statuses = [value if isinstance(value, str) else "ok" for *_, value in rows]
+    table = pd.DataFrame({
+        "motion": [motion for motion, *_ in rows],
+        "scale": [im for _, im, _ in rows],
+        "im": [im for _, im, _ in rows],
+        "outcome": [outcome_of(status) for status in statuses],
+        "status": statuses,
+        "message": "",
+        "bearing displacement": [0.5 if isinstance(v, str) else v for *_, v in rows],
+    })  # fmt: skip
+    return IntensityRuns(table, SCALE, {"bearing displacement": "m"})
+
+
+TWO = runs([
+    ("a", 1.0, 0.1), ("b", 1.0, 0.2), ("a", 2.0, 0.3), ("b", 2.0, "slip_exceeded"),
+    ("a", 4.0, "rim_overrun"), ("b", 4.0, "slip_exceeded"), ("a", 3.0, "newton_failed"),
+])  # fmt: skip
+TWO_IDA = IDA(TWO, LimitState.bearing_failure(), HuntFill(first=1.0))
+
+
+def test_intensities_of_a_pair() -> None:
+    time = 0.01 * np.arange(400)
+    motion = GroundMotion(x=3.0 * np.sin(2.0 * np.pi * time), y=np.zeros(400), dt=0.01)
+    assert Intensity(kind="PGA", measure="x").of(motion) == pytest.approx(3.0)
+    # velocity of a sine from rest: A T / (2 pi) (1 - cos), at most A T / pi
+    assert Intensity(kind="PGV", measure="x").of(motion) == pytest.approx(3.0 / np.pi, rel=1e-3)
+    sa = Intensity(kind="Sa", period=0.8, damping=0.1, measure="RotD100")
+    assert sa.of(motion) == pair_spectrum(motion, [0.8], 0.1, "RotD100")[0]
+    assert sa.of(motion.scaled(2.5)) == pytest.approx(2.5 * sa.of(motion))
+    assert (sa.unit, sa.label) == ("m/s2", "Sa(0.8 s, 10 %), RotD100")
+    assert SCALE.of(motion) == 1.0
+
+
+def test_intensities_that_make_no_sense_are_refused() -> None:
+    silent = GroundMotion(x=[0.0, 1.0, 0.0], y=[0.0, 0.0, 0.0], dt=0.1)
+    with pytest.raises(FragilityError, match="period"):
+        Intensity(kind="Sa")
+    with pytest.raises(FragilityError, match="only kind"):
+        Intensity(kind="PGA", period=1.0)
+    with pytest.raises(FragilityError, match="measure"):
+        Intensity(kind="PGA", measure="mean")
+    with pytest.raises(FragilityError, match="leave it out"):
+        Intensity(kind="PGA", measure="y").of(silent)
+    with pytest.raises(MotionError, match="component"):
+        Intensity(kind="PGV").of(GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
+
+
+@pytest.mark.parametrize("status", list(RunStatus))
+def test_every_status_has_a_meaning(status: RunStatus) -> None:
+    """Only what fails physically is collapse; what is doubtful went to its end."""
+    expected = (
+        "complete" if status in {RunStatus.OK, RunStatus.INACCURATE}
+        else "bearing failure" if status.is_bearing_failure else "numerical failure"
+    )  # fmt: skip
+    assert outcome_of(status.name.lower()) == expected
+
+
+def test_limit_states() -> None:
+    bearing = bearing_for(1000e3)
+    slip = LimitState.interface_slip(bearing)
+    assert slip.limit == bearing.slip_stability
+    assert (
+        LimitState.floor_acceleration(3.0).name
+        == f"floor acceleration {3 / STANDARD_GRAVITY:.3g} g"
+    )
+    assert LimitState.rim_contact().limit == 0.0
+    with pytest.raises(FragilityError, match="is no limit"):
+        LimitState.interface_slip(bearing.as_dcfp())
+    with pytest.raises(FragilityError, match="or neither"):
+        LimitState("drift", "storey drift, mean")
+    for make in (LimitState.drift, LimitState.ductility, LimitState.displacement,
+                 LimitState.plastic_rotation, LimitState.residual_displacement):  # fmt: skip
+        with pytest.raises(FragilityError, match="limit"):
+            make(-1.0)
+
+
+def test_failures_exceed_all_and_numerical_ones_nothing() -> None:
+    assert TWO.demand("bearing displacement")[:4].tolist() == [0.1, 0.2, 0.3, np.inf]
+    over = TWO.exceeded(LimitState.displacement(0.25))
+    np.testing.assert_array_equal(over, [0, 0, 1, 1, 1, 1, np.nan])
+    over = TWO.exceeded(LimitState.bearing_failure())
+    np.testing.assert_array_equal(over, [0, 0, 0, 1, 1, 1, np.nan])
+    assert TWO.failed["status"].tolist() == ["newton_failed"]
+    with pytest.raises(FragilityError, match="quantity"):
+        TWO.exceeded(LimitState.drift(0.01))
+
+
+def test_capacities_by_hand() -> None:
+    table = TWO_IDA.capacities()
+    # a: holds at 2, fails at 4 (3 is not known); b: holds at 1, fails at 2
+    assert table["capacity"].tolist() == pytest.approx([math.sqrt(8.0), math.sqrt(2.0)])
+    assert table["failed"].tolist() == [1, 0]
+    crossed = TWO_IDA.capacities(LimitState.displacement(0.15))
+    assert crossed["capacity"].tolist() == pytest.approx([1.25, 0.75])  # on lines, from zero
+    ends = TWO_IDA.capacities(LimitState.displacement(0.4))
+    assert ends["capacity"].tolist() == pytest.approx([math.sqrt(8.0), math.sqrt(2.0)])
+
+
+def test_capacities_that_are_not_reached_or_reached_twice() -> None:
+    found = IDA(
+        runs([("a", 1.0, 0.1), ("a", 2.0, 0.2), ("b", 1.0, 0.3), ("b", 2.0, 0.1),
+              ("c", 2.0, "slip_exceeded")]),
+        LimitState.displacement(0.25), HuntFill(first=1.0),
+    ).capacities()  # fmt: skip
+    assert found["censored"].tolist() == [True, False, False]
+    assert found["capacity"].tolist() == pytest.approx([2.0, 0.25 / 0.3, 1.0])
+    assert found["resurrects"].tolist() == [False, True, False]
+    lost = IDA(runs([("a", 1.0, "singular")]), LimitState.drift(0.1), HuntFill(first=1.0))
+    with pytest.raises(FragilityError, match="no run succeeded"):
+        lost.capacities(LimitState.bearing_failure())
+
+
+def test_demands_between_runs_and_fractiles_by_hand() -> None:
+    at = [0.5, 1.5, 2.0, 2.5, 3.0]
+    found = TWO_IDA.demands_at(at, "bearing displacement")
+    np.testing.assert_allclose(found[0], [0.05, 0.2, 0.3, 0.3, np.inf])
+    np.testing.assert_allclose(found[1], [0.1, np.inf, np.inf, np.inf, np.inf])
+    table = TWO_IDA.fractiles("bearing displacement", at, (0.0, 50.0, 100.0))
+    np.testing.assert_allclose(table["0 %"], [0.05, 0.2, 0.3, 0.3, np.inf])
+    np.testing.assert_allclose(table["50 %"], [0.075] + [np.inf] * 4)
+    np.testing.assert_allclose(table["100 %"], [0.1] + [np.inf] * 4)
+    short = IDA(runs([("a", 1.0, 0.1), ("b", 2.0, 0.2)]), LimitState.drift(1), HuntFill(first=1.0))
+    assert np.isnan(short.fractiles("bearing displacement", [1.5])["50 %"]).all()
+
+
+def test_runs_that_cannot_be_used_are_refused() -> None:
+    with pytest.raises(FragilityError, match="no run"):
+        IntensityRuns(TWO.table.iloc[:0], SCALE, {})
+    with pytest.raises(FragilityError, match="no column"):
+        IntensityRuns(TWO.table.drop(columns="im"), SCALE, {})
+    with pytest.raises(FragilityError, match="one measure"):
+        TWO.joined(IntensityRuns(TWO.table, Intensity(kind="PGA"), TWO.units))
+    assert len(TWO.joined(TWO).table) == 14
+    with pytest.raises(FragilityError, match="no demand"):
+        fragility_of(TWO, LimitState.bearing_failure(), method="cloud")
+    with pytest.raises(FragilityError, match="of an IDA"):
+        fragility_of(TWO, LimitState.bearing_failure(), method="capacities")
+
+
+def test_figures_hold_what_they_show() -> None:
+    limit = LimitState.displacement(0.25)
+    panel = ida_curves(TWO_IDA, "bearing displacement", limit=limit).axes[0]
+    x, y = panel.lines[0].get_data()
+    np.testing.assert_allclose(x, [0.0, 100.0, 300.0])  # mm
+    np.testing.assert_allclose(y, [0.0, 1.0, 2.0])
+    assert panel.lines[1].get_ydata() == pytest.approx([math.sqrt(8.0)] * 2)  # flat
+    assert panel.get_xlabel() == "bearing displacement [mm]"
+    figure = stripes(TWO, "bearing displacement", limit=limit)
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels == ["complete", f"exceeds: {limit.name}", "failure of a bearing"]
+    assert "1 failed numerically" in figure.legends[0].get_title().get_text()
+    held, over, _, fell = (len(line.get_xdata()) for line in figure.axes[0].lines)
+    assert (held, over, fell) == (2, 1, 3)
+
+
+def test_figure_of_fragility() -> None:
+    capacities = np.array([1.0, 2.0, 2.5, 3.0, 4.0])
+    found = IDA(
+        runs([(f"r{k}", c * f, v) for k, c in enumerate(capacities)
+              for f, v in ((0.99, 0.1), (1.01, "slip_exceeded"))]),
+        LimitState.bearing_failure(), HuntFill(first=1.0),
+    )  # fmt: skip
+    curve = fragility_of(found, LimitState.bearing_failure(), resamples=50)
+    assert curve.median == pytest.approx(np.exp(np.log(capacities).mean()), rel=1e-4)
+    figure = fragility_curves({"device": curve})
+    panel = figure.axes[0]
+    im, probability = panel.lines[0].get_data()
+    np.testing.assert_allclose(probability, curve.probability(im))
+    marks = panel.lines[1].get_data()
+    np.testing.assert_allclose(marks[0], capacities, rtol=1e-3)
+    np.testing.assert_allclose(marks[1], [0.1, 0.3, 0.5, 0.7, 0.9])
+    assert figure.legends[0].get_texts()[0].get_text() == "device"
+    with pytest.raises(FragilityError, match="0 curves"):
+        fragility_curves([])
+    with pytest.raises(TypeError, match="a fragility curve"):
+        fragility_curves(["curve"])  # type: ignore[list-item]
