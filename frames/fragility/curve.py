@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from scipy.optimize import brentq
-from scipy.special import expit, ndtr, ndtri
 
 from frames._errors import FragilityError
 from frames._types import FloatArray
@@ -154,12 +152,12 @@ class Fragility(Estimate):
 
     def probability(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities, in their shape."""
-        return np.asarray(ndtr(_distance(im, self.median, self.dispersion)))
+        return _normal(_distance(im, self.median, self.dispersion))
 
     def resampled(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities (m,) for each resample, (resamples, m)."""
         median, dispersion = self.parameters.T[:, :, None]
-        return np.asarray(ndtr(_distance(im, median, dispersion)))
+        return _normal(_distance(im, median, dispersion))
 
     def delta_band(
         self, im: npt.ArrayLike, confidence: float = 0.9
@@ -183,6 +181,8 @@ class Fragility(Estimate):
         FragilityError
             If the confidence is out of its bounds.
         """
+        from scipy.special import ndtri  # as below: not while `frames` is imported
+
         factor = float(ndtri(0.5 + 0.5 * checked_confidence(confidence)))
         z = np.atleast_1d(_distance(im, self.median, self.dispersion))
         own = math.sqrt(self.dispersion**2 - self.added**2)  # the one that was fitted
@@ -191,7 +191,7 @@ class Fragility(Estimate):
         spread = np.zeros_like(z)
         part = slope[:, inside]
         spread[inside] = np.sqrt(np.einsum("im,ij,jm->m", part, self.covariance, part))
-        return np.asarray(ndtr(z - factor * spread)), np.asarray(ndtr(z + factor * spread))
+        return _normal(z - factor * spread), _normal(z + factor * spread)
 
     def interval(self, confidence: float = 0.9) -> pd.DataFrame:
         """Return median and dispersion with their confidence intervals by resampling.
@@ -283,6 +283,8 @@ class CollapseFragility(Estimate):
 
     def _half(self, values: FloatArray) -> float:
         # Both parts rise: one of them is at one half where the median is sought first.
+        from scipy.optimize import brentq
+
         log_a, b, _, c0, c1 = values
         top = min((math.log(self.limit) - log_a) / b, -c0 / c1)
 
@@ -340,20 +342,30 @@ def checked_confidence(confidence: float) -> float:
     return require_between("confidence", confidence, 0.0, 1.0, "-", error=FragilityError)
 
 
-def _distance(im: npt.ArrayLike, median: object, dispersion: object) -> FloatArray:
+def _distance(
+    im: npt.ArrayLike, median: float | FloatArray, dispersion: float | FloatArray
+) -> FloatArray:
     # Standard deviations of the logarithm above the median; minus infinity at 0.
     at = np.asarray(im, dtype=np.float64)
     if (at < 0.0).any():
         msg = f"im = {at.min():g} must be at least 0"
         raise FragilityError(msg)
     with np.errstate(divide="ignore"):
-        return np.asarray(np.log(at / median) / dispersion)  # type: ignore[operator]
+        return np.asarray(np.log(at / median) / dispersion)
+
+
+def _normal(z: FloatArray) -> FloatArray:
+    from scipy.special import ndtr  # a good part of the time of `import frames`
+
+    return np.asarray(ndtr(z))
 
 
 def _of_cloud(im: npt.ArrayLike, limit: float, values: FloatArray) -> FloatArray:
+    from scipy.special import expit
+
     log_a, b, dispersion, c0, c1 = values
     x = _distance(im, 1.0, 1.0)
     collapse = expit(c0 + c1 * x)
     return np.asarray(
-        collapse + (1.0 - collapse) * ndtr((log_a + b * x - math.log(limit)) / dispersion)
+        collapse + (1.0 - collapse) * _normal((log_a + b * x - math.log(limit)) / dispersion)
     )

@@ -1,4 +1,4 @@
-"""Fragility fitted to stripes, to capacities and to clouds, with records resampled.
+"""Fragility fitted to stripes and to capacities, with records resampled.
 
 Likelihoods of stripes and of censored capacities are those of the package pyFragility (Dahal,
 Burton and Onyambu 2022, Structural Safety 96:102185), the optional extra "fragility".
@@ -7,31 +7,22 @@ Burton and Onyambu 2022, Structural Safety 96:102185), the optional extra "fragi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import pandas as pd
 
 from frames._errors import FragilityError
 from frames._types import FloatArray
-from frames.fragility.curve import CollapseFragility, Fragility
+from frames.fragility.curve import Fragility
 from frames.fragility.likelihood import Likely, binomial, censored_lognormal
-from lir_element.door import require_choice, require_positive, require_type
+from frames.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
+from lir_element.door import require_choice
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy.typing as npt
-
-RESAMPLES = 500
-"""Resamples of a confidence band, as a rule."""
-
-LEAST_FITS = 0.5
-"""Share of resamples that must allow a fit."""
-
-Fit = Callable[[FloatArray], FloatArray | None]
-"""Of the weights of the records (n,) to parameters, None where they allow no fit."""
 
 
 def fit_stripes(
@@ -77,14 +68,14 @@ def fit_stripes(
     -----
     Source: Baker (2015), Earthquake Spectra 31:579-599; the same as a regression of probits.
     """
-    at, over = _runs(im, exceeded, records)
+    at, over = checked_runs(im, exceeded, records)
     known = ~np.isnan(over)
     at, over = at[known], over[known]
     labels = np.array(records, dtype=object)[known]
     names, of = np.unique(labels.astype(str), return_inverse=True)
     fitted = binomial(at, over, np.ones(len(at)), "probit", clusters=of)
     if fitted is None:
-        raise FragilityError(_separated(at, over))
+        raise FragilityError(no_fit(at, over))
     start = fitted.parameters
     levels, level = np.unique(at, return_inverse=True)
 
@@ -110,7 +101,7 @@ def fit_stripes(
     })  # fmt: skip
     return Fragility(
         name=name, unit=unit, method="maximum likelihood (Baker 2015)", records=tuple(names),
-        seed=seed, parameters=_resampled(len(names), again, 2, resamples, seed), data=data,
+        seed=seed, parameters=resampled(len(names), again, 2, resamples, seed), data=data,
         median=float(median), dispersion=float(dispersion),
         covariance=jacobian @ fitted.covariance @ jacobian.T,
     )  # fmt: skip
@@ -167,7 +158,7 @@ def fit_capacities(
     >>> round(curve.median, 3), round(curve.dispersion, 3)
     (2.0, 0.693)
     """
-    at, _ = _runs(capacity, np.ones(np.shape(capacity)), records)
+    at, _ = checked_runs(capacity, np.ones(np.shape(capacity)), records)
     open_ = np.zeros(len(at), dtype=bool) if censored is None else np.asarray(censored, dtype=bool)
     if open_.shape != at.shape or len(set(records)) != len(at):
         msg = "capacity, censored and records must be lists of one length, a record once"
@@ -208,135 +199,10 @@ def fit_capacities(
     return Fragility(
         name=name, unit=unit, method=f"IDA, {chosen} (Baker 2015)",
         records=tuple(sorted(map(str, records))), seed=seed,
-        parameters=_resampled(len(at), fit, 2, resamples, seed),
+        parameters=resampled(len(at), fit, 2, resamples, seed),
         data=pd.DataFrame({"capacity": at, "censored": open_}),
         median=float(whole[0]), dispersion=float(whole[1]), covariance=covariance,
     )  # fmt: skip
-
-
-def fit_cloud(
-    im: npt.ArrayLike,
-    demand: npt.ArrayLike,
-    limit: float,
-    records: Sequence[str],
-    *,
-    name: str = "",
-    unit: str = "m/s2",
-    resamples: int = RESAMPLES,
-    seed: int = 1,
-) -> Fragility | CollapseFragility:
-    """Fit a curve to a cloud: a line through the logarithms of demand and intensity.
-
-    Parameters
-    ----------
-    im, demand : array_like, shape (n,)
-        Intensity and demand [SI] of each run, both positive; an infinite demand is collapse, NaN
-        is left out.
-    limit : float
-        Limit of the demand [SI].
-    records : sequence of str
-        Record of each run.
-    name, unit : str
-        The limit state, and the unit of the intensity.
-    resamples, seed : int
-        Resamples of the records, and their seed.
-
-    Returns
-    -------
-    Fragility or CollapseFragility
-        A lognormal curve where nothing collapsed, else one of five parameters.
-
-    Raises
-    ------
-    FragilityError
-        If the runs do not determine a curve.
-    ImportError
-        If runs collapsed and the package `pyFragility` is not installed.
-
-    Notes
-    -----
-    Source: Jalayer, Ebrahimian, Miano, Manfredi and Sezen (2017), Earthquake Eng. Struct. Dyn.
-    46:2639-2663: the standard deviation is that of n - 2, collapse a logistic regression.
-    """
-    at, found = _runs(im, demand, records)
-    bound = require_positive("limit", limit, error=FragilityError)
-    known = ~np.isnan(found)
-    at, found = at[known], found[known]
-    if (found <= 0.0).any():
-        msg = f"demand = {found.min():g} must be positive: leave such runs out of the cloud"
-        raise FragilityError(msg)
-    names, of = np.unique(np.array(records, dtype=str)[known], return_inverse=True)
-    fell = np.isinf(found)
-    x, y = np.log(at), np.log(np.where(fell, 1.0, found))
-    line = _line(x[~fell], y[~fell], np.ones(int((~fell).sum())))
-    if line is None:
-        msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more"
-        raise FragilityError(msg)
-    common: dict[str, Any] = {
-        "name": name, "unit": unit, "records": tuple(names), "seed": seed,
-        "data": pd.DataFrame({"im": at, "demand": found, "collapsed": fell}),
-    }  # fmt: skip
-    goal = math.log(bound)
-    if not fell.any():
-
-        def plain(weights: FloatArray) -> FloatArray | None:
-            again = _line(x, y, weights[of])
-            return None if again is None else _of_line(again, goal)
-
-        median, dispersion = _of_line(line, goal)
-        return Fragility(
-            method="cloud (Jalayer et al. 2017)", median=float(median),
-            dispersion=float(dispersion), covariance=_cloud_covariance(x, line, goal),
-            parameters=_resampled(len(names), plain, 2, resamples, seed), **common,
-        )  # fmt: skip
-    fitted = binomial(at, fell.astype(np.float64), np.ones(len(at)), "logit")
-    if fitted is None:
-        raise FragilityError(_separated(at, fell.astype(np.float64)))
-    start = fitted.parameters
-
-    def both(weights: FloatArray) -> FloatArray | None:
-        own = weights[of]
-        some = own > 0.0
-        again = _line(x[~fell], y[~fell], own[~fell])
-        falls = binomial(at[some], (own * fell)[some], own[some], "logit", start=start)
-        return None if again is None or falls is None else np.array([*again, *falls.parameters])
-
-    return CollapseFragility(
-        method="cloud with collapse (Jalayer et al. 2017)", limit=bound,
-        values=(float(line[0]), float(line[1]), float(line[2]), float(start[0]), float(start[1])),
-        parameters=_resampled(len(names), both, 5, resamples, seed), **common,
-    )  # fmt: skip
-
-
-def _runs(
-    im: npt.ArrayLike, values: npt.ArrayLike, records: Sequence[str]
-) -> tuple[FloatArray, FloatArray]:
-    at, found = np.asarray(im, dtype=np.float64), np.asarray(values, dtype=np.float64)
-    if at.ndim != 1 or at.shape != found.shape or len(records) != len(at):
-        msg = f"shapes {at.shape}, {found.shape}, {len(records)} records: give lists of one length"
-        raise FragilityError(msg)
-    if not (np.isfinite(at) & (at > 0.0)).all():
-        msg = f"intensity {at[~(at > 0.0)][:1].tolist()} must be positive and finite"
-        raise FragilityError(msg)
-    return at, found
-
-
-def _resampled(count: int, fit: Fit, size: int, resamples: int, seed: int) -> FloatArray:
-    # Parameters for records drawn with replacement; the same draws for the same count and seed.
-    require_type("seed", seed, int, "a whole number")
-    require_type("resamples", resamples, int, "a whole number")
-    require_positive("resamples", resamples, error=FragilityError)
-    rng = np.random.default_rng(seed)
-    found = np.full((resamples, size), np.nan)
-    for row in found:
-        again = fit(rng.multinomial(count, np.full(count, 1.0 / count)).astype(np.float64))
-        if again is not None:
-            row[:] = again
-    fits = int(np.isfinite(found).all(axis=1).sum())
-    if fits < LEAST_FITS * resamples:
-        msg = f"{fits} of {resamples} resamples allow a fit: run more records or intensities"
-        raise FragilityError(msg)
-    return found
 
 
 def _lognormal(parameters: FloatArray) -> FloatArray:
@@ -349,46 +215,3 @@ def _of_log(found: Likely) -> FloatArray:
     # Covariance of ln median and dispersion, from that of both themselves.
     change = np.diag([1.0 / found.parameters[0], 1.0])
     return np.asarray(change @ found.covariance @ change)
-
-
-def _line(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray | None:
-    # Intercept, slope and standard deviation (of n - 2) of a line; None where it does not rise.
-    total = weights.sum()
-    if total < 3.0 or len(np.unique(x[weights > 0.0])) < 3:
-        return None
-    mean_x, mean_y = np.average(x, weights=weights), np.average(y, weights=weights)
-    slope = (weights * (x - mean_x) * (y - mean_y)).sum() / (weights * (x - mean_x) ** 2).sum()
-    start = mean_y - slope * mean_x
-    square = (weights * (y - start - slope * x) ** 2).sum() / (total - 2.0)
-    return np.array([start, slope, math.sqrt(square)]) if slope > 0.0 and square > 0.0 else None
-
-
-def _of_line(line: FloatArray, goal: float) -> FloatArray:
-    # Median and dispersion of the intensity at which a line reaches a logarithm.
-    start, slope, spread = line
-    return np.array([math.exp((goal - start) / slope), spread / slope])
-
-
-def _cloud_covariance(x: FloatArray, line: FloatArray, goal: float) -> FloatArray:
-    # Of ln median and dispersion, from least squares.
-    start, slope, spread = line
-    design = np.column_stack([np.ones_like(x), x])
-    whole = np.zeros((3, 3))
-    whole[:2, :2] = spread**2 * np.linalg.inv(design.T @ design)
-    whole[2, 2] = 0.5 * spread**2 / (len(x) - 2.0)
-    log_median = (goal - start) / slope
-    jacobian = np.array([
-        [-1.0 / slope, -log_median / slope, 0.0], [0.0, -spread / slope**2, 1.0 / slope],
-    ])  # fmt: skip
-    return np.asarray(jacobian @ whole @ jacobian.T)
-
-
-def _separated(at: FloatArray, over: FloatArray) -> str:
-    if not over.any() or over.all():
-        what = "no run exceeds" if not over.any() else "all runs exceed"
-        return f"{what} the limit state: run {'higher' if not over.any() else 'lower'} intensities"
-    return (
-        f"no fit: exceeded from {at[over > 0.5].min():.4g}, not exceeded up to "
-        f"{at[over < 0.5].max():.4g}; the outcomes must overlap and exceedance grow with the "
-        "intensity: run more records, or intensities between"
-    )

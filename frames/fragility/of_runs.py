@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from frames._errors import FragilityError
-from frames.fragility.analyses import IDA
-from frames.fragility.fitting import RESAMPLES, fit_capacities, fit_cloud, fit_stripes
+from frames.fragility.cloud_fit import fit_cloud
+from frames.fragility.fitting import fit_capacities, fit_stripes
+from frames.fragility.incremental import IDA
 from frames.fragility.limit_state import LimitState
+from frames.fragility.resampling import RESAMPLES
 from frames.fragility.runs import IntensityRuns
 from lir_element.door import require_choice, require_type
 

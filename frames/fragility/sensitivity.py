@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from frames._errors import FragilityError
 from frames._types import FloatArray
@@ -171,8 +170,10 @@ def sobol_indices(
         what = f"{bad[0]} = {distributions[bad[0]]!r}" if bad else "no parameter"
         msg = f"{what}: give distributions by name, such as scipy.stats.uniform(0.05, 0.02)"
         raise FragilityError(msg)
+    from scipy.stats import qmc  # takes longer than all of `import frames`
+
     d, rng = len(names), np.random.default_rng(seed)
-    points = stats.qmc.Sobol(2 * d, rng=rng).random(samples).T
+    points = qmc.Sobol(2 * d, rng=rng).random(samples).T
     a, b = (
         np.array([distributions[name].ppf(row) for name, row in zip(names, half, strict=True)])
         for half in (points[:d], points[d:])
@@ -206,6 +207,8 @@ def sobol_indices(
 
 def _indices(table: FloatArray) -> FloatArray:
     # First and total indices (2, d) of results of both samples, and of the mixed ones.
+    from scipy import stats
+
     found = stats.sobol_indices(
         func={"f_A": table[None, 0], "f_B": table[None, 1], "f_AB": table[2:, None]},
         n=table.shape[1],

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from frames._errors import FragilityError
-from frames.fragility.analyses import IDA
+from frames.fragility.incremental import IDA
 from frames.fragility.limit_state import LimitState
 from frames.fragility.runs import COMPLETE, FAILURE, IntensityRuns
 from frames.plots import plot_style as ps
