@@ -14,7 +14,7 @@ from frames.fragility.runs import IntensityRuns, run_at
 from lir_element.door import require_positive, require_type
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from frames.model.contents import FrameContents
 
@@ -26,6 +26,7 @@ def ida(
     intensity: Intensity,
     rules: HuntFill,
     limit: LimitState | None = None,
+    known: IntensityRuns | None = None,
     **options: Any,
 ) -> IDA:
     """Analyse a structure under motions of rising intensity, up to a limit state.
@@ -44,6 +45,9 @@ def ida(
         How intensities are chosen.
     limit : LimitState, optional
         What is hunted; failure of a bearing if None.
+    known : IntensityRuns, optional
+        Runs of the same structure and measure that are there already, as of an analysis that was
+        interrupted: it goes on from them.
     **options
         Of `time_histories`: `level`, `dt`, `workers` and so on.
 
@@ -55,7 +59,8 @@ def ida(
     Raises
     ------
     FragilityError
-        If an argument is of another kind, or an option is one that is decided here.
+        If an option is one that is decided here, or `known` is of another measure or has runs of
+        motions that are not given.
 
     Warns
     -----
@@ -66,17 +71,36 @@ def ida(
     require_type("rules", rules, HuntFill, "a HuntFill")
     state = LimitState.bearing_failure() if limit is None else limit
     grounds = named_motions(motions)
-    begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
-    runs = run_at(model, grounds, begin, intensity, options)
-    while cases := _next_cases(runs, rules, state):
+    if known is None:
+        begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
+        runs = run_at(model, grounds, begin, intensity, options)
+    else:
+        runs = _checked(known, grounds, intensity)
+    while cases := _next_cases(runs, tuple(grounds), rules, state):
         runs = runs.joined(run_at(model, grounds, cases, intensity, options))
     return IDA(runs, state, rules)
 
 
-def _next_cases(runs: IntensityRuns, rules: HuntFill, limit: LimitState) -> list[tuple[str, float]]:
+def _checked(
+    known: IntensityRuns, motions: Mapping[str, object], intensity: Intensity
+) -> IntensityRuns:
+    require_type("known", known, IntensityRuns, "IntensityRuns")
+    if known.intensity != intensity:
+        msg = f"known is of {known.intensity.label}, not of {intensity.label}: take one measure"
+        raise FragilityError(msg)
+    stray = [name for name in known.motions if name not in motions]
+    if stray:
+        msg = f"known has runs of {stray[0]!r}, which is not among the motions: give it, too"
+        raise FragilityError(msg)
+    return known
+
+
+def _next_cases(
+    runs: IntensityRuns, motions: Sequence[str], rules: HuntFill, limit: LimitState
+) -> list[tuple[str, float]]:
     over, im = runs.exceeded(limit), runs.table["im"].to_numpy()
     cases = []
-    for motion in runs.motions:
+    for motion in motions:
         own = runs.table["motion"].to_numpy() == motion
         cases += [(motion, level) for level in rules.next_intensities(im[own], over[own])]
     return cases

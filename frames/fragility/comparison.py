@@ -21,29 +21,26 @@ class Comparison:
 
     Attributes
     ----------
-    names : tuple of str
-        Limit states of the first and the second curve.
-    median_ratio : float
-        Median of the second over that of the first [-]: above 1 the second holds more.
-    median_ratios : ndarray, shape (resamples,)
-        The same for each resample; NaN where one of both allowed no fit.
+    unit : str
+        Unit of the intensity.
+    medians : tuple of float
+        Of the first and the second curve.
+    resampled_medians : ndarray, shape (2, resamples)
+        The same of each resample; NaN where it allowed no fit.
     rates : tuple of float, or None
         Mean annual frequencies of both [1/year]; None without a hazard.
-    rate_ratios : ndarray, shape (resamples,), or None
-        Rate of the second over that of the first for each resample [-].
-    rate_differences : ndarray, shape (resamples,), or None
-        Rate of the second less that of the first for each resample [1/year].
+    resampled_rates : ndarray, shape (2, resamples), or None
+        The same of each resample.
     """
 
-    names: tuple[str, str]
-    median_ratio: float
-    median_ratios: FloatArray
+    unit: str
+    medians: tuple[float, float]
+    resampled_medians: FloatArray
     rates: tuple[float, float] | None
-    rate_ratios: FloatArray | None
-    rate_differences: FloatArray | None
+    resampled_rates: FloatArray | None
 
     def to_dataframe(self, confidence: float = 0.9) -> pd.DataFrame:
-        """Return ratios and differences with their intervals.
+        """Return the second over the first, and less the first, with their intervals.
 
         Parameters
         ----------
@@ -53,9 +50,9 @@ class Comparison:
         Returns
         -------
         pandas.DataFrame
-            Rows "median, ratio [-]" and with a hazard "rate, ratio [-]" and "rate, difference
-            [1/year]"; columns "value", "low", "high" and "second better", the share of resamples
-            in which the second holds more, or is exceeded less often.
+            Rows "median, ratio [-]", "median, difference [...]" and with a hazard the same of the
+            rate; columns "value", "low", "high" and "second better", the share of resamples in
+            which the second holds more, or is exceeded less often.
 
         Raises
         ------
@@ -63,21 +60,31 @@ class Comparison:
             If the confidence is out of its bounds.
         """
         tail = 0.5 * (1.0 - checked_confidence(confidence))
-        rows = {"median, ratio [-]": (self.median_ratio, self.median_ratios, 1.0, 1.0)}
-        if self.rates is not None and self.rate_ratios is not None:
-            first, second = self.rates
-            rows["rate, ratio [-]"] = (second / first, self.rate_ratios, 1.0, -1.0)
-        if self.rates is not None and self.rate_differences is not None:
-            first, second = self.rates
-            rows["rate, difference [1/year]"] = (second - first, self.rate_differences, 0.0, -1.0)
-        table = {}
-        for name, (value, resampled, equal, sign) in rows.items():
-            known = resampled[np.isfinite(resampled)]
-            low, high = np.quantile(known, [tail, 1.0 - tail])
-            table[name] = (value, low, high, float((sign * (known - equal) > 0.0).mean()))
+        rows = _rows("median", self.unit, self.medians, self.resampled_medians, tail, 1.0)
+        if self.rates is not None and self.resampled_rates is not None:
+            rows |= _rows("rate", "1/year", self.rates, self.resampled_rates, tail, -1.0)
         return pd.DataFrame.from_dict(
-            table, orient="index", columns=["value", "low", "high", "second better"]
+            rows, orient="index", columns=["value", "low", "high", "second better"]
         )
+
+
+def _rows(
+    name: str,
+    unit: str,
+    values: tuple[float, float],
+    resampled: FloatArray,
+    tail: float,
+    better: float,
+) -> dict[str, tuple[float, ...]]:
+    # Ratio and difference; `better` is the sign of a difference that is good.
+    first, second = resampled[:, np.isfinite(resampled).all(axis=0)]
+    share = float((better * (second - first) > 0.0).mean())
+    ends = [tail, 1.0 - tail]
+    ratio, difference = np.quantile(second / first, ends), np.quantile(second - first, ends)
+    return {
+        f"{name}, ratio [-]": (values[1] / values[0], *map(float, ratio), share),
+        f"{name}, difference [{unit}]": (values[1] - values[0], *map(float, difference), share),
+    }
 
 
 def compare_fragility(
@@ -126,17 +133,13 @@ def compare_fragility(
             "the same motions with one seed"
         )
         raise FragilityError(msg)
-    medians = [_medians(curve) for curve in (first, second)]
-    rates, ratios, differences = None, None, None
+    rates, resampled = None, None
     if hazard is not None:
         risks = [mean_annual_frequency(curve, hazard) for curve in (first, second)]
         rates = (risks[0].rate, risks[1].rate)
-        ratios = risks[1].resampled / risks[0].resampled
-        differences = risks[1].resampled - risks[0].resampled
-    return Comparison(
-        (first.name, second.name), second.median / first.median, medians[1] / medians[0],
-        rates, ratios, differences,
-    )  # fmt: skip
+        resampled = np.array([each.resampled for each in risks])
+    medians = np.array([_medians(curve) for curve in (first, second)])
+    return Comparison(first.unit, (first.median, second.median), medians, rates, resampled)
 
 
 def _medians(curve: Fragility | CollapseFragility) -> FloatArray:

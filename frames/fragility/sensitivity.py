@@ -173,7 +173,7 @@ def sobol_indices(
     from scipy.stats import qmc  # takes longer than all of `import frames`
 
     d, rng = len(names), np.random.default_rng(seed)
-    points = qmc.Sobol(2 * d, rng=rng).random(samples).T
+    points = ((qmc.Sobol(2 * d, scramble=False).random(samples) + rng.random(2 * d)) % 1.0).T
     a, b = (
         np.array([distributions[name].ppf(row) for name, row in zip(names, half, strict=True)])
         for half in (points[:d], points[d:])

@@ -54,6 +54,20 @@ def test_an_ida_brackets_the_failure_of_each_motion() -> None:
     assert table["capacity"].min() < curve.median < table["capacity"].max()
 
 
+def test_an_ida_goes_on_from_runs_that_are_there() -> None:
+    rules = HuntFill(first=0.3, runs=6)
+    whole = ida(MODEL, PULSES[:2], intensity=PGV, rules=rules).runs
+    part = IntensityRuns(whole.table.iloc[:3], PGV, whole.units)  # the second has one run
+    again = ida(MODEL, PULSES[:2], intensity=PGV, rules=rules, known=part).runs
+    columns = ["motion", "im", "status", "bearing displacement"]
+    tables = [each.table[columns].sort_values(["motion", "im"]) for each in (whole, again)]
+    assert tables[0].reset_index(drop=True).equals(tables[1].reset_index(drop=True))
+    with pytest.raises(FragilityError, match="not among the motions"):
+        ida(MODEL, PULSES[2:], intensity=PGV, rules=rules, known=part)
+    with pytest.raises(FragilityError, match="one measure"):
+        ida(MODEL, PULSES[:2], intensity=Intensity(kind="scale"), rules=rules, known=part)
+
+
 def test_stripes_are_the_same_runs_by_hand() -> None:
     found = multiple_stripes(MODEL, PULSES, [0.2, 0.4, 0.6, 0.8], intensity=PGV)
     assert sorted(set(found.table["im"])) == [0.2, 0.4, 0.6, 0.8]

@@ -1,6 +1,7 @@
 """Fragility curves: fits against closed forms and another program, bands against repetition."""
 
 import math
+import sys
 
 import numpy as np
 import pandas as pd
@@ -212,3 +213,10 @@ def test_what_determines_no_curve_is_refused() -> None:
         lognormal_fragility(1.0, 0.4).band([1.0], confidence=1.0)
     with pytest.raises(FragilityError, match="at least 0"):
         lognormal_fragility(1.0, 0.4).probability([-1.0])
+
+
+def test_without_the_package_an_error_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyFragility", None)
+    with pytest.raises(ImportError, match=r"lir-dcfp\[fragility\]"):
+        fit_stripes(*striped(drawn(3)))
+    assert fit_capacities(drawn(3), names(30), resamples=5).method.startswith("IDA, moments")

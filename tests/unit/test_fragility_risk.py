@@ -89,6 +89,7 @@ def test_pairs_tell_more_than_two_samples() -> None:
     median, ratio = found.loc["median, ratio [-]"], found.loc["rate, ratio [-]"]
     assert tuple(median) == pytest.approx((1.2, 1.2, 1.2, 1.0))
     assert tuple(ratio)[:3] == pytest.approx([1.2**-2.0] * 3, rel=1e-3)
+    assert found.loc["median, difference [m/s2]", "value"] == pytest.approx(0.2 * first.median)
     assert found.loc["rate, difference [1/year]", "value"] < 0.0
     assert compare_fragility(first, second).rates is None
 
