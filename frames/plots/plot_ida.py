@@ -62,9 +62,12 @@ def ida_curves(
     runs = found.runs
     require_choice("quantity", quantity, tuple(runs.units), error=FragilityError)
     demand = runs.demand(quantity)
-    factor, unit = ps.engineering(runs.units[quantity], float(_finite(demand).max(initial=0.0)))
+    is_drawn = limit is not None and limit.quantity == quantity
+    goal = limit.limit or 0.0 if limit is not None and is_drawn else 0.0
+    largest = max(goal, float(_finite(demand).max(initial=0.0)))
+    factor, unit = ps.engineering(runs.units[quantity], largest)
     size, text = shown_intensity(runs.intensity.unit, runs.intensity.label)
-    end = 1.08 * factor * float(_finite(demand).max(initial=0.0)) or 1.0
+    end = 1.08 * factor * largest or 1.0
     figure = ps.new_figure(4.2)
     panel = ps.grid_of(figure, 1, 1)[0][0]
     ends = found.capacities(LimitState.bearing_failure())
@@ -90,8 +93,8 @@ def ida_curves(
             x, y = np.append(x, end), np.append(y, y[-1])
         panel.plot([0.0, *x], [0.0, *y], **look)
         handles.append(Line2D([], [], label=f"{name} fractile of the demand", **look))
-    if limit is not None and limit.quantity == quantity and limit.limit is not None:
-        panel.axvline(factor * limit.limit, color=ps.GREY, linewidth=1.0, linestyle="--")
+    if limit is not None and is_drawn:
+        panel.axvline(factor * goal, color=ps.GREY, linewidth=1.0, linestyle="--")
         handles.append(Line2D([], [], label=limit.name, color=ps.GREY, linestyle="--"))
     panel.set_xlim(0.0, end)
     panel.set_ylim(bottom=0.0)
