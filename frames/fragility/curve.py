@@ -85,7 +85,8 @@ class Estimate:
         Returns
         -------
         tuple of ndarray, shape (m,)
-            Lower and upper probabilities: percentiles of the resamples.
+            Lower and upper probabilities: percentiles of the resamples. They are too narrow below
+            some 20 records (docs/fragility.md); of a lognormal curve there is `delta_band`.
 
         Raises
         ------
