@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Estimate:
+class Estimate(ABC):
     """How a curve was found: what both kinds of curves have in common.
 
     Attributes
@@ -53,6 +54,7 @@ class Estimate:
         """Number of resamples that allowed no fit; bands are of the others."""
         return int(np.isnan(self.parameters).any(axis=1).sum())
 
+    @abstractmethod
     def probability(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities, in their shape.
 
@@ -66,11 +68,10 @@ class Estimate:
         ndarray
             Probabilities of exceedance.
         """
-        raise NotImplementedError
 
+    @abstractmethod
     def resampled(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities (m,) for each resample, (resamples, m)."""
-        raise NotImplementedError
 
     def band(self, im: npt.ArrayLike, confidence: float = 0.9) -> tuple[FloatArray, FloatArray]:
         """Return a pointwise confidence band of the curve by resampling the records.
