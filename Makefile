@@ -7,13 +7,16 @@ RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types clean
+.PHONY: help demo docs test lint types clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
 
 demo: $(READY)  ## run the demonstration
 	$(RUN) -m frames.demo
+
+docs: $(READY)  ## build the site into build/docs
+	$(RUN) -m sphinx -W --keep-going -b html -c docs . build/docs
 
 test: lint types  ## lint, types and all tests
 	$(RUN) -m pytest
