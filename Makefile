@@ -16,7 +16,7 @@ demo: $(READY)  ## run the demonstration
 	$(RUN) -m frames.demo
 
 test: lint types  ## lint, types and all tests
-	$(RUN) -m pytest
+	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
 lint: $(READY)  ## ruff: rules and format
 	$(RUN) -m ruff check .
