@@ -19,7 +19,7 @@ docs: $(READY)  ## build the site into build/docs
 	$(RUN) -m sphinx -W --keep-going -b html -c docs . build/docs
 
 test: lint types  ## lint, types and all tests
-	$(RUN) -m pytest
+	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
 lint: $(READY)  ## ruff: rules and format
 	$(RUN) -m ruff check .
