@@ -1,4 +1,4 @@
-"""The command ``lir``: new, check, design, run, compare, schema."""
+"""The command ``lir``: new, check, design, run, report, compare, schema."""
 
 from __future__ import annotations
 
@@ -16,11 +16,17 @@ from rich.markup import escape
 
 from frames._errors import CheckError, ModelError, MotionError, ProjectError
 from frames.checks.check import CONFIRMED, Checks
-from frames.project.design_run import CODES, compare_devices, groundwork, run_project
+from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
 from frames.project.example import write_example
+from frames.project.groundwork import CODES, groundwork, inputs_of
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
-from frames.report.files import write_interrupted, write_run
+from frames.report.files import (
+    read_histories,
+    write_interrupted,
+    write_judgement,
+    write_run,
+)
 from frames.report.tables import rows_of
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisError, AnalysisInterrupted
@@ -102,9 +108,27 @@ def run(
             err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
             raise
         written = write_run(found, results, file.read_text(encoding="utf-8"))
-        _frame_table("Demands", found.demands)
-        _checks("Checks", found.checks)
-        _say(f"{len(written)} files in {results}, report.html among them")
+        _told_of(found, written, results)
+
+
+@app.command()
+def report(
+    file: File = FILE,
+    results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
+) -> None:
+    """Judge a run again and write its report anew, with the limits that the file has now."""
+    with _told():
+        parts = _parts(file)
+        known = groundwork(parts)
+        found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        written = write_judgement(found, results, file.read_text(encoding="utf-8"))
+        _told_of(found, written, results)
+
+
+def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
+    _frame_table("Demands", found.demands)
+    _checks("Checks", found.checks)
+    _say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from frames import AnalysisInterrupted, ProjectError, bounded, load, time_history
 from frames.command import app as command
 from frames.command.app import app
-from frames.project.design_run import groundwork
+from frames.project.groundwork import groundwork
 from frames.project.parts import Parts
 from frames.project.quantities import si
 from frames.project.reading import read_project, schema

@@ -164,3 +164,54 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
     data = paper.read_bytes()
     assert data.startswith(b"%PDF")
     assert 5 <= data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") <= 60
+
+
+def without_date(page: str) -> str:
+    return re.sub(r"written: [^;]*;", "", page)
+
+
+def test_it_is_written_anew_from_the_results(results: Path, page: str, tmp_path: Path) -> None:
+    """The same bytes, its date aside; with other limits judged anew, without a time history."""
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    file, kept = folder / "project.toml", folder / "results"
+    (kept / "report.html").unlink()
+    checks = (kept / "checks.csv").read_bytes()
+    again = ["report", str(file), "--results", str(kept)]
+    assert CliRunner().invoke(app, again).exit_code in {0, 1}
+    written = (kept / "report.html").read_text(encoding="utf-8")
+    assert without_date(written) == without_date(page)
+    assert (kept / "checks.csv").read_bytes() == checks
+
+    file.write_text(PROJECT + "[limits]\nfloor_acceleration = '0.01 m/s2'\n")
+    assert CliRunner().invoke(app, again).exit_code == 1
+    assert "floor acceleration" in (kept / "checks.csv").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("friction = 0.05", "friction = 0.06", "are of another input (bearing, motions differ)"),
+        ('bounds = ["lower", "upper"]', "dt = '5 ms'", "are of another input (analysis differ)"),
+        ("s_m1 = 0.6", "s_m1 = 0.7", "are of another input (motions differ)"),
+    ],
+)
+def test_results_of_another_input_are_refused(
+    results: Path, tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    file = folder / "project.toml"
+    file.write_text(PROJECT.replace(old, new))
+    done = CliRunner().invoke(app, ["report", str(file), "--results", str(folder / "results")])
+    assert done.exit_code == 2
+    assert words in " ".join(done.output.split())
+
+
+def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    again = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    (folder / "results" / "governing.nc").unlink()
+    assert "governing.nc" in CliRunner().invoke(app, again).output.replace("\n", "")
+    (folder / "results" / "run.json").unlink()
+    done = CliRunner().invoke(app, again)
+    assert done.exit_code == 2
+    assert "holds no run: `lir run` makes one" in " ".join(done.output.split())
