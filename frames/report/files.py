@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ProjectError
 from frames.project.design_run import Histories
+from frames.report.numbers import run_tables
 from frames.report.writing import report_html
 from frames.results.storage import load, save
 from lir_element.results.dataset import package_version
@@ -38,7 +39,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     -------
     list of Path
         ``project.toml``; ``runs-<bound>.nc``, the time histories; ``equivalent-linear.csv``,
-        ``demands.csv``, ``checks.csv`` in SI units; ``checks.txt`` with each calculation;
+        ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
+        ``members.csv`` in SI units; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
         outcome.
     """
@@ -54,13 +56,15 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
 
 def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
+    tables = run_tables(run)
     texts = {
         "project.toml": source,
+        **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
         "demands.csv": run.demands.to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
-        "report.html": report_html(run, source),
+        "report.html": report_html(run, source, tables),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     written = []

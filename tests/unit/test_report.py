@@ -16,6 +16,7 @@ pytest.importorskip("typer")
 import pandas as pd
 from typer.testing import CliRunner
 
+from frames import load
 from frames.command.app import app
 
 PROJECT = """
@@ -164,6 +165,23 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
     data = paper.read_bytes()
     assert data.startswith(b"%PDF")
     assert 5 <= data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") <= 60
+
+
+def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) -> None:
+    """Each bearing's largest of all runs; the friction that the bounds make of the file's."""
+    runs = [load(results / f"runs-{bound}.nc") for bound in ("lower", "upper")]
+    bearings = pd.read_csv(results / "bearings.csv", index_col=0)
+    for k, name in enumerate(bearings.index):
+        largest = max(float(one["reached_displacement"][:, k].max()) for one in runs)
+        least = min(float(-one["reached_axial_tension"][:, k].max()) for one in runs)
+        assert bearings.loc[name, "displacement [m]"] == pytest.approx(largest, rel=1e-12)
+        assert bearings.loc[name, "least load [N]"] == pytest.approx(least, rel=1e-12)
+        assert f"{1e3 * largest:.4g}" in cells(page, name)
+    friction = pd.read_csv(results / "friction.csv", index_col=0)
+    assert list(friction.loc["bottom surface"]) == pytest.approx([0.04, 0.05, 0.065])
+    assert list(friction.loc["interface"]) == pytest.approx([0.135, 0.15, 0.165])
+    periods = pd.read_csv(results / "modes.csv", index_col=0)
+    assert periods["period, sliding [s]"][1] > 2.0 > periods["period, held [s]"][1]
 
 
 def without_date(page: str) -> str:
