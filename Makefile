@@ -7,7 +7,7 @@ RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types clean
+.PHONY: help demo docs test lint types clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
@@ -15,8 +15,11 @@ help:  ## list the targets
 demo: $(READY)  ## run the demonstration
 	$(RUN) -m frames.demo
 
+docs: $(READY)  ## build the site into build/docs
+	$(RUN) -m sphinx -W --keep-going -b html -c docs . build/docs
+
 test: lint types  ## lint, types and all tests
-	$(RUN) -m pytest
+	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
 lint: $(READY)  ## ruff: rules and format
 	$(RUN) -m ruff check .

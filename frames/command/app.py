@@ -1,13 +1,14 @@
-"""The command ``lir``: new, check, design, run, compare, schema."""
+"""The command ``lir``: new, check, design, run, report, compare, bench, schema."""
 
 from __future__ import annotations
 
+import math
 import sys
 import warnings
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import pandas as pd
 import typer
@@ -16,11 +17,18 @@ from rich.markup import escape
 
 from frames._errors import CheckError, ModelError, MotionError, ProjectError
 from frames.checks.check import CONFIRMED, Checks
-from frames.project.design_run import CODES, compare_devices, groundwork, run_project
+from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
 from frames.project.example import write_example
+from frames.project.groundwork import CODES, groundwork, inputs_of
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
-from frames.report.files import write_interrupted, write_run
+from frames.project.speed import Way, recommended, ways_to_run
+from frames.report.files import (
+    read_histories,
+    write_interrupted,
+    write_judgement,
+    write_run,
+)
 from frames.report.tables import rows_of
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisError, AnalysisInterrupted
@@ -37,6 +45,7 @@ app = typer.Typer(
 out, err = Console(), Console(stderr=True)
 
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
+BENCH = Path("bench.csv")
 
 File = Annotated[Path, typer.Argument(help="The project's file.")]
 
@@ -102,9 +111,27 @@ def run(
             err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
             raise
         written = write_run(found, results, file.read_text(encoding="utf-8"))
-        _frame_table("Demands", found.demands)
-        _checks("Checks", found.checks)
-        _say(f"{len(written)} files in {results}, report.html among them")
+        _told_of(found, written, results)
+
+
+@app.command()
+def report(
+    file: File = FILE,
+    results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
+) -> None:
+    """Judge a run again and write its report anew, with the limits that the file has now."""
+    with _told():
+        parts = _parts(file)
+        known = groundwork(parts)
+        found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        written = write_judgement(found, results, file.read_text(encoding="utf-8"))
+        _told_of(found, written, results)
+
+
+def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
+    _frame_table("Demands", found.demands)
+    _checks("Checks", found.checks)
+    _say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 
@@ -114,6 +141,56 @@ def compare(file: File = FILE) -> None:
     """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
     with _told():
         _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
+
+
+@app.command()
+def bench(
+    file: File = FILE,
+    error: Annotated[float, typer.Option(help="Allowed in the peaks [-].")] = 0.01,
+    contact: Annotated[bool, typer.Option(help="Also at the level contact.")] = False,
+    table: Annotated[Path, typer.Option(help="Where the table is kept.")] = BENCH,
+) -> None:
+    """Run the first motion with several steps: how fast this machine is, and with which error."""
+    ways: list[Way] = []
+    with _told():
+        ground = groundwork(_parts(file))
+        name, motion = next(iter(ground.motions.items()))
+        _say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
+        _say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
+        try:
+            for way in ways_to_run(ground.frame, motion, levels=_levels(contact)):
+                ways.append(way)
+                _say(_line_of(way))
+        finally:
+            if ways:
+                pd.DataFrame(ways).to_csv(table, index=False)
+        best = recommended(ways[1:], error)
+        if best is None:
+            _say(f"no step keeps {error:.3g} of the peaks")
+        else:
+            step = "leave dt out" if math.isnan(best.dt) else f'dt = "{1e3 * best.dt:g} ms"'
+            _say(f'within {error:.3g} of the peaks: [analysis] {step}, level = "{best.level}"')
+        _say(f"the table is in {table}")
+
+
+_LINE = "{:>9} {:>9} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8}  {}"
+_PEAKS = ("u", "shear", "accel.")
+
+
+def _levels(contact: bool) -> tuple[Literal["pendulum", "contact"], ...]:
+    return ("pendulum", "contact") if contact else ("pendulum",)
+
+
+def _line_of(way: Way) -> str:
+    errors = (
+        "-" if math.isnan(e) else f"{100.0 * e:.3f} %"
+        for e in (way.displacement, way.base_shear, way.acceleration)
+    )
+    return _LINE.format(
+        "chosen" if math.isnan(way.dt) else f"{1e3 * way.dt:g} ms", way.level, way.steps,
+        f"{1e6 * way.seconds / max(way.steps, 1):.1f}", f"{way.seconds:.3f}", f"{way.share:.4f}",
+        *errors, way.status,
+    )  # fmt: skip
 
 
 @app.command(name="schema")

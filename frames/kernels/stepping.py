@@ -30,6 +30,7 @@ _SHORTER = 0.4  # of a step that does not do: between 1/10 and 1/2 (Dennis and S
 _TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is taken as it is (a choice)
 _PATIENCE = 3  # tries: then a residual that rises a little does, past a corner of a law (a choice)
 _RISE = 2.0  # of the residual that is little (a choice)
+_GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
 
 
 @inlined
@@ -180,15 +181,41 @@ def newton(
     """
     n_b = run.step.shape[0]
     clock = run.clock[0]
-    size = set_residual(model, run, contacts, parts, linear, run.step, share)
-    if size == math.inf:  # start from rest instead
-        for a in range(n_b):
-            run.step[a] = 0.0
-        size = set_residual(model, run, contacts, parts, linear, run.step, share)
-        if size == math.inf:
-            return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
     kept = clock.kept == clock.halvings + 1
-    for _ in range(max_iterations):
+    size, factor = math.inf, 1.0
+    at, tries, passes = _GUESS, 0, 0
+    while True:  # one place where the bearings are run: they are its code
+        if at == _CORRECTED:
+            for a in range(n_b):
+                run.g_b[a] = run.step[a] + factor * run.h_b[a]
+        trial = run.g_b if at == _CORRECTED else run.step
+        new = set_residual(model, run, contacts, parts, linear, trial, share)
+        if at == _GUESS and new == math.inf:  # start from rest instead
+            at = _REST
+            for a in range(n_b):
+                run.step[a] = 0.0
+            continue
+        if at == _CORRECTED:
+            tries += 1
+            good = new < size or (tries > _PATIENCE and new < _RISE * size)
+            if not good and not kept and tries < _TRIES:
+                factor *= _SHORTER
+                continue
+            if kept and not new < size:  # back to where it was, with a tangent of its own
+                kept = False
+                at = _BACK
+                continue
+        if new == math.inf and at != _BACK:
+            return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
+        if at == _CORRECTED:
+            for a in range(n_b):
+                run.step[a] = run.g_b[a]
+            kept = new * (new / size) ** worth <= tolerance
+        if at != _BACK:
+            size = new
+        if passes == max_iterations:
+            return _NEWTON_FAILED
+        passes += 1
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
@@ -200,26 +227,7 @@ def newton(
         for a in range(n_b):
             run.h_b[a] = run.residual[a]
         substitute(run.tangent, run.order, run.h_b)
-        factor = 1.0
-        new = math.inf
-        for attempt in range(1 if kept else _TRIES):
-            for a in range(n_b):
-                run.g_b[a] = run.step[a] + factor * run.h_b[a]
-            new = set_residual(model, run, contacts, parts, linear, run.g_b, share)
-            if new < size or (attempt >= _PATIENCE and new < _RISE * size):
-                break
-            factor *= _SHORTER
-        if kept and not new < size:  # back to where it was, with a tangent of its own
-            kept = False
-            set_residual(model, run, contacts, parts, linear, run.step, share)
-            continue
-        if new == math.inf:
-            return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
-        for a in range(n_b):
-            run.step[a] = run.g_b[a]
-        kept = new * (new / size) ** worth <= tolerance
-        size = new
-    return _NEWTON_FAILED
+        at, tries, factor = _CORRECTED, 0, 1.0
 
 
 @kernel

@@ -10,6 +10,7 @@ no display and keeps no state. ``start`` and ``end`` [s] show a part of the time
 between figures of the same systems.
 """
 
+from frames.plots.bearing_dimensions import bearing_dimensions as bearing_dimensions
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
 from frames.plots.plot_fragility import fragility_curves as fragility_curves
@@ -35,6 +36,7 @@ from frames.plots.plot_summaries import storey_profiles as storey_profiles
 
 __all__ = [
     "QUANTITIES",
+    "bearing_dimensions",
     "bearing_plan",
     "bearing_sections",
     "design_spectra",

@@ -11,18 +11,14 @@ import pandas as pd
 
 from frames.analysis.recording import Recording
 from frames.analysis.transient import time_history
-from frames.checks.analysis import equivalent_linear
-from frames.checks.asce7 import ASCE7
 from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
-from frames.checks.en1998 import EN1998
 from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.history_rules import HISTORY_RULES
-from frames.checks.isolation import IsolationSystem
-from frames.checks.nch2745 import NCh2745
+from frames.project.groundwork import groundwork, inputs_of
 from frames.project.parts import RULES
 from lir_element.errors import AnalysisWarning
 
@@ -40,16 +36,8 @@ if TYPE_CHECKING:
     from frames.frame import Frame
     from frames.hazard.motion_set import MotionSet
     from frames.hazard.spectrum import Spectrum
+    from frames.project.groundwork import Groundwork
     from frames.project.parts import Parts
-
-CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
-"""Equivalent-linear analysis by a project's code."""
-
-_RANGES = {
-    "ASCE 7-22": (0.75, 1.25), "EN 1998": (0.2, 2.0), "NCh2745": (0.5, 1.25),
-}  # fmt: skip
-"""Range of periods of scaling, over the shortest and the longest effective period."""
-
 
 _ALWAYS = frozenset({"restoring force", "recentring, energy", "recentring, displacement"})
 """Equivalent-linear checks that time histories do not make; the others are limits of that
@@ -87,6 +75,8 @@ class ProjectRun:
         Histories of the run that displaces a bearing most.
     governing_case : str
         Which that is.
+    inputs : mapping of str to str
+        Digests of what the time histories depend on, by section of the file.
     """
 
     frame: Frame
@@ -101,93 +91,26 @@ class ProjectRun:
     loads: tuple[float, ...]
     governing: xr.Dataset
     governing_case: str
+    inputs: Mapping[str, str]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Groundwork:
-    """What is known of a project before its time histories.
+class Histories:
+    """The time histories of a project.
 
     Attributes
     ----------
-    frame : Frame
-        The structure on its bearings, friction nominal.
-    system : IsolationSystem
-        The bearings with their places and loads.
-    spectrum : Spectrum
-        The design spectrum.
-    equivalent : EquivalentLinear
-        Equivalent-linear analysis at both bounds.
-    motions : MotionSet
-        Scaled as the file asks.
+    runs : mapping of str to xarray.Dataset
+        By bound, a row a motion.
+    governing : xarray.Dataset
+        Histories of the run that displaces a bearing most.
+    governing_case : str
+        Which that is.
     """
 
-    frame: Frame
-    system: IsolationSystem
-    spectrum: Spectrum
-    equivalent: EquivalentLinear
-    motions: MotionSet
-
-
-def groundwork(parts: Parts) -> Groundwork:
-    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
-
-    Parameters
-    ----------
-    parts : Parts
-        The project.
-
-    Returns
-    -------
-    Groundwork
-        All that needs no time history.
-
-    Raises
-    ------
-    ProjectError
-        If a section cannot be.
-    CheckError, ModelError, MotionError
-        If the analysis or the scaling fails.
-    """
-    frame, spectrum = parts.frame(), parts.spectrum()
-    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
-    code = CODES[parts.file.project.code]()
-    equivalent = equivalent_linear(
-        system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
-        code=code,
-    )  # fmt: skip
-    motions = scaled_motions(parts, spectrum, equivalent)
-    return Groundwork(
-        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
-    )
-
-
-def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinear) -> MotionSet:
-    """Return a project's motions scaled to the spectrum or by a number, as its file asks.
-
-    Parameters
-    ----------
-    parts : Parts
-        The project.
-    spectrum : Spectrum
-        The target.
-    equivalent : EquivalentLinear
-        Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
-        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 to 1.25; to be confirmed.
-
-    Returns
-    -------
-    MotionSet
-        The motions as they are run.
-    """
-    motions, scale = parts.motions(), parts.file.motions.scale
-    if scale != "spectrum":
-        return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
-    code = parts.file.project.code
-    low, high = _RANGES[code]
-    periods = [each.period for each in equivalent.bounds.values()]
-    return motions.scaled_to(
-        spectrum, rule=RULES[code], periods=(low * min(periods), high * max(periods))
-    )
+    runs: Mapping[Bound, xr.Dataset]
+    governing: xr.Dataset
+    governing_case: str
 
 
 def run_project(
@@ -214,9 +137,36 @@ def run_project(
     AnalysisInterrupted
         After Ctrl-C, with the runs that were complete.
     """
-    known, bounds, rules = groundwork(parts), parts.bounds(), _rules(parts)
-    frame = known.frame
-    runs = _histories(parts, frame, known.motions, progress)
+    known = groundwork(parts)
+    runs = _histories(parts, known.frame, known.motions, progress)
+    governing, case = _governing(parts, known.frame, known.motions, runs)
+    found = Histories(runs=runs, governing=governing, governing_case=case)
+    return judged_run(parts, known, found)
+
+
+def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> ProjectRun:
+    """Return a project's run from its time histories: demands and checks.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    known : Groundwork
+        What needs no time history.
+    histories : Histories
+        Those of this project.
+
+    Returns
+    -------
+    ProjectRun
+        Results and checks.
+
+    Raises
+    ------
+    CheckError
+        If a check cannot be made.
+    """
+    frame, bounds, rules, runs = known.frame, parts.bounds(), _rules(parts), histories.runs
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
     found += known.equivalent.general
@@ -225,12 +175,12 @@ def run_project(
     )
     demands = history_demands(runs, rules)
     found += _of_the_bearing(parts, known, demands)
-    governing, case = _governing(parts, frame, known.motions, runs)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
         equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
-        bounds=bounds, model=frame.check(), loads=known.system.loads, governing=governing,
-        governing_case=case,
+        bounds=bounds, model=frame.check(), loads=known.system.loads,
+        governing=histories.governing, governing_case=histories.governing_case,
+        inputs=inputs_of(parts, known),
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import io
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.plots import (
+    bearing_dimensions,
     bearing_plan,
     bearing_sections,
     energy,
@@ -47,8 +48,10 @@ def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
     """Return the figures of a run, by the section that they stand in."""
     data, where = run.governing, run.governing_case
     bearing = worst_bearing(data)
+    device = next(iter(run.frame.bearings.values())).bearing
     plans: dict[str, list[tuple[str, Callable[[], Figure]]]] = {
         "structure": [("The model", lambda: model_view(run.frame))],
+        "bearings": [("The bearing, to scale", lambda: bearing_dimensions(device))],
         "motions": [
             ("Spectra of the motions as they were run, and the design spectrum",
              lambda: motion_spectra(run.motions, run.spectrum)),

@@ -1,16 +1,21 @@
-"""The files that a project's run leaves: results, tables, checks with their calculations."""
+"""The files of a project's run: results, tables, checks with their calculations; read again."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
+from frames._errors import ProjectError
+from frames.project.design_run import Histories
+from frames.report.numbers import run_tables
 from frames.report.writing import report_html
-from frames.results.storage import save
+from frames.results.storage import load, save
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
     import xarray as xr
@@ -34,18 +39,32 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     -------
     list of Path
         ``project.toml``; ``runs-<bound>.nc``, the time histories; ``equivalent-linear.csv``,
-        ``demands.csv``, ``checks.csv`` in SI units; ``checks.txt`` with each calculation;
+        ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
+        ``members.csv`` in SI units; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
         outcome.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    written = {bound: folder / f"runs-{bound}.nc" for bound in run.runs}
+    for bound, path in written.items():
+        save(run.runs[bound], path)
+    governing = folder / "governing.nc"
+    save(run.governing, governing, compress=True)
+    as_kept = replace(run, governing=load(governing))  # rounded, as whoever reads it has it
+    return [*write_judgement(as_kept, folder, source), *written.values(), governing]
+
+
+def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
+    """Write what follows from a run's time histories, as `write_run` does; return the files."""
+    tables = run_tables(run)
     texts = {
         "project.toml": source,
+        **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
         "demands.csv": run.demands.to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
-        "report.html": report_html(run, source),
+        "report.html": report_html(run, source, tables),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     written = []
@@ -53,12 +72,50 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         path = folder / name
         path.write_text(text, encoding="utf-8")
         written.append(path)
-    for name, data in {**{f"runs-{b}": d for b, d in run.runs.items()},
-                       "governing": run.governing}.items():  # fmt: skip
-        path = folder / f"{name}.nc"
-        save(data, path, compress=True)
-        written.append(path)
     return written
+
+
+def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
+    """Read the time histories that a project's run left.
+
+    Parameters
+    ----------
+    folder : Path
+        Where `write_run` wrote them.
+    inputs : mapping of str to str
+        Digests of what the project's time histories depend on, now.
+
+    Returns
+    -------
+    Histories
+        As they were.
+
+    Raises
+    ------
+    ProjectError
+        If the folder does not hold a complete run, or that of another input: it says of which.
+    """
+    facts = folder / "run.json"
+    if not facts.is_file():
+        partly = (folder / "interrupted.nc").is_file()
+        msg = f"{folder} holds {'an interrupted run' if partly else 'no run'}: `lir run` makes one"
+        raise ProjectError(msg)
+    kept = json.loads(facts.read_text(encoding="utf-8"))
+    was = kept.get("inputs", {})
+    other = sorted(name for name in {*was, *inputs} if was.get(name) != inputs.get(name))
+    if other:
+        msg = (
+            f"the time histories in {folder} are of another input ({', '.join(other)} differ): "
+            "`lir run` makes new ones"
+        )
+        raise ProjectError(msg)
+    try:
+        runs = {bound: load(folder / f"runs-{bound}.nc") for bound in kept["runs"]}
+        governing = load(folder / "governing.nc")
+    except OSError as cause:
+        msg = f"{folder}: {cause}: `lir run` writes all files anew"
+        raise ProjectError(msg) from cause
+    return Histories(runs=runs, governing=governing, governing_case=kept["governing_case"])
 
 
 def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
@@ -89,6 +146,8 @@ def _facts(run: ProjectRun) -> dict[str, object]:
         "passed": run.checks.passed,
         "checks": len(run.checks),
         "failed": [str(check) for check in run.checks.failed],
+        "governing_case": run.governing_case,
+        "inputs": dict(run.inputs),
         "runs": {
             bound: {
                 "runs": data.sizes["run"],

@@ -1,4 +1,4 @@
-"""Tables for people: numbers of four digits, in mm and kN where a row has its unit."""
+"""Tables for people: numbers of four digits, in mm and kN where a row or column has its unit."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
-_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3)}
+_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
 
 
 def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tuple[str, ...]]:
@@ -39,3 +39,27 @@ def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tu
         )
         rows.append((str(name), *shown))
     return rows
+
+
+def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return a table whose columns name their unit with those in N as kN, in m as mm.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        Columns such as "slip [m]"; places, "x [m]" and "y [m]", stay as they are.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The table.
+    """
+    columns = {}
+    for title, values in frame.items():
+        name, _, unit = str(title).partition(" [")
+        shown, factor = _SHOWN.get(unit.removesuffix("]"), ("", 1.0))
+        if not shown or name in {"x", "y"}:
+            columns[str(title)] = values
+        else:
+            columns[f"{name} [{shown}]"] = factor * values
+    return type(frame)(columns, index=frame.index)

@@ -12,11 +12,11 @@ from markupsafe import Markup
 
 from frames.checks.rendering import quantity
 from frames.report.figures import pictures
-from frames.report.tables import rows_of
+from frames.report.tables import in_mm_and_kn, rows_of
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
 
@@ -41,7 +41,7 @@ class Judged(NamedTuple):
     steps: list[tuple[Markup, str]]
 
 
-def report_html(run: ProjectRun, source: str) -> str:
+def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]) -> str:
     """Return a run as a self-contained HTML page.
 
     Parameters
@@ -50,6 +50,8 @@ def report_html(run: ProjectRun, source: str) -> str:
         The run.
     source : str
         Text of the project's file.
+    tables : mapping of str to pandas.DataFrame
+        Of `run_tables`.
 
     Returns
     -------
@@ -71,8 +73,10 @@ def report_html(run: ProjectRun, source: str) -> str:
         limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
         model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
         bearing=Markup(device._repr_html_()),  # noqa: S704
-        schedule=_schedule(run),
-        bounds=_bounds(run),
+        schedule=_table(in_mm_and_kn(tables["bearings"]), "bearing"),
+        friction=_table(tables["friction"], "friction coefficient"),
+        modes=_table(tables["modes"], "mode"),
+        members=_table(tables["members"], "members"),
         motions=_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
         demands=_table(run.demands, "quantity"),
@@ -91,25 +95,6 @@ def _judged(check: Check) -> Judged:
         ratio=f"{check.ratio:.3f}",
         steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
     )
-
-
-def _schedule(run: ProjectRun) -> Table:
-    # Where each bearing stands, what it carries, what the histories' envelope asks of it.
-    head = ("bearing", "x [m]", "y [m]", "average load [kN]", "slider radius [mm]", "rims [mm]")
-    rows = []
-    for link, load in zip(run.frame.bearings.items(), run.loads, strict=True):
-        name, place = link[0], run.frame.nodes[link[1].j]
-        device = link[1].bearing
-        numbers = (place.x, place.y, 1e-3 * load, 1e3 * device.slider_radius,
-                   1e3 * device.lateral_capacity)  # fmt: skip
-        rows.append((name, *(f"{number:.4g}" for number in numbers)))
-    return Table(head, rows)
-
-
-def _bounds(run: ProjectRun) -> Table:
-    factors = {"surfaces": run.bounds.friction, "interface": run.bounds.interface_factors}
-    rows = [(name, f"{one.lower:g}", f"{one.upper:g}") for name, one in factors.items()]
-    return Table(("factor on the friction of", "lower", "upper"), rows)
 
 
 def _table(frame: pd.DataFrame, index: str) -> Table:

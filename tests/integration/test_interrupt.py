@@ -76,7 +76,7 @@ def test_answered_and_kept(level: str, options: str) -> None:
             assert child.stdout is not None
             for turn in range(TIMES):
                 assert child.stdout.readline() == "begin\n"
-                time.sleep(0.7 + 0.037 * turn)
+                time.sleep(1.0 + 0.037 * turn)
                 child.send_signal(signal.SIGINT)
                 sent = time.perf_counter()
                 words = child.stdout.readline().split()

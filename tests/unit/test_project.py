@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +18,11 @@ from typer.testing import CliRunner
 from frames import AnalysisInterrupted, ProjectError, bounded, load, time_history
 from frames.command import app as command
 from frames.command.app import app
-from frames.project.design_run import groundwork
+from frames.project.groundwork import groundwork
 from frames.project.parts import Parts
 from frames.project.quantities import si
 from frames.project.reading import read_project, schema
+from frames.project.speed import Way
 
 SMALL = """
 [project]
@@ -203,6 +205,36 @@ def test_the_devices_are_compared(folder: Path) -> None:
     assert done.exit_code == 0, done.output
     line = next(one for one in done.stdout.splitlines() if one.startswith("interface slip left"))
     assert line.split()[-1] == "0"  # the slider in one piece
+
+
+def test_steps_are_compared_with_a_finer_one(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error of a step falls with it, and the cheapest that keeps an error is named."""
+    monkeypatch.chdir(folder)
+    done = run(app, ["bench", "small.toml", "--error", "0.02"])
+    assert done.exit_code == 0, done.output
+    table = pd.read_csv("bench.csv")
+    assert list(table["dt"].fillna(0.0)) == [0.00125, 0.0, 0.02, 0.01, 0.005, 0.0025]
+    errors = table.set_index("dt")["displacement"]
+    assert errors[0.00125] == 0.0 < errors[0.0025] < errors[0.02] < 0.1
+    assert (table["seconds"] > 0.0).all()
+    good = table[1:][
+        (table[1:][["displacement", "base_shear", "acceleration"]] <= 0.02).all(axis=1)
+    ]
+    dt = good.loc[good["seconds"].idxmin(), "dt"]
+    said = "leave dt out" if math.isnan(dt) else f'dt = "{1e3 * dt:g} ms"'
+    assert f"within 0.02 of the peaks: [analysis] {said}" in done.stdout
+
+
+def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+
+    def few(*_: object, **__: object) -> Iterator[Way]:
+        yield Way(0.01, "pendulum", 100, 0.1, 0.01, 0.0, 0.0, 0.0, "ok")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "ways_to_run", few)
+    assert run(app, ["bench", "small.toml"]).exit_code == 130
+    assert len(pd.read_csv("bench.csv")) == 1
 
 
 def test_bearings_are_proposed_as_a_section(folder: Path) -> None:

@@ -16,6 +16,7 @@ pytest.importorskip("typer")
 import pandas as pd
 from typer.testing import CliRunner
 
+from frames import load
 from frames.command.app import app
 
 PROJECT = """
@@ -164,3 +165,71 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
     data = paper.read_bytes()
     assert data.startswith(b"%PDF")
     assert 5 <= data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") <= 60
+
+
+def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) -> None:
+    """Each bearing's largest of all runs; the friction that the bounds make of the file's."""
+    runs = [load(results / f"runs-{bound}.nc") for bound in ("lower", "upper")]
+    bearings = pd.read_csv(results / "bearings.csv", index_col=0)
+    for k, name in enumerate(bearings.index):
+        largest = max(float(one["reached_displacement"][:, k].max()) for one in runs)
+        least = min(float(-one["reached_axial_tension"][:, k].max()) for one in runs)
+        assert bearings.loc[name, "displacement [m]"] == pytest.approx(largest, rel=1e-12)
+        assert bearings.loc[name, "least load [N]"] == pytest.approx(least, rel=1e-12)
+        assert f"<td>{1e3 * largest:.4g}</td>" in page
+    friction = pd.read_csv(results / "friction.csv", index_col=0)
+    assert list(friction.loc["bottom surface"]) == pytest.approx([0.04, 0.05, 0.065])
+    assert list(friction.loc["interface"]) == pytest.approx([0.135, 0.15, 0.165])
+    periods = pd.read_csv(results / "modes.csv", index_col=0)
+    assert periods["period, sliding [s]"][1] > 2.0 > periods["period, held [s]"][1]
+
+
+def without_date(page: str) -> str:
+    return re.sub(r"written: [^;]*;", "", page)
+
+
+def test_it_is_written_anew_from_the_results(results: Path, page: str, tmp_path: Path) -> None:
+    """The same bytes, its date aside; with other limits judged anew, without a time history."""
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    file, kept = folder / "project.toml", folder / "results"
+    (kept / "report.html").unlink()
+    checks = (kept / "checks.csv").read_bytes()
+    again = ["report", str(file), "--results", str(kept)]
+    assert CliRunner().invoke(app, again).exit_code in {0, 1}
+    written = (kept / "report.html").read_text(encoding="utf-8")
+    assert without_date(written) == without_date(page)
+    assert (kept / "checks.csv").read_bytes() == checks
+
+    file.write_text(PROJECT + "[limits]\nfloor_acceleration = '0.01 m/s2'\n")
+    assert CliRunner().invoke(app, again).exit_code == 1
+    assert "floor acceleration" in (kept / "checks.csv").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("friction = 0.05", "friction = 0.06", "are of another input (bearing, motions differ)"),
+        ('bounds = ["lower", "upper"]', "dt = '5 ms'", "are of another input (analysis differ)"),
+        ("s_m1 = 0.6", "s_m1 = 0.7", "are of another input (motions differ)"),
+    ],
+)
+def test_results_of_another_input_are_refused(
+    results: Path, tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    file = folder / "project.toml"
+    file.write_text(PROJECT.replace(old, new))
+    done = CliRunner().invoke(app, ["report", str(file), "--results", str(folder / "results")])
+    assert done.exit_code == 2
+    assert words in " ".join(done.output.split())
+
+
+def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    again = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    (folder / "results" / "governing.nc").unlink()
+    assert "governing.nc" in CliRunner().invoke(app, again).output.replace("\n", "")
+    (folder / "results" / "run.json").unlink()
+    done = CliRunner().invoke(app, again)
+    assert done.exit_code == 2
+    assert "holds no run: `lir run` makes one" in " ".join(done.output.split())

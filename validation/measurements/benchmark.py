@@ -39,6 +39,8 @@ from validation.page import DPI, FOLDER, index
 KEPT = FOLDER / "benchmark.json"
 LIMIT = 3600.0
 """Seconds after which a case counts as hanging."""
+SMALLER = {"d256": "d100"}
+"""Where a structure takes steps and settings of OpenSees from; else from that of case b."""
 CASES = ("a", "b", "f", "profile", "e", "c", "d")
 """In the order in which they are run: later ones use the steps of b."""
 
@@ -60,7 +62,7 @@ def measured(key: str, kept: dict[str, Any], *, short: bool) -> dict[str, Any]:
     dict
         As `benchmark_cases.Found`; its "state" is "ok", "hang" or "crash".
     """
-    chosen = kept.get("b", {}).get("there")
+    chosen = kept.get(SMALLER.get(key, "b"), {}).get("there")
     with Worker(LIMIT) as worker:
         state, found = worker.run(measure, structure=STRUCTURES[key], chosen=chosen, short=short)
     return {"state": state, **(asdict(found) if found is not None else {})}

@@ -40,6 +40,8 @@ SOME = (PLAIN[0], RESILIENT[0])
 """Kinds that are run under large structures."""
 SEARCHED = 5
 """Steps by which a setting is judged for a large structure."""
+SEARCHABLE = 100
+"""Bearings, beyond which no setting is sought: building the model anew takes minutes each time."""
 COARSE = 2.5e-3
 """Step of the converged runs of large structures [s]."""
 
@@ -158,13 +160,13 @@ def measure(
 def _searched(
     structure: Structure, bearing: LIRBearing, kind: str, there: dict[str, Any]
 ) -> dict[str, Any]:
-    # Steps of the structure they come from; the best setting is this one's own: what is cheapest
-    # for few unknowns is not for many.
+    # Steps of the structure they come from; the best setting is this one's own, as far as it can
+    # be sought: what is cheapest for few unknowns is not for many.
     found = {
         name: {part: there[name][part] for part in ("dt", "setting")} for name in ("usual", "best")
     }
     dt = found["best"]["dt"]
-    if math.isfinite(dt):
+    if math.isfinite(dt) and structure.bearings <= SEARCHABLE:
         settings, _ = search(structure, bearing, kind, dt, SEARCHED * dt)
         if settings:
             found["best"]["setting"] = asdict(settings[0])

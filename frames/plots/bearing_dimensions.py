@@ -1,0 +1,99 @@
+"""A bearing at rest, to scale, with the dimensions that it is made by."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.plots import plot_style as ps
+from frames.plots.bearing_drawing import draw_section
+from frames.plots.bearing_geometry import Posture, outlines, rim_face
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from frames._types import FloatArray
+    from lir_element import LIRBearing
+
+_MARGIN = 0.12  # of the width, for the dimensions at each side
+
+
+def bearing_dimensions(bearing: LIRBearing) -> Figure:
+    """Draw a bearing's vertical section at rest with its dimensions.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    Figure
+        Slider, rims and heights in mm, radii and capacity below; plates are drawn as thick as the
+        rims need, for their thickness is no input.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> figure = bearing_dimensions(bearing)
+    """
+    rest = Posture(axis=np.array([0.0, 1.0]), plate_axis=np.array([0.0, 1.0]), slip=0.0)
+    bodies = outlines(bearing, rest)
+    corners = np.vstack(list(bodies.values()))
+    (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
+    width = right - left
+    aside = _MARGIN * width
+    share = (high - low + 2.4 * aside) / (width + 1.6 * aside)
+    figure = ps.new_figure(min(0.7 + share * ps.PAGE_WIDTH, 7.0))
+    ax = figure.subplots()
+    draw_section(ax, bearing, rest)
+    a, height = bearing.slider_radius, bearing.slider_height
+    _across(ax, a, height, high + 0.4 * aside, f"slider ø {2e3 * a:.0f}")
+    faces = [rim_face(bearing, k) for k in (0, 1)]
+    if all(map(math.isfinite, faces)):
+        _across(ax, faces[1], height, high + 1.2 * aside, f"top rim, inside ø {2e3 * faces[1]:.0f}")
+        _across(ax, faces[0], 0.0, low - 0.6 * aside, f"bottom rim, inside ø {2e3 * faces[0]:.0f}")
+    for radius, at in zip(bearing.radii, (0.5 * low, 0.5 * (high + height)), strict=True):
+        ax.text(0.0, at, f"R = {1e3 * radius:.0f}", ha="center", va="center", fontsize=ps.SMALL)
+    _upright(ax, right + 0.35 * aside, 0.0, height, f"h = {1e3 * height:.0f}")
+    ax.set_xlim(left - 0.5 * aside, right + 1.1 * aside)
+    ax.set_ylim(low - 0.8 * aside, high + 1.6 * aside)
+    ps.caption(ax, title="Dimensions in mm")
+    figure.supxlabel(_words(bearing), fontsize=ps.LABEL)
+    return figure
+
+
+def _words(bearing: LIRBearing) -> str:
+    parts = [f"effective radius {1e3 * bearing.effective_radius:.0f}"]
+    if math.isfinite(bearing.lateral_capacity):
+        bottom, top = (f"{1e3 * reach:.0f}" for reach in bearing.rim_displacement)
+        both = bottom if bottom == top else f"{bottom} (bottom) and {top} (top)"
+        parts.append(f"rims met after {both} of sliding")
+        parts.append(f"displacement at the rims {1e3 * bearing.lateral_capacity:.0f}")
+    return "; ".join(parts)
+
+
+def _across(ax: Axes, half: float, begin: float, at: float, text: str) -> None:
+    # From -half to half at a height, with lines from where that is measured.
+    for side in (-half, half):
+        ax.plot([side, side], [begin, at], color=ps.GREY, linewidth=0.4)
+    _arrow(ax, np.array([-half, at]), np.array([half, at]))
+    ax.text(0.0, at, text, ha="center", va="bottom", fontsize=ps.SMALL)
+
+
+def _upright(ax: Axes, at: float, start: float, end: float, text: str) -> None:
+    for height in (start, end):
+        ax.plot([0.0, at], [height, height], color=ps.GREY, linewidth=0.4)
+    _arrow(ax, np.array([at, start]), np.array([at, end]))
+    ax.text(at, 0.5 * (start + end), f" {text}", ha="left", va="center", fontsize=ps.SMALL)
+
+
+def _arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
+    line = {"arrowstyle": "<|-|>", "linewidth": 0.6, "color": "black", "shrinkA": 0, "shrinkB": 0,
+            "mutation_scale": 7}  # fmt: skip
+    ax.annotate("", xy=tuple(end), xytext=tuple(start), arrowprops=line)

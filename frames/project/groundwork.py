@@ -1,0 +1,159 @@
+"""What is known of a project before its time histories, and what these depend on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames.checks.analysis import equivalent_linear
+from frames.checks.asce7 import ASCE7
+from frames.checks.en1998 import EN1998
+from frames.checks.isolation import IsolationSystem
+from frames.checks.nch2745 import NCh2745
+from frames.project.parts import RULES
+from frames.project.schema import OpenSeesModel
+
+if TYPE_CHECKING:
+    from frames.checks.outcome import EquivalentLinear
+    from frames.frame import Frame
+    from frames.hazard.motion_set import MotionSet
+    from frames.hazard.spectrum import Spectrum
+    from frames.project.parts import Parts
+
+CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
+"""Equivalent-linear analysis by a project's code."""
+
+_RANGES = {
+    "ASCE 7-22": (0.75, 1.25), "EN 1998": (0.2, 2.0), "NCh2745": (0.5, 1.25),
+}  # fmt: skip
+"""Range of periods of scaling, over the shortest and the longest effective period."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Groundwork:
+    """What is known of a project before its time histories.
+
+    Attributes
+    ----------
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    system : IsolationSystem
+        The bearings with their places and loads.
+    spectrum : Spectrum
+        The design spectrum.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    motions : MotionSet
+        Scaled as the file asks.
+    """
+
+    frame: Frame
+    system: IsolationSystem
+    spectrum: Spectrum
+    equivalent: EquivalentLinear
+    motions: MotionSet
+
+
+def groundwork(parts: Parts) -> Groundwork:
+    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+
+    Returns
+    -------
+    Groundwork
+        All that needs no time history.
+
+    Raises
+    ------
+    ProjectError
+        If a section cannot be.
+    CheckError, ModelError, MotionError
+        If the analysis or the scaling fails.
+    """
+    frame, spectrum = parts.frame(), parts.spectrum()
+    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    code = CODES[parts.file.project.code]()
+    equivalent = equivalent_linear(
+        system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
+        code=code,
+    )  # fmt: skip
+    motions = scaled_motions(parts, spectrum, equivalent)
+    return Groundwork(
+        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
+    )
+
+
+def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinear) -> MotionSet:
+    """Return a project's motions scaled to the spectrum or by a number, as its file asks.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    spectrum : Spectrum
+        The target.
+    equivalent : EquivalentLinear
+        Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
+        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 to 1.25; to be confirmed.
+
+    Returns
+    -------
+    MotionSet
+        The motions as they are run.
+    """
+    motions, scale = parts.motions(), parts.file.motions.scale
+    if scale != "spectrum":
+        return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+    code = parts.file.project.code
+    low, high = _RANGES[code]
+    periods = [each.period for each in equivalent.bounds.values()]
+    return motions.scaled_to(
+        spectrum, rule=RULES[code], periods=(low * min(periods), high * max(periods))
+    )
+
+
+def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
+    """Return a digest of each section that the time histories of a project depend on.
+
+    Parameters
+    ----------
+    parts : Parts
+        The project.
+    known : Groundwork
+        Its motions as they are run.
+
+    Returns
+    -------
+    dict of str to str
+        By section, "motions" being the accelerations; what only judges, such as limits, has none.
+    """
+    file = parts.file
+    analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
+    said = {
+        "structure": file.structure.model_dump(mode="json"),
+        "bearing": None if file.bearing is None else file.bearing.model_dump(mode="json"),
+        "bounds": file.bounds.model_dump(mode="json"),
+        "analysis": analysis,
+    }
+    found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
+    if isinstance(file.structure, OpenSeesModel):
+        found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+    samples = [
+        name.encode() + repr(motion.dt).encode() + b"".join(
+            component.tobytes() for component in (motion.x, motion.y, motion.z)
+            if component is not None
+        )
+        for name, motion in known.motions.items()
+    ]  # fmt: skip
+    found["motions"] = _digest(b"".join(samples))
+    return found
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:16]

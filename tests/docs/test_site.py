@@ -1,0 +1,76 @@
+"""The site builds without a warning, and every public name is on it."""
+
+import importlib
+import subprocess  # runs this interpreter on the sources of the site  # noqa: S404
+import sys
+import zlib
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("sphinx")
+
+ROOT = Path(__file__).parents[2]
+MODULES = ("lir_element", "lir_element.opensees", "frames", "frames.plots")
+ELSEWHERE = {"frames": {"AnalysisInterrupted", "Features"}}
+"""Names of `lir_element` that `frames` hands on."""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html",
+               "-c", str(ROOT / "docs"), "-d", str(folder / "doctrees"), str(ROOT),
+               str(folder / "html")]  # fmt: skip
+    built = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
+    assert built.returncode == 0, built.stderr
+    return folder / "html"
+
+
+class _Page(HTMLParser):
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.title, self.targets = "", list[str]()
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self._in_title = tag == "title"
+        self.targets += [v for n, v in attrs if n in {"href", "src"} and v]
+
+    def handle_data(self, data: str) -> None:
+        if getattr(self, "_in_title", False):
+            self.title += data
+            self._in_title = False
+
+
+def pages(site: Path) -> Iterator[tuple[Path, _Page]]:
+    for file in sorted(site.rglob("*.html")):
+        if "_modules" not in file.parts and "_static" not in file.parts:
+            yield file, _Page(file.read_text(encoding="utf-8"))
+
+
+def test_every_page_has_a_title_and_reaches_what_it_names(site: Path) -> None:
+    count = 0
+    for file, page in pages(site):
+        assert page.title.strip(), file
+        for target in page.targets:
+            path = target.split("#")[0].split("?")[0]
+            if path and "//" not in path and not path.startswith(("mailto:", "data:")):
+                assert (file.parent / path).exists(), (file, target)
+                count += 1
+    assert count > 1000
+
+
+def test_all_documents_are_pages(site: Path) -> None:
+    for source in (ROOT / "docs").rglob("*.md"):
+        assert (site / source.relative_to(ROOT)).with_suffix(".html").is_file(), source
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_every_public_name_has_an_entry(site: Path, module: str) -> None:
+    packed = (site / "objects.inv").read_bytes().split(b"\n", 4)[4]
+    entries = {line.split()[0] for line in zlib.decompress(packed).decode().splitlines()}
+    names = set(importlib.import_module(module).__all__) - ELSEWHERE.get(module, set())
+    assert {f"{module}.{name}" for name in names} <= entries
