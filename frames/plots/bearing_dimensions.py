@@ -37,7 +37,7 @@ def bearing_dimensions(bearing: LIRBearing) -> Figure:
 
     Examples
     --------
-    >>> from lir_element import CoulombFriction
+    >>> from lir_element import CoulombFriction, LIRBearing
     >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
     ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
     >>> figure = bearing_dimensions(bearing)
