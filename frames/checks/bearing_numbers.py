@@ -41,7 +41,11 @@ def enter_geometry(bearing: LIRBearing) -> Trace:
     return t
 
 
-def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
+def enter_bearing(
+    bearing: LIRBearing,
+    bounds: PropertyBounds | None,
+    loads: tuple[float, float] | None = None,
+) -> Trace:
     """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips.
 
     Parameters
@@ -50,6 +54,10 @@ def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
         A bearing with rims, its slider in two pieces, friction nominal.
     bounds : PropertyBounds or None
         Factors of its friction; that of the bearing alone if None.
+    loads : (float, float), optional
+        Least and largest axial force [N], entered as N_min and N_max: friction that depends on
+        pressure is then at its upper bound that of the least, at its lower one that of the
+        largest pressure. None: that of its reference pressure.
 
     Returns
     -------
@@ -72,6 +80,10 @@ def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
     height = float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
     t.given("h_1", height, "m", shown="mm", note="interface above the bottom vertex")
     t("h_2", "h - h_1", "m", shown="mm")
+    if loads is not None:
+        for symbol, load in zip(("N_min", "N_max"), loads, strict=True):
+            t.given(symbol, load, "N")
+        _enter_pressure(t, bearing)
     _enter_frictions(t, bearing, bounds)
     t("mu_e", "(mu_1_U * R_1 + mu_2_U * R_2) / L", source="docs/theory.md, section 2")
     source = "docs/theory.md (2.7)"
@@ -83,6 +95,23 @@ def enter_bearing(bearing: LIRBearing, bounds: PropertyBounds | None) -> Trace:
     return t
 
 
+def _enter_pressure(t: Trace, bearing: LIRBearing) -> None:
+    # Factors of the surfaces' friction: upper at the least pressure, lower at the largest.
+    law = bearing.pressure_dependence
+    if law is None:
+        return
+    reference = law.reference_pressure
+    if reference is None:
+        t.given("N_0", bearing.resolved()["design_load"], "N", note="design load")
+        t("p_0", "N_0 / (pi * a**2)", "Pa", note="at which friction was measured")
+    else:
+        t.given("p_0", reference, "Pa", note="at which friction was measured")
+    t.given("r_p", law.rate, "1/Pa", note="fall of friction with the pressure")
+    for bound, load in (("U", "N_min"), ("L", "N_max")):
+        t(f"k_p_{bound}", f"exp(-r_p * ({load} / (pi * a**2) - p_0))",
+          source="docs/theory.md (11.1)")  # fmt: skip
+
+
 def _enter_frictions(t: Trace, bearing: LIRBearing, bounds: PropertyBounds | None) -> None:
     # Upper friction of the surfaces is that of high speed, lower one that of no speed.
     nominal = {f"mu_{k}": law for k, law in enumerate(bearing.frictions, start=1)}
@@ -91,16 +120,21 @@ def _enter_frictions(t: Trace, bearing: LIRBearing, bounds: PropertyBounds | Non
     values |= dict.fromkeys(("mu_h_U", "mu_h_L"), bearing.interface_friction)
     for symbol, value in values.items():
         at = "upper" if symbol.endswith("U") else "lower"
-        if bounds is None:
-            t.given(symbol, value)
-            continue
         inner = symbol.startswith("mu_h")
-        factors = bounds.interface_factors if inner else bounds.friction
-        factor = f"lambda_{'h' if inner else 'd'}_{at}"
-        if factor not in t:
-            t.given(factor, factors.at("upper" if at == "upper" else "lower"))
-        t.given(f"{symbol}0", value, note="nominal")
-        t(symbol, f"{factor} * {symbol}0")
+        factors = []
+        if bounds is not None:
+            factor = f"lambda_{'h' if inner else 'd'}_{at}"
+            if factor not in t:
+                given = bounds.interface_factors if inner else bounds.friction
+                t.given(factor, given.at("upper" if at == "upper" else "lower"))
+            factors.append(factor)
+        if not inner and f"k_p_{symbol[-1]}" in t:
+            factors.append(f"k_p_{symbol[-1]}")
+        if factors:
+            t.given(f"{symbol}0", value, note="nominal")
+            t(symbol, " * ".join([*factors, f"{symbol}0"]))
+        else:
+            t.given(symbol, value)
 
 
 def enter_length(t: Trace, symbol: str, value: float, note: str = "") -> None:

@@ -68,10 +68,12 @@ def device_checks(
     Notes
     -----
     Source: docs/theory.md, sections 2 and 10: the moments of the slider about its spheres'
-    centres, in a plane, the plates parallel. Friction counts at high speed where it loads the
-    interface, and at low speed where it relieves a rim. With one rim pressed alone the resultant
-    is that of the first slip: as the interface slips on, the rim springs back, friction on the
-    surfaces fades with it, and the offset grows; runs tell by how much (`impact_checks`).
+    centres, in a plane, the plates parallel. Friction that depends on pressure counts at N_min in
+    its upper bound and at N_max in its lower one; what heat takes of it belongs into the lower
+    factor of `bounds`, for its temperature is not known here. Friction counts at high speed where
+    it loads the interface, and at low speed where it relieves a rim. With one rim pressed alone the
+    resultant is that of the first slip: as the interface slips on, the rim springs back, friction
+    on the surfaces fades with it, and the offset grows; runs tell by how much (`impact_checks`).
 
     Examples
     --------
@@ -83,12 +85,9 @@ def device_checks(
     slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
     """
     limits = DesignLimits() if limits is None else limits
-    least, most = _ordered(loads)
-    t = enter_bearing(bearing, bounds)
+    t = enter_bearing(bearing, bounds, _ordered(loads))
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
-    t.given("N_min", least, "N")
-    t.given("N_max", most, "N")
     judge = Judge(t, "", CONFIRMED)
     return Checks([
         *_holds(judge, limits), _stable(judge), *_rims(judge, bearing, limits),

@@ -15,7 +15,7 @@ from frames import (
     engagement_checks,
     overlap_area,
 )
-from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element import CoulombFriction, LIRBearing, PressureDependence, cyclic_test
 
 STATIC = {"radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08}
 """Bearing of the paper's static test: L = 1.415 m, tested under 150 kN."""
@@ -176,3 +176,40 @@ def test_numbers_out_of_bounds_are_refused() -> None:
         DesignLimits(margin=0.9)
     with pytest.raises(CheckError, match="rim_strength"):
         DesignLimits(rim_strength=0.0)
+
+
+def test_friction_is_that_of_the_pressure() -> None:
+    """By hand: friction at 5 MPa and at 40 MPa, measured at 20 MPa, and its bounds on top."""
+    area = math.pi * 0.08**2
+    law = PressureDependence(reference_pressure=20e6)
+    loads = 5e6 * area, 40e6 * area
+    bounds = PropertyBounds(PropertyFactors(0.8, 1.3), interface=PropertyFactors(1.0, 1.0))
+    limits = DesignLimits(rim_strength=1e6, margin=1.0)
+    checks = device_checks(
+        bearing(0.05, 0.15, pressure_dependence=law), loads, slip=0.01, bounds=bounds, limits=limits
+    )
+    by = {(c.title, c.subject): c for c in checks}
+    upper = 1.3 * 0.05 * 0.7 ** (0.02 * (5.0 - 20.0))
+    lower = 0.8 * 0.05 * 0.7 ** (0.02 * (40.0 - 20.0))
+    held = by["interface holds until a rim is met", "N_min"]
+    assert held.demand == pytest.approx(loads[0] * upper * 1.5 / 1.415)
+    stable = by["slip that holds", ""]
+    assert stable.limit == pytest.approx(1.415 * 0.15 - 1.5 * upper)
+    rim = by["interface slips before the rim breaks", "top rim"]
+    cos = math.cos(math.asin(0.175 / 1.415))
+    assert rim.demand == pytest.approx(loads[1] * (1.415 * 0.15 - 1.5 * lower) / 0.75 / cos)
+    assert "k_p_U" in held.trace
+
+
+def test_the_interface_slips_where_the_pressure_says_on_the_rig() -> None:
+    """The element's own friction under both loads lies between the two of the checks."""
+    law = PressureDependence(reference_pressure=20e6)
+    one = bearing(0.05, 0.15, pressure_dependence=law)
+    area = math.pi * 0.08**2
+    for pressure in (5e6, 40e6):
+        run = cyclic_test(one, [0.05], pressure * area)
+        factor = law.factor(pressure)
+        force = float(run["bearing_force"].sel(axis="x").to_numpy()[-1, 0])
+        pendulum = pressure * area * 0.05 / 1.415
+        mu_e = 0.05 * 1.5 / 1.415
+        assert force == pytest.approx(pendulum + factor * mu_e * pressure * area, rel=0.01)
