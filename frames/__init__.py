@@ -1,6 +1,7 @@
 """Structures on seismic isolation bearings: frames, ground motions, time history analysis."""
 
 from frames._errors import AuditWarning as AuditWarning
+from frames._errors import CampaignError as CampaignError
 from frames._errors import CheckError as CheckError
 from frames._errors import FragilityError as FragilityError
 from frames._errors import ModelError as ModelError
@@ -21,6 +22,14 @@ from frames.analysis.recovery import support_reactions as support_reactions
 from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
 from frames.analysis.transient import time_history as time_history
+from frames.campaign.campaign import Campaign as Campaign
+from frames.campaign.sampling import ParameterSample as ParameterSample
+from frames.campaign.sampling import full_grid as full_grid
+from frames.campaign.sampling import latin_hypercube as latin_hypercube
+from frames.campaign.sampling import sobol_sample as sobol_sample
+from frames.campaign.store import CampaignStatus as CampaignStatus
+from frames.campaign.store import CampaignStore as CampaignStore
+from frames.campaign.store import open_campaign as open_campaign
 from frames.checks.analysis import equivalent_linear as equivalent_linear
 from frames.checks.asce7 import ASCE7 as ASCE7
 from frames.checks.bounds import PropertyBounds as PropertyBounds
@@ -137,6 +146,10 @@ __all__ = [
     "BatchProgress",
     "Bilinear",
     "BoucWen",
+    "Campaign",
+    "CampaignError",
+    "CampaignStatus",
+    "CampaignStore",
     "Check",
     "CheckError",
     "Checks",
@@ -172,6 +185,7 @@ __all__ = [
     "MotionWarning",
     "NCh2745",
     "NearFaultPulse",
+    "ParameterSample",
     "Pinching",
     "PlasticHinge",
     "PointSource",
@@ -217,6 +231,7 @@ __all__ = [
     "floor_spectrum",
     "force_tables",
     "fragility_of",
+    "full_grid",
     "gravity",
     "history_checks",
     "history_demands",
@@ -224,6 +239,7 @@ __all__ = [
     "impact_checks",
     "impact_demand",
     "isolator_combinations",
+    "latin_hypercube",
     "load",
     "lognormal_fragility",
     "lumped_mass",
@@ -233,6 +249,7 @@ __all__ = [
     "moment_frame",
     "motion_measures",
     "multiple_stripes",
+    "open_campaign",
     "overlap_area",
     "pair_spectrum",
     "peaks",
@@ -242,6 +259,7 @@ __all__ = [
     "shear_building",
     "slips_of_events",
     "sobol_indices",
+    "sobol_sample",
     "storey_drift",
     "storey_ductility",
     "storey_forces",

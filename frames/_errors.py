@@ -33,5 +33,9 @@ class ProjectError(ValueError):
     """A project's file that cannot be used: a line for each thing that is wrong."""
 
 
+class CampaignError(ValueError):
+    """A campaign, or a store of one, that cannot be used; the message names the culprit."""
+
+
 class AuditWarning(AnalysisWarning):
     """An analysis that was completed, in which something that was left out or doubtful mattered."""

@@ -1,22 +1,20 @@
-"""The command ``lir``: new, check, design, run, report, compare, bench, schema."""
+"""The command ``lir``: new, check, design, run, report, compare, bench, campaign, schema."""
 
 from __future__ import annotations
 
 import math
 import sys
-import warnings
-from collections.abc import Generator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Literal
 
 import pandas as pd
 import typer
-from rich.console import Console
 from rich.markup import escape
 
-from frames._errors import CheckError, ModelError, MotionError, ProjectError
+from frames._errors import ProjectError
 from frames.checks.check import CONFIRMED, Checks
+from frames.command.campaigns import campaign, campaign_status
+from frames.command.telling import FAILED_CHECKS, err, out, say, told
 from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
 from frames.project.example import write_example
 from frames.project.groundwork import CODES, groundwork, inputs_of
@@ -31,10 +29,8 @@ from frames.report.files import (
 )
 from frames.report.tables import rows_of
 from frames.sizing.proposal import Design, design
-from lir_element.errors import AnalysisError, AnalysisInterrupted
+from lir_element.errors import AnalysisInterrupted
 from lir_element.tables import text_table
-
-FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
 
 app = typer.Typer(
     name="lir", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
@@ -42,8 +38,6 @@ app = typer.Typer(
     "Exit codes: 0 all checks pass, 1 a check fails, 2 the input cannot be used, 3 an analysis "
     "fails, 130 interrupted.",
 )  # fmt: skip
-out, err = Console(), Console(stderr=True)
-
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
 BENCH = Path("bench.csv")
 
@@ -53,26 +47,26 @@ File = Annotated[Path, typer.Argument(help="The project's file.")]
 @app.command()
 def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE) -> None:
     """Write an example project: a commented file, and motions to try it with."""
-    with _told():
+    with told():
         try:
             written = write_example(folder)
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
-    _say(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
+    say(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
 
 
 @app.command()
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
-    with _told():
+    with told():
         ground = groundwork(_parts(file))
-        _say(f"{len(ground.frame.bearings)} bearings")
-        _say(str(ground.frame.check()))
+        say(f"{len(ground.frame.bearings)} bearings")
+        say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
-        _say(repr(ground.equivalent))
+        say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
-    _say(f"the file can be run: lir run {file}")
+    say(f"the file can be run: lir run {file}")
 
 
 @app.command(name="design")
@@ -84,7 +78,7 @@ def propose(
     ),
 ) -> None:
     """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file."""
-    with _told():
+    with told():
         parts = _parts(file)
         frame = parts.provisional_frame()
         found = design(
@@ -92,9 +86,9 @@ def propose(
             superstructure=parts.superstructure(frame), code=CODES[parts.file.project.code](),
             sizes=sizes, least=least,  # type: ignore[arg-type]  # design checks it
         )  # fmt: skip
-        _say(f"{found}\n")
+        say(f"{found}\n")
         for text in _sections(found):
-            _say(text)
+            say(text)
 
 
 @app.command()
@@ -103,7 +97,7 @@ def run(
     results: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
 ) -> None:
     """Run a project at each bound of friction, check it, and write the results."""
-    with _told():
+    with told():
         try:
             found = run_project(_parts(file), progress=True)
         except AnalysisInterrupted as stop:
@@ -120,7 +114,7 @@ def report(
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
-    with _told():
+    with told():
         parts = _parts(file)
         known = groundwork(parts)
         found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
@@ -131,7 +125,7 @@ def report(
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     _frame_table("Demands", found.demands)
     _checks("Checks", found.checks)
-    _say(f"{len(written)} files in {results}, report.html among them")
+    say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 
@@ -139,7 +133,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
 @app.command()
 def compare(file: File = FILE) -> None:
     """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
-    with _told():
+    with told():
         _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
 
 
@@ -152,25 +146,25 @@ def bench(
 ) -> None:
     """Run the first motion with several steps: how fast this machine is, and with which error."""
     ways: list[Way] = []
-    with _told():
+    with told():
         ground = groundwork(_parts(file))
         name, motion = next(iter(ground.motions.items()))
-        _say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
-        _say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
+        say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
+        say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
         try:
             for way in ways_to_run(ground.frame, motion, levels=_levels(contact)):
                 ways.append(way)
-                _say(_line_of(way))
+                say(_line_of(way))
         finally:
             if ways:
                 pd.DataFrame(ways).to_csv(table, index=False)
         best = recommended(ways[1:], error)
         if best is None:
-            _say(f"no step keeps {error:.3g} of the peaks")
+            say(f"no step keeps {error:.3g} of the peaks")
         else:
             step = "leave dt out" if math.isnan(best.dt) else f'dt = "{1e3 * best.dt:g} ms"'
-            _say(f'within {error:.3g} of the peaks: [analysis] {step}, level = "{best.level}"')
-        _say(f"the table is in {table}")
+            say(f'within {error:.3g} of the peaks: [analysis] {step}, level = "{best.level}"')
+        say(f"the table is in {table}")
 
 
 _LINE = "{:>9} {:>9} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8}  {}"
@@ -193,6 +187,10 @@ def _line_of(way: Way) -> str:
     )  # fmt: skip
 
 
+app.command()(campaign)
+app.command()(campaign_status)
+
+
 @app.command(name="schema")
 def print_schema() -> None:
     """Print the JSON schema of a project's file, for editors."""
@@ -203,33 +201,6 @@ def _parts(file: Path) -> Parts:
     return Parts(read_project(file), file.resolve().parent)
 
 
-@contextmanager
-def _told() -> Generator[None, None, None]:
-    # Errors as lines with their exit code, warnings as lines.
-    with warnings.catch_warnings():
-        warnings.showwarning = _warned
-        try:
-            yield
-        except (ProjectError, CheckError, ModelError, MotionError) as cause:
-            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
-            raise typer.Exit(BAD_INPUT) from cause
-        except AnalysisError as cause:
-            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
-            raise typer.Exit(FAILED_ANALYSIS) from cause
-        except (AnalysisInterrupted, KeyboardInterrupt) as cause:
-            err.print(str(cause) or "interrupted", markup=False, soft_wrap=True)
-            raise typer.Exit(INTERRUPTED) from cause
-
-
-def _say(text: str) -> None:
-    # As it is, whatever is in it.
-    out.print(text, markup=False, highlight=False, soft_wrap=True)
-
-
-def _warned(message: Warning | str, *_: object, **__: object) -> None:
-    err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
-
-
 def _checks(title: str, checks: Checks) -> None:
     # A line each, those that fail in red.
     out.print(f"\n[bold]{title}[/]: {len(checks)}, {len(checks.failed)} failed")
@@ -237,14 +208,14 @@ def _checks(title: str, checks: Checks) -> None:
         word, style = ("ok   ", "green") if each.passed else ("FAILS", "red")
         out.print(f"[{style}]{word}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
-        _say(f"{each.statement} [{each.clause}]{star}")
+        say(f"{each.statement} [{each.clause}]{star}")
     if any(each.standing != CONFIRMED for each in checks):
-        _say("* to be confirmed against the standard")
+        say("* to be confirmed against the standard")
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
     out.print(f"\n[bold]{title}[/]")
-    _say(text_table(rows_of(frame), ("", *map(str, frame.columns))))
+    say(text_table(rows_of(frame), ("", *map(str, frame.columns))))
 
 
 def _sections(found: Design) -> list[str]:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from frames.project import schema
-    from frames.project.schema import ProjectFile
+    from frames.project.schema import MotionSource, ProjectFile, Structure
 
 BASE_DEPTH = 0.8
 """Depth over which a base node of a moment frame has its mass, for rotary inertia [m]."""
@@ -72,11 +72,11 @@ class Parts:
         if given is None:
             msg = "[bearing] is missing: `lir design` proposes one"
             raise ProjectError(msg)
-        return _of("bearing", lambda: LIRBearing(**_arguments(given)))
+        return bearing_of(given)
 
     def frame(self) -> Frame:
         """Return the structure on its bearings."""
-        return _of("structure", lambda: self._frame(self.bearing()))
+        return in_section("structure", lambda: self._frame(self.bearing()))
 
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
@@ -84,39 +84,10 @@ class Parts:
             radius=2.0, slider_height=0.4, slider_radius=0.3, capacity=0.3,
             friction=CoulombFriction(0.05), interface_friction=0.2,
         )  # fmt: skip
-        return _of("structure", lambda: self._frame(bearing))
+        return in_section("structure", lambda: self._frame(bearing))
 
     def _frame(self, bearing: LIRBearing) -> Frame:
-        given, name = self.file.structure, self.file.project.name
-        if isinstance(given, MomentFrame):
-            frame = moment_frame(
-                given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
-                storey_height=given.storey_height, floor_load=given.floor_load,
-                eccentricity=given.eccentricity, name=name,
-            )  # fmt: skip
-            return _with_turning_nodes(frame, given)
-        if isinstance(given, ShearBuilding):
-            return shear_building(
-                bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
-                storey_height=given.storey_height, plan=(given.bays, given.bay_width),
-                eccentricity=given.eccentricity, name=name,
-            )  # fmt: skip
-        return self._opensees(given, bearing, name)
-
-    def _opensees(self, given: OpenSeesModel, bearing: LIRBearing, name: str) -> Frame:
-        from lir_element.opensees.library import opensees
-
-        script = self.folder / given.script
-        if not script.is_file():
-            msg = f"script = {given.script} is no file in {self.folder}: name the model's script"
-            raise ProjectError(msg)
-        opensees().wipe()
-        with _Running(script):
-            runpy.run_path(script.name, run_name="__main__")
-        return Frame.from_opensees(
-            given.base_nodes, bearing, length_unit=given.length_unit,
-            force_unit=given.force_unit, name=name,
-        )  # fmt: skip
+        return frame_of(self.file.structure, bearing, self.file.project.name, self.folder)
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
@@ -124,17 +95,17 @@ class Parts:
         if above is None:
             return None
         given = above.model_dump()
-        return _of("superstructure", lambda: Superstructure.from_frame(frame, **given))
+        return in_section("superstructure", lambda: Superstructure.from_frame(frame, **given))
 
     def spectrum(self) -> Spectrum:
         """Return the design spectrum."""
         given = self.file.spectrum
         keys = given.model_dump(exclude={"code"})
         if isinstance(given, Asce7Spectrum):
-            return _of("spectrum", lambda: Spectrum.asce7(**keys))
+            return in_section("spectrum", lambda: Spectrum.asce7(**keys))
         if isinstance(given, En1998Spectrum):
-            return _of("spectrum", lambda: Spectrum.en1998(**keys))
-        return _of("spectrum", lambda: Spectrum.nch2745(**keys))
+            return in_section("spectrum", lambda: Spectrum.en1998(**keys))
+        return in_section("spectrum", lambda: Spectrum.nch2745(**keys))
 
     def bounds(self) -> PropertyBounds:
         """Return the bounds of friction."""
@@ -144,33 +115,76 @@ class Parts:
             inner = None if given.interface is None else PropertyFactors(*given.interface)
             return PropertyBounds(PropertyFactors(*given.friction), inner)
 
-        return _of("bounds", made)
+        return in_section("bounds", made)
 
     def limits(self) -> DesignLimits:
         """Return what the engineer allows."""
         given = self.file.limits.model_dump(exclude_none=True)
-        return _of("limits", lambda: DesignLimits(**given))
+        return in_section("limits", lambda: DesignLimits(**given))
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""
         given = self.file.design.model_dump(exclude_none=True)
         limits = self.file.limits.model_dump(exclude_none=True)
         limits = {"interface_pressure": INTERFACE_PRESSURE} | limits
-        return _of("design", lambda: DesignTarget(**given, limits=DesignLimits(**limits)))
+        return in_section("design", lambda: DesignTarget(**given, limits=DesignLimits(**limits)))
 
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""
-        given = self.file.motions
+        return motions_of(self.file.motions, self.folder)
 
-        def made() -> MotionSet:
-            if given.folder is not None:
-                found = MotionSet.from_folder(self.folder / given.folder, given.table)
-            else:
-                found = MotionSet.fema_p695(str(given.fema_p695))
-            found = found.only(given.only) if given.only else found
-            return found.fault_normal() if given.fault_normal else found
 
-        return _of("motions", made)
+def bearing_of(given: schema.Bearing) -> LIRBearing:
+    """Return the bearing of a section, or raise a ProjectError."""
+    return in_section("bearing", lambda: LIRBearing(**_arguments(given)))
+
+
+def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    """Return the structure of a section on its bearings; scripts are found from the folder."""
+    if isinstance(given, MomentFrame):
+        frame = moment_frame(
+            given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
+            storey_height=given.storey_height, floor_load=given.floor_load,
+            eccentricity=given.eccentricity, name=name,
+        )  # fmt: skip
+        return _with_turning_nodes(frame, given)
+    if isinstance(given, ShearBuilding):
+        return shear_building(
+            bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
+            storey_height=given.storey_height, plan=(given.bays, given.bay_width),
+            eccentricity=given.eccentricity, name=name,
+        )  # fmt: skip
+    return _opensees(given, bearing, name, folder)
+
+
+def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    from lir_element.opensees.library import opensees
+
+    script = folder / given.script
+    if not script.is_file():
+        msg = f"script = {given.script} is no file in {folder}: name the model's script"
+        raise ProjectError(msg)
+    opensees().wipe()
+    with _Running(script):
+        runpy.run_path(script.name, run_name="__main__")
+    return Frame.from_opensees(
+        given.base_nodes, bearing, length_unit=given.length_unit,
+        force_unit=given.force_unit, name=name,
+    )  # fmt: skip
+
+
+def motions_of(given: MotionSource, folder: Path) -> MotionSet:
+    """Return the motions of a section, not scaled; files are found from the folder."""
+
+    def made() -> MotionSet:
+        if given.folder is not None:
+            found = MotionSet.from_folder(folder / given.folder, given.table)
+        else:
+            found = MotionSet.fema_p695(str(given.fema_p695))
+        found = found.only(given.only) if given.only else found
+        return found.fault_normal() if given.fault_normal else found
+
+    return in_section("motions", made)
 
 
 class _Running:
@@ -215,7 +229,8 @@ def _arguments(given: schema.Bearing) -> dict[str, Any]:
     return keys | {"friction": VelocityFriction(law.f_max, law.f_min, law.rate)}
 
 
-def _of(section: str, make: Callable[[], T]) -> T:
+def in_section(section: str, make: Callable[[], T]) -> T:
+    """Return what is made; an error of a wrong value names the section."""
     try:
         return make()
     except ProjectError:

@@ -6,15 +6,17 @@ import difflib
 import json
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import ValidationError
 
 from frames._errors import ProjectError
-from frames.project.schema import ProjectFile
+from frames.project.schema import ProjectFile, Section
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+F = TypeVar("F", bound=Section)
 
 _KINDS = {"moment frame", "shear building", "opensees", "ASCE 7-22", "EN 1998", "NCh2745"}
 """Of unions, which the place of an error names besides its keys."""
@@ -38,19 +40,44 @@ def read_project(path: str | Path) -> ProjectFile:
     ProjectError
         If it cannot be read, with a line for each thing that is wrong.
     """
+    return read_file(path, ProjectFile)
+
+
+def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how") -> F:
+    """Return a TOML file of a kind, checked as `read_project` does.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    kind : type
+        What it must be.
+    hint : str
+        Where to see how such a file is written.
+
+    Returns
+    -------
+    Section
+        Of that kind.
+
+    Raises
+    ------
+    ProjectError
+        If it cannot be read, with a line for each thing that is wrong.
+    """
     file = Path(path)
     try:
         data = tomllib.loads(file.read_text(encoding="utf-8"))
     except OSError as cause:
-        msg = f"{file}: {cause.strerror or cause}: give a project's file, `lir new` writes one"
+        msg = f"{file}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as cause:
         msg = f"{file} is no TOML: {cause}"
         raise ProjectError(msg) from cause
     try:
-        return ProjectFile.model_validate(data)
+        return kind.model_validate(data)
     except ValidationError as cause:
-        lines = [_line(file.name, data, error) for error in cause.errors()]
+        lines = [_line(file.name, data, error, kind, hint) for error in cause.errors()]
         raise ProjectError("\n".join(lines)) from cause
 
 
@@ -59,13 +86,13 @@ def schema() -> str:
     return json.dumps(ProjectFile.model_json_schema(), indent=2)
 
 
-def _line(name: str, data: dict[str, Any], error: Any) -> str:
+def _line(name: str, data: dict[str, Any], error: Any, whole: type[Section], hint: str) -> str:
     place = [str(part) for part in error["loc"] if part not in _KINDS]
     key, kind = ".".join(place) or "the file", error["type"]
     if kind == "missing":
-        return f"{name}: {key} is missing: give it, `lir new` shows how"
+        return f"{name}: {key} is missing: give it, {hint}"
     if kind == "extra_forbidden":
-        known = _known(data, error["loc"])
+        known = _known(data, error["loc"], whole)
         near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
         meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
         return f"{name}: {key} is not known{meant}"
@@ -84,9 +111,9 @@ def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -
     return [key for key in known if key not in section]
 
 
-def _known(data: dict[str, Any], place: Sequence[Any]) -> list[str]:
+def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Section]) -> list[str]:
     # Keys of the section in which an unknown one stands.
-    model: Any = ProjectFile
+    model: Any = whole
     for part in place[:-1]:
         field = model.model_fields.get(part) if hasattr(model, "model_fields") else None
         model = _section(field.annotation, data.get(part, {})) if field is not None else model

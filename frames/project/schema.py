@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -134,22 +134,27 @@ DesignSpectrum = Annotated[
 ]
 
 
-class Motions(Section):
-    """``[motions]``: records from a folder with a table, PEER files, or a set ready by name."""
+class MotionSource(Section):
+    """Records from a folder with a table, PEER files, or a set ready by name."""
 
     folder: Path | None = None
     table: str = "motions.csv"
     fema_p695: Literal["far-field", "near-fault pulse", "near-fault no pulse"] | None = None
-    scale: Literal["spectrum"] | float = "spectrum"
     fault_normal: bool = False
     only: tuple[str, ...] = ()
 
     @model_validator(mode="after")
-    def _one_source(self) -> Motions:
+    def _one_source(self) -> Self:
         if (self.folder is None) == (self.fema_p695 is None):
             msg = 'needs one source: folder = "motions", or fema_p695 = "far-field"'
             raise ValueError(msg)
         return self
+
+
+class Motions(MotionSource):
+    """``[motions]``: the records, and how they are scaled."""
+
+    scale: Literal["spectrum"] | float = "spectrum"
 
 
 class Bounds(Section):

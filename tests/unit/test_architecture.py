@@ -70,8 +70,8 @@ FLOORS = (
     "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
     "frames.model", "frames.motion", "frames.hazard", "frames.assembly", "frames.kernels",
     "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.fragility",
-    "frames.plots", "frames.checks", "frames.sizing", "frames.project", "frames.report",
-    "frames.command",
+    "frames.plots", "frames.checks", "frames.sizing", "frames.project", "frames.campaign",
+    "frames.report", "frames.command",
     "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
 )  # fmt: skip
 

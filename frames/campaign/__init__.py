@@ -1,0 +1,1 @@
+"""Campaigns: models, motions, scales and parameters run in batches into one store on disk."""

@@ -1,0 +1,64 @@
+"""What a campaign was planned with, as short digests that tell whether it is the same again."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from collections.abc import Set as AbstractSet
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import issparse
+
+
+def fingerprint(value: object) -> str:
+    """Return a digest of a value by its content, the same in every process.
+
+    Parameters
+    ----------
+    value : object
+        Numbers, texts, arrays, and containers, dataclasses and plain objects of such.
+
+    Returns
+    -------
+    str
+        16 hexadecimal digits.
+
+    Examples
+    --------
+    >>> fingerprint({"a": {"x", "y"}}) == fingerprint({"a": {"y", "x"}})
+    True
+    """
+    found = hashlib.sha256()
+    for piece in _pieces(value):
+        found.update(piece)
+    return found.hexdigest()[:16]
+
+
+def _pieces(value: Any) -> Iterator[bytes]:
+    yield f"<{type(value).__name__}>".encode()
+    if isinstance(value, np.ndarray):
+        yield f"{value.dtype.str}{value.shape}".encode()
+        yield np.ascontiguousarray(value).tobytes()
+    elif issparse(value):
+        given: Any = value
+        whole = given.tocsr(copy=True)
+        whole.sum_duplicates()
+        yield from _pieces((whole.shape, whole.data, whole.indices, whole.indptr))
+    elif isinstance(value, Mapping):
+        for key, each in value.items():
+            yield from _pieces(key)
+            yield from _pieces(each)
+    elif isinstance(value, AbstractSet):
+        yield from sorted(b"".join(_pieces(each)) for each in value)
+    elif isinstance(value, (tuple, list)):
+        for each in value:
+            yield from _pieces(each)
+    elif value is None or isinstance(value, (str, bytes, bool, int, float, np.generic)):
+        yield repr(value).encode()
+    elif is_dataclass(value):
+        yield from _pieces({field.name: getattr(value, field.name) for field in fields(value)})
+    else:
+        yield from _pieces(vars(value))
+    yield b"</>"
