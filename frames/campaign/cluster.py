@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import warnings
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from frames._errors import CampaignError
@@ -15,6 +16,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _AHEAD = 2  # batches at a worker: one computed, one waiting
+
+_LOSSES = 3  # of a batch's result, before it was fetched
+_GONE = {"cancelled", "lost"}
+
+_LOST = (
+    "the connection to Dask's scheduler is lost: the batches before are kept, run again to go on"
+)
 
 _ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its threads
 
@@ -51,42 +59,62 @@ def over_cluster(
     from distributed.protocol.pickle import dumps
 
     payload = dumps((work, layout))
-    with warnings.catch_warnings():  # sent once: a task, so that it outlives the worker it is at
-        warnings.filterwarnings("ignore", message="Sending large graph")
-        shared = client.submit(_unpacked, payload, pure=False)
-    todo, running = iter(batches), as_completed()
+    shared = _shared(client, payload)
+    todo, running = list(reversed(batches)), as_completed()
     numbers: dict[Any, int] = {}
+    lost: Counter[int] = Counter()
     try:
-        while True:
-            for number in _next(todo, _AHEAD * max(len(client.ncores()), 1) - len(numbers)):
+        while todo or numbers:
+            for _ in range(min(_AHEAD * _width(client) - len(numbers), len(todo))):
+                number = todo.pop()
                 future = client.submit(_computed, shared, number, workers, pure=False)
                 numbers[future] = number
                 running.add(future)
-            if not numbers:
-                return
             future = next(running)
             number = numbers.pop(future)
-            yield number, _result(future, number)
+            batch = _result(future, number)
+            if batch is not None:
+                yield number, batch
+                continue
+            lost[number] += 1
+            if lost[number] > _LOSSES or client.status != "running":
+                msg = f"batch {number} was cancelled, or {_LOST}"
+                raise CampaignError(msg)
+            todo.append(number)
+            if shared.status in _GONE:
+                shared = _shared(client, payload)
     finally:
         if client.status == "running":
             client.cancel([shared, *numbers])
 
 
-def _next(todo: Iterator[int], count: int) -> list[int]:
-    return [number for _, number in zip(range(count), todo, strict=False)]
+def _shared(client: Any, payload: bytes) -> Any:
+    # What all batches need, as the result of a task: what is scattered dies with its worker.
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Sending large graph")
+        return client.submit(_unpacked, payload, pure=False)
 
 
-def _result(future: Any, number: int) -> Batch:
-    from distributed import KilledWorker
+def _width(client: Any) -> int:
+    # Workers that there are now: some may come, some go.
+    if client.status != "running":
+        raise CampaignError(_LOST)
+    try:
+        return max(len(client.ncores()), 1)
+    except OSError as cause:
+        raise CampaignError(_LOST) from cause
 
-    if future.status in {"cancelled", "lost"}:
-        msg = (
-            f"batch {number} was cancelled, or the connection to Dask's scheduler is lost: the "
-            "batches before are kept, run again to go on"
-        )
-        raise CampaignError(msg)
+
+def _result(future: Any, number: int) -> Batch | None:
+    # What a batch gave; None if it went with its worker before it was fetched.
+    from distributed import CancelledError, KilledWorker
+
+    if future.status in _GONE:
+        return None
     try:
         batch: Batch = future.result()
+    except CancelledError:
+        return None
     except KilledWorker as cause:
         msg = (
             f"batch {number} ended its workers again and again ({cause}): give them more memory, "

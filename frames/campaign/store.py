@@ -9,6 +9,7 @@ import uuid
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -204,13 +205,10 @@ class CampaignStore:
         OSError
             If it cannot be written. The batch has no mark then, and is run again.
         """
-        import zarr
-
         rows = plan.rows(number)
         try:
-            group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
             for name, values in batch.arrays.items():
-                group[name][rows.start : rows.stop] = values
+                self._arrays[name][rows.start : rows.stop] = values
             where = self.path / _HISTORIES / f"{number:06d}"
             shutil.rmtree(where, ignore_errors=True)
             for k, histories in enumerate(batch.histories):
@@ -330,19 +328,21 @@ class CampaignStore:
         return digest_of(self._read(number) for number in done)
 
     def _read(self, number: int) -> dict[str, Any]:
-        import zarr
-
-        group: Any = zarr.open_group(self.path / _RUNS, mode="r")
         size = self.plan()["batch"]
-        arrays = {
-            name: group[name][number * size : (number + 1) * size]
-            for name in group.attrs["results"]
-        }
+        rows = slice(number * size, (number + 1) * size)
+        arrays = {name: array[rows] for name, array in self._arrays.items()}
         if digest_of([arrays]) != self._mark(number)["digest"]:
             mark = self.path / _DONE / f"{number:06d}.json"
             msg = f"batch {number} is not as it was written: remove {mark}, and run it again"
             raise CampaignError(msg)
         return arrays
+
+    @cached_property
+    def _arrays(self) -> dict[str, Any]:
+        import zarr
+
+        group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
+        return {name: group[name] for name in group.attrs["results"]}
 
     def _mark(self, number: int) -> dict[str, Any]:
         text = (self.path / _DONE / f"{number:06d}.json").read_text(encoding="utf-8")

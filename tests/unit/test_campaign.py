@@ -1,0 +1,313 @@
+"""Campaigns: samples, plan, results beside those of time_histories, failures, refusals."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import lognorm, uniform
+
+from frames import (
+    Campaign,
+    CampaignError,
+    Frame,
+    GroundMotion,
+    ModelError,
+    ParameterSample,
+    Recording,
+    full_grid,
+    latin_hypercube,
+    lumped_mass,
+    open_campaign,
+    sobol_sample,
+    time_histories,
+)
+from frames.campaign.designs import with_parameters
+from frames.campaign.fingerprint import fingerprint
+from frames.campaign.lock import locked
+from frames.campaign.plan import Plan, differences
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+
+pytest.importorskip("zarr")
+
+BEARING = LIRBearing(
+    radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    friction=CoulombFriction(0.066), interface_friction=0.16,
+)  # fmt: skip
+TIME = np.linspace(0.0, 1.0, 101)
+PULSES = {
+    name: GroundMotion(x=size * np.sin(2.0 * np.pi * TIME), dt=0.01, name=name)
+    for name, size in (("small", 1.0), ("large", 2.0))
+}
+SETS = full_grid({"radius": [0.7, 0.9], "friction": [0.05, 0.07]})
+
+
+def structure(bearing: LIRBearing = BEARING) -> Frame:
+    return lumped_mass(bearing, 5e4)
+
+
+def small(store: Path, batch: int | None = 3, **other: object) -> Campaign:
+    given = {"sample": SETS, "scales": [0.5, 1.0]} | other
+    return Campaign(structure(), PULSES, store=store, batch=batch, **given)  # type: ignore[arg-type]
+
+
+def test_a_grid_holds_all_combinations() -> None:
+    grid = full_grid({"a": [1.0, 2.0, 3.0], "b": [0.1, 0.2]})
+    assert len(grid) == 6
+    assert grid[4] == {"a": 3.0, "b": 0.1}
+
+
+@pytest.mark.parametrize("draw", [latin_hypercube, sobol_sample])
+def test_a_seed_gives_its_sets_again(draw: object) -> None:
+    given = {"a": uniform(1.0, 2.0), "b": lognorm(0.4, scale=0.06), "c": [5.0, 6.0]}
+    first, again, other = (draw(given, 16, seed=seed) for seed in (3, 3, 4))  # type: ignore[operator]
+    assert (first.values == again.values).all()
+    assert (first.values != other.values).any()
+    # each sixteenth of a's range and of b's probability holds one set; half of the sets take each c
+    assert sorted(((first.values[:, 0] - 1.0) / 2.0 * 16.0).astype(int)) == list(range(16))
+    shares = lognorm(0.4, scale=0.06).cdf(first.values[:, 1])
+    assert sorted((shares * 16.0).astype(int)) == list(range(16))
+    assert np.unique(first.values[:, 2], return_counts=True)[1].tolist() == [8, 8]
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: sobol_sample({"a": [1.0]}, 12), "size = 12 .* power of 2: 8 or 16"),
+        (lambda: latin_hypercube({"a": [1.0]}, 0), "size = 0 must be a whole number"),
+        (lambda: latin_hypercube({"a": [1.0]}, 2, seed=-1), "seed = -1"),
+        (lambda: full_grid({"a": uniform()}), "a has a distribution"),
+        (lambda: full_grid({"a": []}), "a has no values"),
+        (lambda: full_grid({}), "parameters is empty"),
+        (lambda: full_grid({"a b": [1.0]}), '"a b" must be a name'),
+        (lambda: full_grid({"a": 1.0}), "a = 1.0: give values"),
+        (lambda: ParameterSample(("a",), np.array([[np.nan]])), "a of set 0 is no number"),
+        (lambda: ParameterSample(("a", "b"), np.ones((2, 1))), r"shape \(2, 1\) for 2 names"),
+    ],
+)
+def test_what_is_no_sample_is_refused(make: object, words: str) -> None:
+    with pytest.raises(CampaignError, match=words):
+        make()  # type: ignore[operator]
+
+
+def test_rows_are_those_of_the_plan() -> None:
+    plan = Plan(("A", "B"), ("x", "y", "z"), (1.0, 2.0), SETS, 7)
+    assert (plan.runs, plan.batches) == (48, 7)
+    assert [row for k in range(7) for row in plan.rows(k)] == list(range(48))
+    model, chosen, motion, scale = plan.places()
+    for row in range(48):
+        run = plan.run(row)
+        assert run.model == plan.models[model[row]]
+        assert run.parameters == chosen[row]
+        assert run.motion == plan.motions[motion[row]]
+        assert run.scale == plan.scales[scale[row]]
+
+
+def test_parameters_become_those_of_all_bearings() -> None:
+    changed = with_parameters(structure(), {"radius": 0.9, "friction": 0.04, "capacity": 0.2})
+    for link in changed.bearings.values():
+        bearing = link.bearing
+        assert (bearing.radii, bearing.lateral_capacity) == ((0.9, 0.9), 0.2)
+        assert bearing.frictions == (CoulombFriction(0.04),) * 2
+    plain = with_parameters(structure(BEARING.as_dcfp()), {"interface_friction": 0.2})
+    assert all(link.bearing.is_dcfp for link in plain.bearings.values())
+    with pytest.raises(CampaignError, match=r'"radios" is no parameter: there are .*radius'):
+        with_parameters(structure(), {"radios": 1.0})
+    with pytest.raises(CampaignError, match="the bearing has Coulomb's friction"):
+        with_parameters(structure(), {"f_max": 0.1})
+
+
+def test_parameters_of_velocity_friction() -> None:
+    from dataclasses import replace
+
+    rubbed = replace(BEARING, friction=VelocityFriction(0.08, 0.04, 100.0))
+    changed = with_parameters(structure(rubbed), {"f_max": 0.09})
+    laws = {law for link in changed.bearings.values() for law in link.bearing.frictions}
+    assert laws == {VelocityFriction(0.09, 0.04, 100.0)}
+    with pytest.raises(CampaignError, match="friction and f_max are given"):
+        with_parameters(structure(rubbed), {"f_max": 0.09, "friction": 0.05})
+
+
+def test_rows_hold_what_time_histories_gives(tmp_path: Path) -> None:
+    data = small(tmp_path / "store").run(workers=2)
+    assert data.sizes["run"] == 16
+    assert data["done"].all()
+    for k in (0, 5, 15):
+        row = data.isel(run=k)
+        design = {name: float(row[name]) for name in SETS.names}
+        own = time_histories(
+            with_parameters(structure(), design),
+            PULSES[str(row["motion"].item())],
+            scales=float(row["scale"]),
+        ).isel(run=0)
+        for name in own.data_vars:
+            if name == "seconds_loop":
+                continue
+            expected = own[name].drop_sel(
+                {"quantity": "seconds of the time loop"} if "quantity" in own[name].dims else {}
+            )
+            if expected.dtype.kind == "f":
+                np.testing.assert_array_equal(row[name].to_numpy(), expected.to_numpy(), str(name))
+            else:
+                assert row[name].to_numpy().tolist() == expected.to_numpy().tolist(), name
+        assert own["reached_displacement"].attrs == row["reached_displacement"].attrs
+
+
+def test_the_digest_is_that_of_the_runs_alone(tmp_path: Path) -> None:
+    """Neither the number of workers nor the size of batches is in it; the motions are."""
+    campaigns = [small(tmp_path / "1", 3), small(tmp_path / "2", 5)]
+    for workers, campaign in enumerate(campaigns, 1):
+        campaign.run(workers=workers)
+    assert campaigns[0].digest() == campaigns[1].digest()
+    other = small(tmp_path / "3", scales=[0.5, 1.0 + 1e-12])
+    other.run()
+    assert other.digest() != campaigns[0].digest()
+
+
+def test_a_batch_that_was_damaged_is_found(tmp_path: Path) -> None:
+    campaign = small(tmp_path / "store")
+    campaign.run()
+    chunk = tmp_path / "store/runs.zarr/reached_displacement/c/2/0"
+    assert chunk.is_file()
+    chunk.unlink()
+    with pytest.raises(CampaignError, match=r"batch 2 is not as it was written: remove .*000002"):
+        campaign.digest()
+
+
+def test_failed_runs_are_rows_with_their_reason(tmp_path: Path) -> None:
+    def choosy(parameters: dict[str, float]) -> Frame:
+        if parameters["radius"] > 0.8:
+            msg = "no such radius in the catalogue"
+            raise ValueError(msg)
+        return with_parameters(structure(), parameters)
+
+    campaign = Campaign(choosy, PULSES, store=tmp_path / "store", sample=SETS, batch=5)
+    with pytest.warns(UserWarning, match="4 runs are not ok: 8 of 8 runs done: 4 ok, 4 not_built"):
+        data = campaign.run(workers=1)
+    failed = data["radius"] > 0.8
+    assert set(data["status"].to_numpy()[failed].tolist()) == {"not_built"}
+    assert set(data["message"].to_numpy()[failed].tolist()) == {"no such radius in the catalogue"}
+    assert data["reached_displacement"].isnull().all("bearing").to_numpy().tolist() == list(failed)
+
+
+def test_a_model_that_cannot_be_set_up_spoils_no_other(tmp_path: Path) -> None:
+    def heavy(parameters: dict[str, float]) -> Frame:
+        frame = structure()
+        if parameters["x"] > 1.0:
+            frame.add_node("alone", 5.0, 0.0, 1.0)
+            frame.add_mass("alone", 1.0)
+        return frame
+
+    sample = full_grid({"x": [0.0, 2.0, 1.0]})
+    with pytest.raises(ModelError) as refusal:
+        time_histories(heavy({"x": 2.0}), PULSES)
+    campaign = Campaign(heavy, PULSES, store=tmp_path / "store", sample=sample)
+    with pytest.warns(UserWarning, match="2 runs are not ok"):
+        data = campaign.run()
+    assert data["status"].to_numpy().tolist() == ["ok"] * 2 + ["not_built"] * 2 + ["ok"] * 2
+    assert str(refusal.value) in data["message"].to_numpy()[2]
+
+
+def test_a_mistake_of_the_function_ends_the_campaign(tmp_path: Path) -> None:
+    def mistaken(parameters: dict[str, float]) -> Frame:
+        return lumped_mass(BEARING, parameters["mass"])
+
+    with pytest.raises(KeyError, match="mass"):
+        Campaign(mistaken, PULSES, store=tmp_path / "store", sample=SETS).run()
+    with pytest.raises(CampaignError, match=r'no model can be set up; the first: "x" is no param'):
+        Campaign(structure(), PULSES, store=tmp_path / "s", sample=full_grid({"x": [1.0]})).run()
+    assert not (tmp_path / "store").exists()
+
+
+def test_histories_are_kept_on_request(tmp_path: Path) -> None:
+    campaign = small(tmp_path / "store", batch=None, record=Recording(every=5))
+    campaign.run(workers=1)
+    mine = campaign.store.histories(7)
+    row = campaign.results().isel(run=7)
+    own = time_histories(
+        with_parameters(structure(), {n: float(row[n]) for n in SETS.names}),
+        PULSES[str(row["motion"].item())], scales=float(row["scale"]), record=Recording(every=5),
+    ).isel(run=0)  # fmt: skip
+    np.testing.assert_array_equal(mine["bearing_displacement"], own["bearing_displacement"])
+    with pytest.raises(CampaignError, match="no histories of run 99"):
+        campaign.store.histories(99)
+
+
+def test_another_plan_is_refused_by_name(tmp_path: Path) -> None:
+    small(tmp_path / "store").run()
+    words = {
+        "scales": ({"scales": [0.5, 1.1]}, r"scales was \[0.5, 1.0\], is \[0.5, 1.1\]"),
+        "options": ({"dt": 0.005}, r'options: "dt" was None, is 0.005'),
+        "parameters": (
+            {"sample": full_grid({"radius": [0.7, 0.91], "friction": [0.05, 0.07]})},
+            r'parameters: "radius" was',
+        ),
+        "batch": ({"batch": 4}, "batch was 3, is 4"),
+    }
+    for change, line in words.values():
+        with pytest.raises(CampaignError, match=f"was planned otherwise(.|\n)*{line}"):
+            small(tmp_path / "store", **change).run()  # type: ignore[arg-type]
+    motions = {"small": PULSES["small"], "large": PULSES["large"].scaled(1.01)}
+    other = Campaign(
+        structure(), motions, store=tmp_path / "store", sample=SETS, scales=[0.5, 1.0], batch=3
+    )
+    with pytest.raises(CampaignError, match='motions: "large" was'):
+        other.run()
+    small(tmp_path / "store", batch=None).run()  # the same, its batch as it is
+
+
+def test_differences_are_told() -> None:
+    old = {"a": 1, "b": {"x": 1, "y": 2}}
+    assert differences(old, {"a": 1, "b": {"x": 1, "y": 2}}) == []
+    assert differences(old, {"a": 2, "b": {"x": 1, "z": 3}}) == [
+        "a was 1, is 2", 'b: "y" is missing', 'b: "z" is new',
+    ]  # fmt: skip
+
+
+def test_a_model_has_the_fingerprint_of_its_content() -> None:
+    heavier = structure()
+    heavier.add_mass(next(iter(heavier.bearings.values())).j, 1.0)
+    assert fingerprint(structure()) == fingerprint(structure())
+    assert fingerprint(structure()) == fingerprint(structure().copy())
+    assert fingerprint(structure()) != fingerprint(heavier)
+    assert fingerprint([1.0]) != fingerprint([1])
+
+
+def test_two_campaigns_at_once_are_refused(tmp_path: Path) -> None:
+    campaign = small(tmp_path / "store")
+    campaign.run()
+    with (
+        locked(tmp_path / "store/lock"),
+        pytest.raises(CampaignError, match=r"is in use by process \d+ on .+ since"),
+    ):
+        campaign.run()
+    campaign.run()
+
+
+def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "thesis.txt").write_text("mine")
+    with pytest.raises(CampaignError, match="is there and holds no campaign"):
+        small(tmp_path).run()
+    assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
+    with pytest.raises(CampaignError, match="holds no campaign: name the folder"):
+        open_campaign(tmp_path)
+
+
+def test_a_parameter_that_has_the_name_of_a_result_is_refused(tmp_path: Path) -> None:
+    def model(_: dict[str, float]) -> Frame:
+        return structure()
+
+    sample = full_grid({"energy": [1.0]})
+    with pytest.raises(CampaignError, match='"energy" has the name of a result'):
+        Campaign(model, PULSES, store=tmp_path / "store", sample=sample).run()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:
+    told = []
+    small(tmp_path / "store").run(progress=told.append)
+    assert [p.done for p in told] == list(range(1, 17))
+    assert {p.total for p in told} == {16}
+    (tmp_path / "store/done/000001.json").unlink()
+    told.clear()
+    small(tmp_path / "store").run(progress=told.append)
+    assert [(p.done, p.total) for p in told] == [(1, 3), (2, 3), (3, 3)]

@@ -1,0 +1,80 @@
+"""Campaigns on a Dask cluster of processes: the same digest, with a worker killed on the way."""
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from frames import Campaign, CampaignError, GroundMotion, full_grid, lumped_mass
+from frames.analysis.cases import BatchProgress
+from lir_element import CoulombFriction, LIRBearing
+
+pytest.importorskip("zarr")
+distributed = pytest.importorskip("distributed")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform == "win32", reason="workers are killed by a signal"),
+    pytest.mark.filterwarnings("ignore"),  # of the cluster itself
+]
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Two workers, processes of one thread, over loopback."""
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        ) as made,
+        distributed.Client(made) as client,
+    ):
+        yield client
+
+
+def small(store: Path, sets: int = 12) -> Campaign:
+    bearing = LIRBearing(
+        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+        friction=CoulombFriction(0.066), interface_friction=0.16,
+    )  # fmt: skip
+    pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
+    sample = full_grid({"friction": np.linspace(0.04, 0.08, sets)})
+    return Campaign(lumped_mass(bearing, 5e4), pulse, store=store, batch=2, sample=sample)
+
+
+def test_a_cluster_gives_the_same_although_a_worker_is_killed(tmp_path: Path, cluster: Any) -> None:
+    killed: list[int] = []
+
+    def kill(progress: BatchProgress) -> None:
+        if progress.done >= 4 and not killed:
+            killed.append(next(iter(cluster.run(os.getpid).values())))
+            os.kill(killed[0], signal.SIGKILL)
+
+    far, near = small(tmp_path / "far"), small(tmp_path / "near")
+    far.run(client=cluster, progress=kill)
+    near.run(workers=2)
+    assert killed
+    assert far.status().statuses == {"ok": 12}
+    assert far.digest() == near.digest()
+
+
+def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(tmp_path: Path) -> None:
+    campaign, whole = small(tmp_path / "store"), small(tmp_path / "whole")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    ) as made:
+        client = distributed.Client(made, timeout=5)
+
+        def lose(progress: BatchProgress) -> None:
+            if progress.done == 4:
+                made.close(timeout=5)
+
+        with pytest.raises(CampaignError, match="lost: the batches before are kept"):
+            campaign.run(client=client, progress=lose)
+    assert 2 <= campaign.status().done < 12
+    campaign.run()
+    whole.run()
+    assert campaign.digest() == whole.digest()

@@ -1,0 +1,138 @@
+"""A campaign's file: what it becomes, messages, and its commands from an empty folder."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("zarr")
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+from scipy import stats
+from typer.testing import CliRunner
+
+from frames import ProjectError, open_campaign
+from frames.campaign.file import read_campaign
+from frames.command.app import app
+
+FILE = """
+[campaign]
+name = "Friction of two storeys"
+devices = ["LIR-DCFP", "DCFP"]
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["6 m", "600 cm"]
+storey_mass = ["100 t", "100 t"]
+storey_stiffness = ["400 kN/mm", "300 kN/mm"]
+storey_height = "3 m"
+base_mass = "100 t"
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "200 mm"
+capacity = "300 mm"
+friction = 0.06
+interface_friction = 0.2
+[motions]
+folder = "motions"
+only = ["artificial-1"]
+scales = [1.0, 1.5]
+[parameters]
+friction = {low = 0.04, high = "8 %"}
+radius = {values = ["1500 mm", "2 m"]}
+[sample]
+kind = "latin hypercube"
+size = 4
+seed = 3
+[analysis]
+duration = "3 s"
+workers = 1
+"""
+run = CliRunner().invoke
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Motions of the example, and a campaign's file."""
+    assert run(app, ["new", str(tmp_path)]).exit_code == 0
+    (tmp_path / "friction.toml").write_text(FILE)
+    return tmp_path
+
+
+def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
+    file = str(folder / "friction.toml")
+    first = run(app, ["campaign", file])
+    assert first.exit_code == 0, first.output
+    assert "16 runs = 2 models x 4 sets of parameters x 1 motions x 2 scales" in first.output
+    assert "16 of 16 runs done: 16 ok" in first.output
+    status = run(app, ["campaign-status", str(folder / "friction-results")])
+    assert status.exit_code == 0
+    assert status.output.startswith("16 of 16 runs done: 16 ok")
+    data = open_campaign(folder / "friction-results").results()
+    friction = np.unique(data["friction"].to_numpy())
+    assert sorted(((friction - 0.04) / 0.01).astype(int)) == [0, 1, 2, 3]
+    assert sorted(np.unique(data["radius"].to_numpy())) == [1.5, 2.0]
+    slip = data["reached_slip"].max("bearing")
+    assert float(slip.where(data["model"] == "DCFP").max()) == 0.0
+    assert run(app, ["campaign", file]).output.splitlines()[-1] == first.output.splitlines()[-1]
+    (folder / "friction.toml").write_text(FILE.replace("seed = 3", "seed = 4"))
+    other = run(app, ["campaign", file])
+    assert other.exit_code == 2
+    assert 'parameters: "friction" was' in other.output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('low = 0.04, high = "8 %"', "low = 0.04", "parameters.friction: needs values = "),
+        ('low = 0.04, high = "8 %"', "low = 0.09, high = 0.04", "friction: low = 0.09 must be"),
+        ("size = 4\n", "", '"latin hypercube" needs a size'),
+        ('"latin hypercube"', '"grid"', "leave size out"),
+        ('"latin hypercube"\nsize = 4', '"grid"', "friction has a distribution"),
+        ('"latin hypercube"\nsize = 4', '"sobol"\nsize = 5', "power of 2: 4 or 8"),
+        ("radius = {values", "radios = {values", 'radios is not known; is "radius" meant?'),
+        ('"1500 mm", "2 m"', "1.5", "has no unit"),
+        ('"artificial-1"', '"artificial-99"', "artificial-99"),
+        ("1.0, 1.5", "1.0, 0.0", "scale of a motion = 0"),
+        ("[sample]", "[samples]", "samples is not known"),
+        ("storey_mass", "storey_masses", "storey_masses is not known"),
+        ('name = "Friction of two storeys"\n', "", "campaign.name is missing"),
+    ],
+)
+def test_messages_name_key_value_and_remedy(folder: Path, old: str, new: str, words: str) -> None:
+    (folder / "friction.toml").write_text(FILE.replace(old, new, 1))
+    found = run(app, ["campaign", str(folder / "friction.toml")])
+    assert found.exit_code == 2
+    assert words in found.output.replace("\n", " ")
+
+
+def test_a_bad_file_of_motions_is_named(folder: Path) -> None:
+    table = (folder / "motions/motions.csv").read_text()
+    name = next(line for line in table.splitlines() if line.startswith("artificial-1,")).split(",")[
+        1
+    ]
+    (folder / "motions" / name).write_text("0.1\nnan\nwhat\n")
+    with pytest.raises(ProjectError, match=name):
+        read_campaign(folder / "friction.toml")
+
+
+def test_distributions_are_those_of_the_file(folder: Path) -> None:
+    text = FILE.replace(
+        'friction = {low = 0.04, high = "8 %"}',
+        'friction = {low = 0.03, high = 0.09, distribution = "normal", mean = 0.06, '
+        'deviation = 0.01}\ncapacity = {low = "200 mm", high = "400 mm", distribution = '
+        '"loguniform"}',
+    ).replace("size = 4", "size = 64")
+    (folder / "friction.toml").write_text(text)
+    sample = read_campaign(folder / "friction.toml")._work.plan.sample
+    assert sample is not None
+    columns = dict(zip(sample.names, sample.values.T, strict=True))
+    normal = stats.norm(0.06, 0.01)
+    cut = normal.cdf([0.03, 0.09])
+    shares = (normal.cdf(columns["friction"]) - cut[0]) / (cut[1] - cut[0])
+    assert sorted((shares * 64.0).astype(int)) == list(range(64))
+    logs = np.log2(columns["capacity"] / 0.2)
+    assert sorted((logs * 64.0).astype(int)) == list(range(64))
