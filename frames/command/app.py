@@ -51,11 +51,14 @@ File = Annotated[Path, typer.Argument(help="The project's file.")]
 
 
 @app.command()
-def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE) -> None:
+def new(
+    folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
+    code: Annotated[str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745")] = "ASCE 7-22",
+) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with _told():
         try:
-            written = write_example(folder)
+            written = write_example(folder, code)
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
@@ -205,9 +208,16 @@ def _parts(file: Path) -> Parts:
 
 @contextmanager
 def _told() -> Generator[None, None, None]:
-    # Errors as lines with their exit code, warnings as lines.
+    # Errors as lines with their exit code, each warning as a line, once.
     with warnings.catch_warnings():
-        warnings.showwarning = _warned
+        told: set[str] = set()
+
+        def once(message: Warning | str, *_: object, **__: object) -> None:
+            if str(message) not in told:
+                told.add(str(message))
+                _warned(message)
+
+        warnings.showwarning = once
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError) as cause:
@@ -226,7 +236,7 @@ def _say(text: str) -> None:
     out.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
-def _warned(message: Warning | str, *_: object, **__: object) -> None:
+def _warned(message: Warning | str) -> None:
     err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
 
 
