@@ -119,6 +119,11 @@ class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         ll_module.data_layout = self._codegen._data_layout
         self._final_module.link_in(ll_module)
 
+    def _optimize_final_module(self) -> None:
+        # Once: numba's first round finds pairs of counted references, of which kernels have none.
+        passes, builder = self._codegen._module_pass_manager()
+        passes.run(self._final_module, builder)
+
 
 class _Flags(compiler.Flags):  # type: ignore[misc]  # numba has no types
     """Flags that are compared as fast as the dictionaries they are: typing does so all the time."""

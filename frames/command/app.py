@@ -45,11 +45,14 @@ File = Annotated[Path, typer.Argument(help="The project's file.")]
 
 
 @app.command()
-def new(folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE) -> None:
+def new(
+    folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
+    code: Annotated[str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745")] = "ASCE 7-22",
+) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with told():
         try:
-            written = write_example(folder)
+            written = write_example(folder, code)
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause

@@ -1,4 +1,4 @@
-"""How the command speaks: lines as they are, errors with their exit code, warnings as lines."""
+"""How the command speaks: lines as they are, errors with their exit code, each warning once."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ out, err = Console(), Console(stderr=True)
 
 @contextmanager
 def told() -> Generator[None, None, None]:
-    """Tell errors as lines and leave with their exit code; warnings are lines, too.
+    """Tell errors as lines and leave with their exit code; each warning is a line, once.
 
     Yields
     ------
@@ -32,7 +32,14 @@ def told() -> Generator[None, None, None]:
         With the code of the error.
     """
     with warnings.catch_warnings():
-        warnings.showwarning = _warned
+        before: set[str] = set()
+
+        def once(message: Warning | str, *_: object, **__: object) -> None:
+            if str(message) not in before:
+                before.add(str(message))
+                err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
+
+        warnings.showwarning = once
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError, CampaignError) as cause:
@@ -49,7 +56,3 @@ def told() -> Generator[None, None, None]:
 def say(text: str) -> None:
     """Print a text as it is, whatever is in it."""
     out.print(text, markup=False, highlight=False, soft_wrap=True)
-
-
-def _warned(message: Warning | str, *_: object, **__: object) -> None:
-    err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)

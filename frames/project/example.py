@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 from importlib import resources
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import signal
+
+from frames._errors import ProjectError
+from frames.hazard.spectrum import Spectrum
+from frames.motion.spectra import response_spectrum
+from lir_element.door import require_choice
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,18 +25,60 @@ PULSES = {f"artificial-{k}": 1.6 + 0.3 * k for k in range(1, 8)}
 
 _STEP, _LENGTH = 0.005, 25.0  # s
 _GROUND = 2.0 * math.pi * 1.2, 0.7  # rad/s, -: filter of the noise (Kanai and Tajimi)
+_SHORTEST, _LONGEST, _PERIODS = 0.05, 6.0, 60  # s, s, -: at which motions follow the spectrum
+_ROUNDS = 10
+_ACROSS = 0.6  # weaker component over the stronger one
 
 
-def write_example(folder: Path) -> list[Path]:
+_UPLIFT = """level = "pendulum"
+uplift_allowed = true             # corners lift for a moment; without it such runs count as failed
+"""
+
+
+class _Example(NamedTuple):
+    # What differs by standard: spectrum, and sections of the file.
+    spectrum: Spectrum
+    sections: dict[str, str]
+
+
+def _examples() -> dict[str, _Example]:
+    return {
+        "ASCE 7-22": _Example(Spectrum.asce7(1.2, 0.7), {}),
+        "EN 1998": _Example(Spectrum.en1998(3.4, "B"), {
+            "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
+            "kind = 1\n",
+            "bearing": _bearing("2.5 m", 185, 125, 0.04, 0.075),
+            "analysis": _UPLIFT,
+        }),
+        "NCh2745": _Example(Spectrum.nch2745("II", 3), {
+            "spectrum": 'soil = "II"\nzone = 3\n',
+            "bearing": _bearing("1.5 m", 185, 227, 0.04, 0.095),
+            "analysis": _UPLIFT,
+        }),
+    }  # fmt: skip
+
+
+def _bearing(radius: str, slider: int, capacity: int, friction: float, interface: float) -> str:
+    # As `lir design` proposes it for the example's building.
+    return (
+        f'radius = "{radius}"\nslider_height = "{slider} mm"\nslider_radius = "{slider} mm"\n'
+        f'capacity = "{capacity} mm"               # displacement at which rims are met\n'
+        f"friction = {friction:g}\ninterface_friction = {interface:g}\n"
+    )
+
+
+def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     """Write a project's file and artificial motions into a folder.
 
-    The motions are filtered noise with a pulse of velocity (a harmonic under a bell of two
-    periods) in it, weaker across: there to try the project with, not to design by.
+    The motions are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes
+    are brought to the design spectrum: there to try the project with, not to design by.
 
     Parameters
     ----------
     folder : Path
         Made if it is not there; what is in it stays.
+    code : {"ASCE 7-22", "EN 1998", "NCh2745"}
+        The project's code: spectrum, bearing and motions go by it.
 
     Returns
     -------
@@ -41,15 +89,19 @@ def write_example(folder: Path) -> list[Path]:
     ------
     FileExistsError
         If a file is there already.
+    ProjectError
+        If the code is not known.
     """
-    motions = folder / "motions"
-    text = resources.files("frames.project").joinpath("example.toml").read_text(encoding="utf-8")
-    contents = {folder / "project.toml": text}
+    known = _examples()
+    require_choice("code", code, tuple(known), error=ProjectError)
+    motions, chosen = folder / "motions", known[code]
+    contents = {folder / "project.toml": _text(code, chosen)}
     table = ["name,x,y,dt,unit,near_fault"]
     for seed, (name, period) in enumerate(PULSES.items()):
         table.append(f"{name},{name}-x.txt,{name}-y.txt,{_STEP},m/s2,yes")
-        for axis, share in (("x", 1.0), ("y", 0.6)):
-            values = share * _artificial(period, 2 * seed + (axis == "y"))
+        for axis, share in (("x", 1.0), ("y", _ACROSS)):
+            raw = _artificial(period, 2 * seed + (axis == "y"))
+            values = share * _matched(raw, chosen.spectrum)
             contents[motions / f"{name}-{axis}.txt"] = _column(values)
     contents[motions / "motions.csv"] = "\n".join(table) + "\n"
     for path in contents:
@@ -59,6 +111,34 @@ def write_example(folder: Path) -> list[Path]:
     for path, content in contents.items():
         path.write_text(content, encoding="utf-8")
     return list(contents)
+
+
+def _text(code: str, chosen: _Example) -> str:
+    # The commented file of ASCE 7-22, its sections replaced.
+    text = resources.files("frames.project").joinpath("example.toml").read_text(encoding="utf-8")
+    text = text.replace('code = "ASCE 7-22"', f'code = "{code}"')
+    for name, content in chosen.sections.items():
+        text = re.sub(rf"(?ms)^\[{name}\].*?(?=^\[|\Z)", f"[{name}]\n{content}\n", text)
+    return text
+
+
+def _matched(values: FloatArray, target: Spectrum) -> FloatArray:
+    # Fourier amplitudes times the ratio of the spectra, some times over; what is slower than the
+    # longest period fades.
+    periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
+    wanted = np.asarray(target.acceleration(periods))
+    frequency = np.fft.rfftfreq(len(values), _STEP)
+    with np.errstate(divide="ignore"):
+        at = np.clip(1.0 / frequency, _SHORTEST, _LONGEST)
+    found = values
+    for _ in range(_ROUNDS):
+        reached = response_spectrum(found, _STEP, periods)["pseudo_acceleration"].to_numpy()
+        ratio = np.interp(at, periods, wanted / reached)
+        found = np.fft.irfft(ratio * np.fft.rfft(found), len(values))
+    window = signal.windows.tukey(len(found), 0.1)
+    slow = signal.butter(4, 0.1, "highpass", fs=1.0 / _STEP, output="sos")
+    result: FloatArray = signal.sosfiltfilt(slow, found * window)
+    return result
 
 
 def _artificial(period: float, seed: int) -> FloatArray:

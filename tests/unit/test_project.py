@@ -49,7 +49,7 @@ zone = 2
 [motions]
 folder = "motions"
 only = ["artificial-1", "artificial-3", "artificial-5"]
-scale = 1.2
+scale = 0.8
 [bounds]
 friction = [0.8, 1.3]
 interface = [0.9, 1.1]
@@ -163,6 +163,31 @@ def test_the_example_is_a_project(folder: Path) -> None:
         assert abs(motion.drift["x"].share) < 0.05
 
 
+@pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
+def test_each_code_has_an_example(tmp_path: Path, code: str) -> None:
+    """Its motions follow its spectrum, so that the rule of the code hardly scales them."""
+    folder = tmp_path / "own"
+    assert run(app, ["new", str(folder), "--code", code]).exit_code == 0
+    file = read_project(folder / "project.toml")
+    assert file.project.code == file.spectrum.code == code
+    parts = Parts(file, folder)
+    periods = np.geomspace(0.1, 4.0, 30)
+    wanted = np.asarray(parts.spectrum().acceleration(periods))
+    for motion in parts.motions().values():
+        reached = motion.response_spectrum(periods)["pseudo_acceleration"].to_numpy()
+        assert reached == pytest.approx(wanted, rel=0.2)
+        assert np.mean(reached / wanted) == pytest.approx(1.0, abs=0.04)
+    scaling = groundwork(parts).motions.scaling
+    assert scaling is not None
+    assert all(0.7 < factor < 1.3 for factor in scaling.factors.values())
+
+
+def test_an_unknown_code_is_refused(tmp_path: Path) -> None:
+    done = run(app, ["new", str(tmp_path / "own"), "--code", "UBC"])
+    assert done.exit_code == 2
+    assert "ASCE 7-22" in done.stderr
+
+
 def test_new_writes_over_nothing(folder: Path) -> None:
     again = run(app, ["new", str(folder)])
     assert again.exit_code == 2
@@ -181,7 +206,7 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     assert (results / "project.toml").read_text() == ASCE
     runs = load(results / "runs-upper.nc")
     parts = Parts(read_project(folder / "small.toml"), folder)
-    motion = parts.motions()["artificial-3"].scaled(1.2)
+    motion = parts.motions()["artificial-3"].scaled(0.8)
     single = time_history(bounded(parts.frame(), "upper", parts.bounds()), motion)
     ours = float(runs["reached_displacement"].isel(run=1).max())
     size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)

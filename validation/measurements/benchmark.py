@@ -40,7 +40,7 @@ KEPT = FOLDER / "benchmark.json"
 LIMIT = 3600.0
 """Seconds after which a case counts as hanging."""
 SMALLER = {"d256": "d100"}
-"""Where a structure takes steps and settings of OpenSees from; else from that of case b."""
+"""Where a structure takes steps and settings from; else those of OpenSees from case b."""
 CASES = ("a", "b", "f", "profile", "e", "c", "d")
 """In the order in which they are run: later ones use the steps of b."""
 
@@ -62,9 +62,9 @@ def measured(key: str, kept: dict[str, Any], *, short: bool) -> dict[str, Any]:
     dict
         As `benchmark_cases.Found`; its "state" is "ok", "hang" or "crash".
     """
-    chosen = kept.get(SMALLER.get(key, "b"), {}).get("there")
+    smaller = kept.get(SMALLER.get(key, "b"), {})
     with Worker(LIMIT) as worker:
-        state, found = worker.run(measure, structure=STRUCTURES[key], chosen=chosen, short=short)
+        state, found = worker.run(measure, structure=STRUCTURES[key], smaller=smaller, short=short)
     return {"state": state, **(asdict(found) if found is not None else {})}
 
 

@@ -41,7 +41,7 @@ SOME = (PLAIN[0], RESILIENT[0])
 SEARCHED = 5
 """Steps by which a setting is judged for a large structure."""
 SEARCHABLE = 100
-"""Bearings, beyond which no setting is sought: building the model anew takes minutes each time."""
+"""Bearings, beyond which neither steps nor settings are sought: each run takes minutes."""
 COARSE = 2.5e-3
 """Step of the converged runs of large structures [s]."""
 
@@ -115,7 +115,7 @@ def devices_here(structure: Structure) -> dict[str, LIRBearing]:
 
 
 def measure(
-    structure: Structure, chosen: dict[str, dict[str, Any]] | None = None, *, short: bool = False
+    structure: Structure, smaller: dict[str, Any] | None = None, *, short: bool = False
 ) -> Found:
     """Run a structure in both programs.
 
@@ -123,9 +123,9 @@ def measure(
     ----------
     structure : Structure
         What is run.
-    chosen : dict, optional
-        By kind: steps and settings of a smaller structure, for one that is too large to be run at
-        all steps in OpenSees.
+    smaller : dict, optional
+        What was found of a smaller structure: steps and settings of OpenSees for one that is too
+        large to be run at all steps there, and beyond `SEARCHABLE` the steps here as well.
     short : bool
         Whether OpenSees runs one turn of a short window at an assumed step.
 
@@ -140,21 +140,31 @@ def measure(
     frames = {name: structure.frame(one) for name, one in devices_here(structure).items()}
     found.sizes = sizes(structure, next(iter(frames.values())))
     fine = FINE["here"] if effort.full else COARSE
+    known, chosen = ((smaller or {}).get(part, {}) for part in ("here", "there"))
     for name, frame in frames.items():
-        found.here[name] = {m: here(frame, m, fine) for m in METHODS}
+        if structure.bearings > SEARCHABLE and known:
+            found.here[name] = {
+                m: {"runs": [], "errors": [], **_step(known[name][m])} for m in METHODS
+            }
+        else:
+            found.here[name] = {m: here(frame, m, fine) for m in METHODS}
     bearing = structure.bearing()
     for kind in effort.kinds:
         if effort.full:
             reference = found.here[device_of(kind)]["direct"]["reference"]
             there = steps_there(structure, bearing, kind, reference if kind in OWN else None)
         else:
-            there = _searched(structure, bearing, kind, (chosen or {}).get(kind) or assumed())
+            there = _searched(structure, bearing, kind, chosen.get(kind) or assumed())
         found.there[kind] = there
         frame = frames[device_of(kind)]
         found.pairs[kind] = turns(
             structure, bearing, kind, frame, found.here[device_of(kind)], there, effort
         )
     return found
+
+
+def _step(here: dict[str, Any]) -> dict[str, Any]:
+    return {name: here[name] for name in ("dt", "refused") if name in here}
 
 
 def _searched(
