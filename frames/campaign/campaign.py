@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import warnings
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -32,8 +33,8 @@ if TYPE_CHECKING:
     from frames.campaign.batches import Batch, Builder, Told
     from frames.motion.ground_motion import GroundMotion
 
-BATCH, BATCH_OF_HISTORIES = 128, 16
-"""Runs of a batch if nothing is said: of what was reached, and with histories."""
+FEWEST, MOST, PARTS = 16, 128, 8
+"""Runs of a batch if nothing is said: so many parts of all, within bounds; with histories FEWEST."""
 
 
 class Campaign:
@@ -57,8 +58,8 @@ class Campaign:
     record : Recording, optional
         Histories to be kept besides what is reached.
     batch : int, optional
-        Runs of a batch, the least that is computed and written at once. None: 128, with histories
-        16; of a store that is there, its own.
+        Runs of a batch, the least that is computed and written at once. None: an eighth of all,
+        at least 16 and at most 128, with histories 16; of a store that is there, its own.
     duration, dt, level, integrator, spectral_radius, tolerance, features
         As for `time_histories`, the same for all runs.
 
@@ -111,9 +112,6 @@ class Campaign:
         first = next(iter(grounds))
         factors = tuple(c.scale for c in grid(one, {first: None}, scales, None))
         self.store = CampaignStore(store)
-        if batch is None:
-            usual = BATCH if record is None else BATCH_OF_HISTORIES
-            batch = int(self.store.plan()["batch"]) if self.store.exists else usual
         options = {
             "duration": duration, "dt": dt, "level": level, "integrator": integrator,
             "spectral_radius": spectral_radius, "tolerance": tolerance, "features": features,

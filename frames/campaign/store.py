@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import shutil
 import uuid
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 import xarray as xr
 
 from frames._errors import CampaignError
+from frames.campaign.layout import digest_of, lay_out
 from frames.campaign.lock import locked
 from frames.campaign.plan import differences
 from frames.results.storage import write_whole
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 FORMAT = 1
 _PLAN, _RUNS, _HISTORIES, _DONE, _LOCK = "plan.json", "runs.zarr", "histories", "done", "lock"
-
-_TIMINGS = {"seconds_loop"}
 
 
 class CampaignStatus(NamedTuple):
@@ -133,7 +131,7 @@ class CampaignStore:
         beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
         try:
             (beside / _DONE).mkdir(parents=True)
-            _lay_out(beside / _RUNS, plan, layout)
+            lay_out(beside / _RUNS, plan, layout)
             (beside / _PLAN).write_text(json.dumps(described, indent=1), encoding="utf-8")
             beside.rename(self.path)
         except OSError as cause:
@@ -352,79 +350,6 @@ class CampaignStore:
 def _opened(where: Path) -> xr.Dataset:
     data: xr.Dataset = xr.open_zarr(where, chunks=None, consolidated=False)
     return data
-
-
-def digest_of(batches: Iterable[Mapping[str, Any]]) -> str:
-    """Return a digest of arrays (runs, ...) by name, however the runs are parted into batches."""
-    found: dict[str, Any] = {}
-    for arrays in batches:
-        for name in arrays.keys() - _TIMINGS:
-            found.setdefault(name, hashlib.sha256()).update(_bytes(np.asarray(arrays[name])))
-    whole = "".join(f"{name} {found[name].hexdigest()}\n" for name in sorted(found))
-    return hashlib.sha256(whole.encode()).hexdigest()
-
-
-def _bytes(values: Any) -> bytes:
-    if values.dtype.kind == "f":
-        return np.where(np.isnan(values), np.nan, values).astype("<f8").tobytes()  # one NaN
-    return "".join(f"{text}\0" for text in values.ravel().tolist()).encode()
-
-
-def _lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
-    # Empty arrays for the results of all runs, a chunk a batch; labels and plan are filled in.
-    import zarr
-
-    labels = {str(name): layout[name] for name in layout.coords if "run" not in layout[name].dims}
-    planned = _planned(plan)
-    taken = planned.keys() & {*map(str, layout.variables), "done"} - {
-        "run",
-        "model",
-        "motion",
-        "scale",
-    }
-    if taken:
-        msg = f'the parameter "{min(taken)}" has the name of a result: give it another'
-        raise CampaignError(msg)
-    group = zarr.create_group(where)
-    group.attrs["results"] = [str(name) for name in layout.data_vars]
-    group.attrs["coordinates"] = " ".join(sorted({*labels, *planned} - {*map(str, layout.dims)}))
-    for name in layout.data_vars:
-        variable, is_text = layout[name], layout[name].dtype.kind != "f"
-        group.create_array(
-            str(name), shape=(plan.runs, *variable.shape[1:]),
-            chunks=(plan.batch, *(max(size, 1) for size in variable.shape[1:])),
-            dtype="string" if is_text else "float64", fill_value="" if is_text else np.nan,
-            dimension_names=tuple(map(str, variable.dims)), attributes=dict(variable.attrs),
-        )  # fmt: skip
-    for name, values in planned.items():
-        _fill(group, name, ("run",), values, {})
-    for name, variable in labels.items():
-        _fill(group, name, tuple(map(str, variable.dims)), variable.to_numpy(), variable.attrs)
-
-
-def _planned(plan: Plan) -> dict[str, Any]:
-    # Coordinates of all rows.
-    model, chosen, motion, scale = plan.places()
-    found: dict[str, Any] = {
-        "run": np.arange(plan.runs),
-        "model": np.array(plan.models, dtype=object)[model],
-        "motion": np.array(plan.motions, dtype=object)[motion],
-        "scale": np.array(plan.scales)[scale],
-    }
-    if plan.sample is not None:
-        found["parameter_set"] = chosen
-        found |= {n: plan.sample.values[chosen, k] for k, n in enumerate(plan.sample.names)}
-    return found
-
-
-def _fill(group: Any, name: str, dims: tuple[str, ...], values: Any, attrs: Any) -> None:
-    is_text = values.dtype.kind not in "fiu"
-    array = group.create_array(
-        name, shape=values.shape, chunks=tuple(max(size, 1) for size in values.shape),
-        dtype="string" if is_text else values.dtype, fill_value="" if is_text else 0,
-        dimension_names=dims, attributes=dict(attrs),
-    )  # fmt: skip
-    array[...] = values.astype(object) if is_text else values
 
 
 def open_campaign(path: str | Path) -> CampaignStore:

@@ -30,7 +30,7 @@ time_histories(frame, pulse)
 
 def campaign(store):
     return Campaign(frame, pulse, store=store, batch=2,
-                    sample=full_grid({"friction": np.linspace(0.04, 0.08, 16)}))
+                    sample=full_grid({"friction": np.linspace(0.04, 0.08, 12)}))
 
 def in_child(store):
     child = os.fork()
@@ -48,9 +48,9 @@ def marks(store):
 
 assert os.waitpid(in_child("whole"), 0)[1] == 0
 chance, kills, kept = random.Random(7), 0, {}
-while kills < 60:
+while kills < 12:
     child = in_child("killed")
-    time.sleep(chance.uniform(0.0, 0.6))
+    time.sleep(chance.uniform(0.0, 0.8))
     os.kill(child, signal.SIGKILL)
     code = os.waitpid(child, 0)[1]
     now = marks("killed")
