@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 from frames._errors import CampaignError, ModelWarning
 from frames.analysis.cases import BatchProgress, grid, named_models, named_motions, tell
-from frames.analysis.recording import Recording, whole_steps
+from frames.analysis.recording import Recording
 from frames.campaign.batches import Reference, Work, compute
 from frames.campaign.cluster import over_cluster
 from frames.campaign.fingerprint import fingerprint
 from frames.campaign.plan import Plan
-from frames.campaign.sampling import ParameterSample
+from frames.campaign.sampling import ParameterSample, whole
 from frames.campaign.store import FORMAT, CampaignStatus, CampaignStore
 from frames.frame import Frame
 from lir_element.device.features import Features
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 FEWEST, MOST, PARTS = 16, 128, 8
-"""Runs of a batch if nothing is said: so many parts of all, within bounds; with histories FEWEST."""
+"""Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
 
 
 class Campaign:
@@ -116,7 +116,13 @@ class Campaign:
             "duration": duration, "dt": dt, "level": level, "integrator": integrator,
             "spectral_radius": spectral_radius, "tolerance": tolerance, "features": features,
         }  # fmt: skip
-        plan = Plan(tuple(structures), tuple(grounds), factors, sample, whole_steps("batch", batch))
+        plan = Plan(tuple(structures), tuple(grounds), factors, sample, FEWEST)
+        if batch is not None:
+            plan = replace(plan, batch=whole("batch", batch, 1))
+        elif self.store.exists:
+            plan = replace(plan, batch=int(self.store.plan()["batch"]))
+        elif record is None:
+            plan = replace(plan, batch=min(max(plan.runs // PARTS, FEWEST), MOST))
         self._work = Work(plan, structures, grounds, options, record)
 
     def __repr__(self) -> str:

@@ -143,7 +143,7 @@ def latin_hypercube(
     >>> sorted(int((f - 0.04) / 0.01) for f in sample.values[:, 0])
     [0, 1, 2, 3]
     """
-    given, size, seed = _checked(parameters), _whole("size", size, 1), _whole("seed", seed, 0)
+    given, size, seed = _checked(parameters), whole("size", size, 1), whole("seed", seed, 0)
     shares = qmc.LatinHypercube(len(given), rng=np.random.default_rng(seed)).random(size)
     return _at(given, shares)
 
@@ -170,7 +170,7 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
     CampaignError
         If size, seed or a parameter cannot be.
     """
-    given, size, seed = _checked(parameters), _whole("size", size, 1), _whole("seed", seed, 0)
+    given, size, seed = _checked(parameters), whole("size", size, 1), whole("seed", seed, 0)
     if size & (size - 1):
         below = 2 ** (size.bit_length() - 1)
         msg = f"size = {size} of Sobol' points must be a power of 2: {below} or {2 * below}"
@@ -214,7 +214,8 @@ def _is_distribution(choice: object) -> TypeGuard[Distribution]:
     return hasattr(choice, "ppf")
 
 
-def _whole(name: str, value: object, least: int) -> int:
+def whole(name: str, value: object, least: int) -> int:
+    """Return `value` if it is a whole number of at least `least`, or raise a CampaignError."""
     number = as_number(name, value)
     if not math.isfinite(number) or number != int(number) or number < least:
         msg = f"{name} = {value!r} must be a whole number of at least {least}"
