@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeGuard
 
 import numpy as np
-from scipy.stats import qmc
 
 from frames._errors import CampaignError
 from lir_element.door import as_number, require_type
@@ -143,6 +142,8 @@ def latin_hypercube(
     >>> sorted(int((f - 0.04) / 0.01) for f in sample.values[:, 0])
     [0, 1, 2, 3]
     """
+    from scipy.stats import qmc  # half a second
+
     given, size, seed = _checked(parameters), whole("size", size, 1), whole("seed", seed, 0)
     shares = qmc.LatinHypercube(len(given), rng=np.random.default_rng(seed)).random(size)
     return _at(given, shares)
@@ -170,6 +171,8 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
     CampaignError
         If size, seed or a parameter cannot be.
     """
+    from scipy.stats import qmc
+
     given, size, seed = _checked(parameters), whole("size", size, 1), whole("seed", seed, 0)
     if size & (size - 1):
         below = 2 ** (size.bit_length() - 1)
