@@ -167,7 +167,7 @@ def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> No
 
 
 def test_trials_do_not_warn_of_what_the_checks_hold() -> None:
-    target = DesignTarget(radii=(2.0, 2.5), frictions=(0.04,), rim_share=0.85)
+    target = DesignTarget(radii=(1.0,), frictions=(0.05,), rim_share=0.9)
     with warnings.catch_warnings():
         warnings.simplefilter("error", DesignWarning)
         found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
