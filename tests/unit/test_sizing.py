@@ -172,8 +172,7 @@ def test_trials_do_not_warn_of_what_the_checks_hold() -> None:
         warnings.simplefilter("error", DesignWarning)
         found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
     with pytest.warns(DesignWarning, match="slip_stability"):
-        for candidate in found.candidates:
-            replace(candidate.bearings[0])
+        replace(found.bearings()[0])
 
 
 def test_what_none_keeps_is_told() -> None:
