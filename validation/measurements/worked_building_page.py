@@ -24,6 +24,7 @@ UNITS = {
     "uplifts, all bearings": ("-", 1.0), "gap of uplift": ("mm", 1e3), "base shear": ("kN", 1e-3),
     "storey drift ratio": ("%", 1e2), "floor acceleration in plan": ("m/s2", 1.0),
 }  # fmt: skip
+LEVEL_COLUMNS = {"displacement": 1e3, "slip": 1e3, "seconds": 1.0}
 DRAWN = ("isolator displacement", "base shear", "storey drift ratio", "floor acceleration in plan")
 WHY = (
     "The chain begins with the code's displacement. *Spectrum* is the mean RotD100 spectrum of the "
@@ -159,6 +160,15 @@ def page(found: Mapping[str, Any]) -> str:
         "slider meets the same rims; on larger ones it meets none.",
         device_table(asce),
         "![The three bearings side by side](figures/worked_building-devices.png)",
+        "The run that displaces a bearing most, at two levels of the model (ASCE 7-22, Northridge, "
+        "upper bound):",
+        table(
+            ("level", "displacement [mm]", "largest slip [mm]", "time [s]"),
+            [
+                [level, *(number(r[k], f) for k, f in LEVEL_COLUMNS.items())]
+                for level, r in found["contact"].items()
+            ],
+        ),
         "## The LIR-DCFP under three codes",
         "Means of seven histories, the worst of the bounds, uplift allowed.",
         table(("", "unit", *codes), device_rows(k["lir"]["envelope"] for k in codes.values())),
