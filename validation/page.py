@@ -245,6 +245,8 @@ def index(folder: Path = FOLDER) -> str:
         "(`python -m validation.random_scenes`), "
         "[yielding.md](yielding.md), random buildings that yield, each at two steps "
         "(`python -m validation.measurements.yielding`), "
+        "[worked_building.md](worked_building.md), the design guide's building under three codes "
+        "(`python -m validation.measurements.worked_building`), "
         "and [yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
         "systems (`python -m validation.measurements.yielding_comparison`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "

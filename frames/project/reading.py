@@ -77,8 +77,10 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
     try:
         return kind.model_validate(data)
     except ValidationError as cause:
-        lines = [_line(file.name, data, error, kind, hint) for error in cause.errors()]
-        raise ProjectError("\n".join(lines)) from cause
+        lines: dict[str, str] = {}  # of the ways that a key may be given, the first
+        for error in cause.errors():
+            lines.setdefault(".".join(_place(error)), _line(file.name, data, error, kind, hint))
+        raise ProjectError("\n".join(lines.values())) from cause
 
 
 def schema() -> str:
@@ -86,8 +88,13 @@ def schema() -> str:
     return json.dumps(ProjectFile.model_json_schema(), indent=2)
 
 
+def _place(error: Any) -> list[str]:
+    # Of a key that may be one or two, the way that was tried ends with a bracket.
+    return [str(p) for p in error["loc"] if p not in _KINDS and not str(p).endswith("]")]
+
+
 def _line(name: str, data: dict[str, Any], error: Any, whole: type[Section], hint: str) -> str:
-    place = [str(part) for part in error["loc"] if part not in _KINDS]
+    place = _place(error)
     key, kind = ".".join(place) or "the file", error["type"]
     if kind == "missing":
         return f"{name}: {key} is missing: give it, {hint}"

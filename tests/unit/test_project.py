@@ -113,6 +113,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('"180 mm"', "180", 'changed.toml: bearing.capacity = 180 has no unit: write "180 mm"'),
         ("capacity", "capacty", 'bearing.capacty is not known; is "capacity" meant'),
         ("capacity", "capacty", "bearing.capacity is missing"),
+        ('radius = "1.5 m"', 'radius = "1500"', 'bearing.radius = "1500" has no unit'),
         ("zone = 2", "zone = 7", "spectrum.zone = 7 must be 1, 2 or 3"),
         ('soil = "II"', "s_ms = 1.0", "spectrum.s_ms is not known"),
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),

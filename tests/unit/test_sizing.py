@@ -2,6 +2,8 @@
 
 import itertools
 import math
+import warnings
+from dataclasses import replace
 
 import pytest
 from scipy.optimize import brentq
@@ -23,7 +25,7 @@ from frames import (
 )
 from frames.sizing.candidate import rounded_up
 from frames.sizing.proposal import grouped
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction, DesignWarning, LIRBearing
 
 G = 9.80665
 S_M1 = 0.8
@@ -162,6 +164,15 @@ def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> No
         assert found.chosen.trace.value(symbols[name]) == min(good)
         assert found.chosen.trace.value("D") <= 0.60
     assert len(frames["displacement"].to_dataframe()) == 6
+
+
+def test_trials_do_not_warn_of_what_the_checks_hold() -> None:
+    target = DesignTarget(radii=(1.0,), frictions=(0.05,), rim_share=0.9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DesignWarning)
+        found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
+    with pytest.warns(DesignWarning, match="slip_stability"):
+        replace(found.bearings()[0])
 
 
 def test_what_none_keeps_is_told() -> None:
