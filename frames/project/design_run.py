@@ -15,7 +15,6 @@ from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
-from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.history_rules import HISTORY_RULES
 from frames.project.groundwork import groundwork, inputs_of
@@ -38,10 +37,6 @@ if TYPE_CHECKING:
     from frames.hazard.spectrum import Spectrum
     from frames.project.groundwork import Groundwork
     from frames.project.parts import Parts
-
-_ALWAYS = frozenset({"restoring force", "recentring, energy", "recentring, displacement"})
-"""Equivalent-linear checks that time histories do not make; the others are limits of that
-procedure, or have their counterpart in the histories."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -168,8 +163,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), _rules(parts), histories.runs
     minima = known.equivalent if _has_minima(parts) else None
-    found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
-    found += known.equivalent.general
+    found = [c for c in known.equivalent.checks if c.scope == "any"]
     found += history_checks(
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
@@ -256,10 +250,6 @@ def _governing(
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motions[name], level=given.level, dt=given.dt)
     return data, f"{name}, {bound} bound"
-
-
-def _is_for_any_analysis(check: Check) -> bool:
-    return check.title in _ALWAYS and not is_limit_of_procedure(check)
 
 
 def _has_minima(parts: Parts) -> bool:
