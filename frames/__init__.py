@@ -48,6 +48,7 @@ from frames.checks.nch2745 import NCh2745 as NCh2745
 from frames.checks.outcome import EquivalentLinear as EquivalentLinear
 from frames.checks.overlap import overlap_area as overlap_area
 from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.resultants import resultant_offsets as resultant_offsets
 from frames.checks.single_run import event_checks as event_checks
 from frames.checks.single_run import impact_checks as impact_checks
 from frames.checks.superstructure import Superstructure as Superstructure
@@ -237,6 +238,7 @@ __all__ = [
     "pair_spectrum",
     "peaks",
     "repeated_motion",
+    "resultant_offsets",
     "rim_engagement",
     "save",
     "shear_building",
