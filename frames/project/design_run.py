@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -16,9 +16,7 @@ from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.histories import bounded_histories, history_checks, history_demands
-from frames.checks.history_rules import HISTORY_RULES
 from frames.project.groundwork import groundwork, inputs_of
-from frames.project.parts import RULES
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
@@ -30,7 +28,6 @@ if TYPE_CHECKING:
     from frames.analysis.model_check import ModelCheck
     from frames.checks.bounds import PropertyBounds
     from frames.checks.check import Bound
-    from frames.checks.history_rules import HistoryRules
     from frames.checks.outcome import EquivalentLinear
     from frames.frame import Frame
     from frames.hazard.motion_set import MotionSet
@@ -161,7 +158,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     CheckError
         If a check cannot be made.
     """
-    frame, bounds, rules, runs = known.frame, parts.bounds(), _rules(parts), histories.runs
+    frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if c.scope == "any"]
     found += history_checks(
@@ -207,7 +204,7 @@ def compare_devices(
     plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
     frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
     tables = {
-        device: history_demands(_histories(parts, frame, known.motions, progress), _rules(parts))
+        device: history_demands(_histories(parts, frame, known.motions, progress), parts.rules())
         for device, frame in frames.items()
     }
     columns = {device: table["envelope"] for device, table in tables.items()}
@@ -225,13 +222,6 @@ def _histories(
         frame, motions, parts.bounds(), at=given.bounds, level=given.level, dt=given.dt,
         workers=given.workers, progress=progress, record=Recording(every=None),
     )  # fmt: skip
-
-
-def _rules(parts: Parts) -> HistoryRules:
-    # Of the code, uplift as the file has it.
-    rules = HISTORY_RULES[RULES[parts.file.project.code]]
-    allowed = parts.file.analysis.uplift_allowed
-    return rules if allowed is None else replace(rules, uplift_allowed=allowed)
 
 
 def _governing(

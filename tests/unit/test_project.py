@@ -310,3 +310,11 @@ def test_what_cannot_be_used_ends_with_two(folder: Path) -> None:
     assert done.exit_code == 2
     assert "bearing.capacity = 180" in done.stderr
     assert run(app, ["check", str(folder / "nowhere.toml")]).exit_code == 2
+
+
+def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:
+    said = 'uplift_allowed = true\nleast_gap = "0.2 mm"'
+    for text, allowed, gap in (("", False, 1e-3), (f"[analysis]\n{said}\n", True, 2e-4)):
+        (folder / "gap.toml").write_text(f"{SMALL}\n{text}")
+        rules = Parts(read_project(folder / "gap.toml"), folder).rules()
+        assert (rules.uplift_allowed, rules.least_gap) == (allowed, pytest.approx(gap))
