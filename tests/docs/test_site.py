@@ -1,6 +1,7 @@
 """The site builds without a warning, and every public name is on it."""
 
 import importlib
+import os
 import subprocess  # runs this interpreter on the sources of the site  # noqa: S404
 import sys
 import zlib
@@ -32,12 +33,15 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 class _Page(HTMLParser):
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.title, self.targets = "", list[str]()
+        self.title, self.ids = "", set[str]()
+        self.targets, self.sources = list[str](), list[str]()
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self._in_title = tag == "title"
         self.targets += [v for n, v in attrs if n in {"href", "src"} and v]
+        self.sources += [v for n, v in attrs if n == "src" and v]
+        self.ids |= {v for n, v in attrs if n == "id" and v}
 
     def handle_data(self, data: str) -> None:
         if getattr(self, "_in_title", False):
@@ -52,15 +56,29 @@ def pages(site: Path) -> Iterator[tuple[Path, _Page]]:
 
 
 def test_every_page_has_a_title_and_reaches_what_it_names(site: Path) -> None:
+    parsed = dict(pages(site))
     count = 0
-    for file, page in pages(site):
+    for file, page in parsed.items():
         assert page.title.strip(), file
         for target in page.targets:
-            path = target.split("#")[0].split("?")[0]
-            if path and "//" not in path and not path.startswith(("mailto:", "data:")):
-                assert (file.parent / path).exists(), (file, target)
-                count += 1
+            path, _, anchor = target.partition("#")
+            path = path.split("?")[0]
+            if "//" in path or path.startswith(("mailto:", "data:")):
+                continue
+            reached = Path(os.path.normpath(file.parent / path)) if path else file
+            assert reached.exists(), (file, target)
+            if anchor and reached in parsed:
+                assert anchor in parsed[reached].ids, (file, target)
+            count += 1
     assert count > 1000
+
+
+def test_pages_are_read_without_a_network(site: Path) -> None:
+    drawn = 0
+    for file, page in pages(site):
+        assert not [t for t in page.sources if "//" in t], file
+        drawn += file.read_text(encoding="utf-8").count("<math ")
+    assert drawn
 
 
 def test_all_documents_are_pages(site: Path) -> None:
