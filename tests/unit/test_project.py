@@ -217,12 +217,15 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
 
 
 def test_uplift_counts_as_the_file_says(folder: Path) -> None:
-    for line, is_void in (("", True), ("[analysis]\nuplift_allowed = true\n", False)):
-        (folder / "uplift.toml").write_text(f"{SMALL}\n{line}")
+    said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
+    for line, is_void in said.items():
+        (folder / "uplift.toml").write_text(f"{SMALL}\n[analysis]\n{line}\n")
         done = run(app, ["run", str(folder / "uplift.toml"), "--results", str(folder / "up")])
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)
         assert math.isinf(demands.loc["isolator displacement", "lower"]) == is_void
+        is_told = "count as contact" in (folder / "up" / "checks.csv").read_text()
+        assert is_told == (not line)
 
 
 def test_the_devices_are_compared(folder: Path) -> None:
