@@ -16,6 +16,8 @@ from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.histories import bounded_histories, history_checks, history_demands
+from frames.checks.motions import motion_checks
+from frames.checks.storey_shear import storey_shear_check
 from frames.project.groundwork import groundwork, inputs_of
 from lir_element.errors import AnalysisWarning
 
@@ -161,9 +163,14 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if c.scope == "any"]
+    found += motion_checks(known.motions, known.spectrum, known.equivalent)
     found += history_checks(
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
+    governing, _ = most_displaced(runs)
+    if minima is not None and governing != "" and governing in minima.bounds:
+        model = bounded(frame, governing, bounds)
+        found.append(storey_shear_check(histories.governing, model, minima, governing))
     demands = history_demands(runs, rules)
     found += _of_the_bearing(parts, known, demands)
     return ProjectRun(
@@ -224,16 +231,21 @@ def _histories(
     )  # fmt: skip
 
 
+def most_displaced(runs: Mapping[Bound, xr.Dataset]) -> tuple[Bound, int]:
+    """Return bound and place of the run that displaces a bearing most."""
+    reached = {
+        (bound, run): float(data["reached_displacement"].isel(run=run).max())
+        for bound, data in runs.items()
+        for run in range(data.sizes["run"])
+    }
+    return max(reached, key=lambda key: reached[key])
+
+
 def _governing(
     parts: Parts, frame: Frame, motions: MotionSet, runs: Mapping[Bound, xr.Dataset]
 ) -> tuple[xr.Dataset, str]:
     # Histories of the run that displaces a bearing most, run once more to keep them.
-    reached = {
-        (bound, int(run)): float(data["reached_displacement"].isel(run=run).max())
-        for bound, data in runs.items()
-        for run in range(data.sizes["run"])
-    }
-    bound, run = max(reached, key=lambda key: reached[key])
+    bound, run = most_displaced(runs)
     name, given = str(runs[bound]["motion"].to_numpy()[run]), parts.file.analysis
     model = frame if bound == "" else bounded(frame, bound, parts.bounds())
     with warnings.catch_warnings():  # as told of the same run among the others
