@@ -53,12 +53,17 @@ from frames.checks.impacts import slips_of_events as slips_of_events
 from frames.checks.impacts import uplift_events as uplift_events
 from frames.checks.isolation import IsolationSystem as IsolationSystem
 from frames.checks.limits import DesignLimits as DesignLimits
+from frames.checks.motions import motion_checks as motion_checks
+from frames.checks.motions import period_range as period_range
 from frames.checks.nch2745 import NCh2745 as NCh2745
 from frames.checks.outcome import EquivalentLinear as EquivalentLinear
 from frames.checks.overlap import overlap_area as overlap_area
 from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.resultants import resultant_offsets as resultant_offsets
 from frames.checks.single_run import event_checks as event_checks
 from frames.checks.single_run import impact_checks as impact_checks
+from frames.checks.storey_shear import storey_shear_check as storey_shear_check
+from frames.checks.storey_shear import storey_shear_peaks as storey_shear_peaks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.fragility.analyses import cloud_analysis as cloud_analysis
@@ -247,13 +252,16 @@ __all__ = [
     "member_forces",
     "modes",
     "moment_frame",
+    "motion_checks",
     "motion_measures",
     "multiple_stripes",
     "open_campaign",
     "overlap_area",
     "pair_spectrum",
     "peaks",
+    "period_range",
     "repeated_motion",
+    "resultant_offsets",
     "rim_engagement",
     "save",
     "shear_building",
@@ -263,6 +271,8 @@ __all__ = [
     "storey_drift",
     "storey_ductility",
     "storey_forces",
+    "storey_shear_check",
+    "storey_shear_peaks",
     "summary",
     "support_reactions",
     "synthetic_near_fault",

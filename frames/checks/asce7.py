@@ -181,14 +181,14 @@ class ASCE7:
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
         t.given("a_k", self.stiffness_ratio)
         t("k_lim", "a_k * k_02", "N/m")
-        limits = "ASCE 7-22 17.4.1"
+        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
         return Checks(
             [
                 capacity_check(t, system, judge, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
                 judge("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-                judge(limits, "effective period", "T_M", "<=", "T_lim"),
-                judge(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                judge(limits, "stiffness over that at 0.2 D_M", "k_M", ">=", "k_lim"),
+                limit(limits, "effective period", "T_M", "<=", "T_lim"),
+                limit(limits, "effective damping", "beta_M", "<=", "beta_lim"),
+                limit(limits, "stiffness over that at 0.2 D_M", "k_M", ">=", "k_lim"),
             ]
         )
 
@@ -245,17 +245,17 @@ class ASCE7:
         t("V_s_dyn", "a_dyn * V_s", "N", source=source, note=note)
 
     def _structure_checks(self, t: Trace, above: Superstructure, judge: Judge) -> Checks:
-        limits = "ASCE 7-22 17.4.1"
+        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
         t.given("a_fb", self.period_ratio)
         t("T_least", "a_fb * T_fb", "s")
-        found: list[Check] = [judge(limits, "period over fixed base", "T_M", ">=", "T_least")]
+        found: list[Check] = [limit(limits, "period over fixed base", "T_M", ">=", "T_least")]
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
             t.given("n_lim", self.storeys)
             t("h_n", "max(h_x)", "m")
             t.given("h_lim", self.height, "m")
-            found.append(judge(limits, "storeys", "n", "<=", "n_lim"))
-            found.append(judge(limits, "height", "h_n", "<=", "h_lim"))
+            found.append(limit(limits, "storeys", "n", "<=", "n_lim"))
+            found.append(limit(limits, "height", "h_n", "<=", "h_lim"))
         clause = "ASCE 7-22 17.5.6"
         drift = drift_checks(t, above, judge, clause, limit=self.drift, factor="R_I")
         return Checks([*found, *drift])

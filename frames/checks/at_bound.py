@@ -15,7 +15,15 @@ from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
 from frames.checks.equivalent import Judge
-from frames.checks.suite import audit_notes, left_out_checks, names_of, reached, suite_of
+from frames.checks.suite import (
+    audit_notes,
+    contact_notes,
+    left_out_checks,
+    names_of,
+    parted,
+    reached,
+    suite_of,
+)
 from frames.checks.trace import Trace
 from frames.checks.worst import Calculation, WorstOf
 
@@ -93,6 +101,11 @@ class AtBound:
     def _audit(self) -> str:
         return audit_notes(self.data)
 
+    @cached_property
+    def _small_gaps(self) -> str:
+        allowed = self.rules.uplift_allowed
+        return "" if allowed else contact_notes(self.data, self.rules.least_gap)
+
     @property
     def _note(self) -> str:
         # With each check: why there is no value, or that there is more to read.
@@ -119,7 +132,8 @@ class AtBound:
         allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
         t.given("n_allowed", float(allowed))
         clause, judge = self._clause(self.rules.statistic_clause), Judge(t, self.bound)
-        note = "; ".join(part for part in (self._suite.reason, self._audit) if part)
+        said = (self._suite.reason, self._small_gaps, self._audit)
+        note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
@@ -134,12 +148,16 @@ class AtBound:
         found = []
         if not self.rules.uplift_allowed:
             t = Trace()
-            lasts = float(np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf).max())
-            t.given("t_up", lasts, "s", note="longest of a bearing in a run")
+            lasts = np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf)
+            open_ = parted(self.data, self.rules.least_gap) | np.isinf(lasts)
+            longest = float(np.where(open_, lasts, 0.0).max())
+            note = f"longest of a bearing in a run, of gaps above {1e3 * self.rules.least_gap:g} mm"
+            t.given("t_up", longest, "s", note=note)
             t.given("t_allowed", 0.0, "s")
             judge = Judge(t, self.bound)
             clause = self._clause(self.rules.force_clause)
-            found.append(judge(clause, "time lifted off", "t_up", "<=", "t_allowed"))
+            said = self._small_gaps
+            found.append(judge(clause, "time lifted off", "t_up", "<=", "t_allowed", note=said))
         if self.limits.uplift_gap is not None:
             found += self._worst(
                 "", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap, shown="mm"

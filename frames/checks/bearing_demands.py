@@ -14,6 +14,7 @@ from frames.checks.overlap import liner_pressure, pressure
 from frames.checks.suite import names_of, reached
 from frames.checks.trace import Trace
 from frames.checks.worst import Calculation, WorstOf
+from frames.results.reached import PRESSED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,6 +24,11 @@ if TYPE_CHECKING:
     from frames.checks.suite import Suite
     from frames.frame import Frame
     from lir_element import LIRBearing
+
+_ALONE = (
+    "a rim may press alone at the level 'pendulum': where that decides, the level 'contact' lets "
+    "the sliders turn until both press (resultant_offsets says when)"
+)
 
 Fill = Callable[[int], Calculation]
 """Returns the calculation of the bearing of a place."""
@@ -159,7 +165,9 @@ class BearingDemands:
         if limits.rim_strength is not None:
             found += self._against("rim force", "rim_force", "P", limits.rim_strength, "N")
         title = "resultant between the sliders, over their radius"
-        found += self._against(title, "eccentricity", "epsilon", limits.eccentricity, "-")
+        found += self._against(
+            title, "eccentricity", "epsilon", limits.eccentricity, "-", note=self._of_resultants
+        )
         if limits.lateral_force is not None:
             title = "lateral force of a bearing"
             found += self._against(title, "force", "H", limits.lateral_force, "N")
@@ -204,7 +212,14 @@ class BearingDemands:
             t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
 
     def _against(
-        self, title: str, name: str, symbol: str, limit: float, unit: str, shown: str = ""
+        self,
+        title: str,
+        name: str,
+        symbol: str,
+        limit: float,
+        unit: str,
+        shown: str = "",
+        note: str = "",
     ) -> list[Check]:
         values = reached(self.data, name)
 
@@ -214,7 +229,15 @@ class BearingDemands:
             t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
             return Calculation(t, symbol, f"{symbol}_lim")
 
-        return self._worst("no code: limit as given", title, fill, self._all)
+        return self._worst("no code: limit as given", title, fill, self._all, note=note)
+
+    @property
+    def _of_resultants(self) -> str:
+        # What the offset of a resultant counts, and what its level can say of it.
+        counted = f"counts while N > {PRESSED:g} of that at rest"
+        if "pendulum" not in str(self.data.attrs["level"]):
+            return counted
+        return f"{counted}; {_ALONE}"
 
     def _worst(
         self,

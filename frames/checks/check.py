@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Bound = Literal["lower", "nominal", "upper", ""]
+Scope = Literal["any", "demand", "procedure"]
 CONFIRMED = "confirmed"
 TO_BE_CONFIRMED = "to be confirmed against the standard"
 _ROUND_OFF = 1e-9
@@ -53,6 +54,9 @@ class Check:
         What else a reader should know.
     shown : str
         Unit to show it in; kN for forces, otherwise `unit`.
+    scope : {"any", "demand", "procedure"}
+        What it holds for: any analysis; a demand that a time history finds anew; or the
+        equivalent-linear procedure, which does not hold where it fails. Not in tables.
 
     Raises
     ------
@@ -80,6 +84,7 @@ class Check:
     subject: str = ""
     note: str = ""
     shown: str = ""
+    scope: Scope = "any"
 
     def __post_init__(self) -> None:
         for name in ("demand", "limit"):
@@ -95,6 +100,8 @@ class Check:
         require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
         bounds = ("lower", "nominal", "upper", "")
         require_choice("bound", self.bound, bounds, error=CheckError)
+        scopes = ("any", "demand", "procedure")
+        require_choice("scope", self.scope, scopes, error=CheckError)
         object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
         try:
             scale(self.unit, self.shown)
@@ -211,7 +218,7 @@ class Checks(Sequence[Check]):
         """Return a table with a row for each check, numbers in SI units."""
         import pandas as pd
 
-        names = [f.name for f in fields(Check) if f.name not in {"trace", "shown"}]
+        names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
         rows = [
             {**{name: getattr(c, name) for name in names}, "ratio": c.ratio, "passed": c.passed}
             for c in self

@@ -170,6 +170,7 @@ class EN1998:
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
         limits, names = "EN 1998-1 10.9.2", system.labels
+        limit = judge.of("procedure")
         found = [
             capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed"),
             judge.worst(
@@ -179,14 +180,14 @@ class EN1998:
                 "EN 1998-2 7.7.1", "recentring, displacement", "d_dc", ">=", "d_least",
                 subjects=names, note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            judge(limits, "stiffness over that at 0.2 d_dc", "K_eff", ">=", "K_lim"),
-            judge(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
-            judge(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+            limit(limits, "stiffness over that at 0.2 d_dc", "K_eff", ">=", "K_lim"),
+            limit(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
+            limit(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
         ]  # fmt: skip
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
             t.given("v_lim", self.most_variation, shown="%")
-            found.append(judge(limits, "variation of properties", "v", "<=", "v_lim"))
+            found.append(limit(limits, "variation of properties", "v", "<=", "v_lim"))
         return Checks(found)
 
     def _shears(self, t: Trace, above: Superstructure) -> None:
@@ -220,13 +221,13 @@ class EN1998:
         t("T_least", "a_f * T_f", "s")
         t.given("T_v", above.vertical_period or 0.0, "s")
         t.given("T_v_lim", self.vertical_period, "s")
-        clause = "EN 1998-1 10.9.3"
+        clause, limit = "EN 1998-1 10.9.3", judge.of("procedure")
         return Checks(
             [
-                judge(clause, "side of the plan", "B_plan", "<=", "B_lim"),
-                judge(clause, "effective period", "T_eff", "<=", "T_lim"),
-                judge(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                judge(clause, "period over fixed base", "T_eff", ">=", "T_least"),
-                judge(clause, "vertical period", "T_v", "<=", "T_v_lim"),
+                limit(clause, "side of the plan", "B_plan", "<=", "B_lim"),
+                limit(clause, "effective period", "T_eff", "<=", "T_lim"),
+                limit(clause, "distance to the fault", "r_f", ">=", "r_lim"),
+                limit(clause, "period over fixed base", "T_eff", ">=", "T_least"),
+                limit(clause, "vertical period", "T_v", "<=", "T_v_lim"),
             ]
         )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from frames._errors import CheckError
-from frames.checks.check import TO_BE_CONFIRMED, Bound, Check
+from frames.checks.check import TO_BE_CONFIRMED, Bound, Check, Scope
 from frames.checks.outcome import Iteration, Symbols
 from frames.checks.trace import Trace
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 _MOST_ROUNDS = 500
 _SETTLED = 1e-12
-_PROCEDURE = ("17.4.1", "10.9.2", "10.9.3")  # clauses of ASCE 7-22 and EN 1998-1
 
 
 def enter_system(system: IsolationSystem) -> Trace:
@@ -106,12 +105,6 @@ def settle(
     raise CheckError(msg)
 
 
-def is_limit_of_procedure(check: Check) -> bool:
-    """Return whether a check limits the equivalent-linear procedure, not the bearings."""
-    # a time history is free of such limits, and rims that are met need one anyway
-    return any(clause in check.clause for clause in _PROCEDURE)
-
-
 @dataclass(frozen=True)
 class Judge:
     """Makes checks from what a calculation holds.
@@ -124,11 +117,18 @@ class Judge:
         Properties of the bearings that it is for.
     standing : str
         Of its checks.
+    scope : {"any", "demand", "procedure"}
+        Of its checks.
     """
 
     t: Trace
     bound: Bound
     standing: str = TO_BE_CONFIRMED
+    scope: Scope = "any"
+
+    def of(self, scope: Scope) -> Judge:
+        """Return one that makes checks of this scope."""
+        return replace(self, scope=scope)
 
     def __call__(
         self,
@@ -181,5 +181,5 @@ class Judge:
             clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
             unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
             trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
-            note=note,
+            note=note, scope=self.scope,
         )  # fmt: skip

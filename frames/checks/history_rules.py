@@ -29,6 +29,10 @@ class HistoryRules:
         On the isolators' displacement [-].
     uplift_allowed : bool
         Whether bearings may lift off; where not, a run in which one does is unacceptable.
+    least_gap : float
+        Gap up to which a bearing counts as in contact all the same [m]. A proposal: what sliders
+        and liners under a common pressure spring back by, 60 MPa times 225 mm over 20 GPa
+        (docs/choices.md) is 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
     unacceptable_allowed : int
         How many runs may fail while the mean of the others stands for all: then the median of all
         times `median_factor` is its lower bound.
@@ -48,6 +52,7 @@ class HistoryRules:
     drift: float | None = None
     displacement_factor: float = 1.0
     uplift_allowed: bool = False
+    least_gap: float = 1e-3
     unacceptable_allowed: int = 0
     median_factor: float = 1.2
     engagement: float | None = None
@@ -62,6 +67,7 @@ class HistoryRules:
         require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
         require_between("displacement_factor", self.displacement_factor, 1.0, 10.0, "-",
                         error=CheckError)  # fmt: skip
+        require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
         for name in ("drift", "engagement"):
             if getattr(self, name) is not None:

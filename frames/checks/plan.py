@@ -146,7 +146,7 @@ def vertical_checks(
         t.given_each(f"N_{word}", loads, "N", note=f"combination {name}, without earthquake")
         t.each(f"N_least_{word}", f"N_{word} - N_E", "N")
         found.append(
-            judge.worst(
+            judge.of("procedure").worst(
                 clause, f"no uplift, {name}", f"N_least_{word}", ">=", "N_0",
                 subjects=system.labels,
             )
@@ -154,7 +154,7 @@ def vertical_checks(
         if "p_lim" in t:
             t.each(f"p_{word}", f"(N_{word} + N_E) / (pi * r_s**2)", "Pa")
             found.append(
-                judge.worst(
+                judge.of("demand").worst(
                     clause, f"pressure on the slider, {name}", f"p_{word}", "<=", "p_lim",
                     subjects=system.labels,
                 )
@@ -186,7 +186,8 @@ def capacity_check(
     t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
                  note="displacement at the first rim contact")  # fmt: skip
     title = "rims free at the total displacement"
-    check = judge.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
+    limit = judge.of("procedure")
+    check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:
         return check
     note = (
@@ -230,4 +231,5 @@ def drift_checks(
     t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm", note=note)
     t.each("Delta_a", "a_d * h_s", "m", shown="mm")
     names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
-    return Checks([judge.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])
+    found = judge.of("demand")
+    return Checks([found.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])

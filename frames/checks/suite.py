@@ -17,7 +17,7 @@ from frames.results.reached import LEFT, QUANTITIES, TOTALS, largest, left, stor
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames._types import FloatArray
+    from frames._types import BoolArray, FloatArray
     from frames.checks.check import Bound, Check
     from frames.checks.history_rules import HistoryRules
 
@@ -174,7 +174,7 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         Mean or largest, and which runs failed.
     """
     status = [str(value) for value in data["status"].to_numpy()]
-    lifted = np.nan_to_num(reached(data, "uplifts"), nan=0.0) > 0.0
+    lifted = np.atleast_1d(parted(data, rules.least_gap).any(axis=1))
     failed, words = [], []
     for k, word in enumerate(status):
         torn = bool(lifted[k]) and not rules.uplift_allowed
@@ -192,6 +192,39 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         median_factor=rules.median_factor, reason=reason,
         source=f"{rules.code} {rules.statistic_clause}".strip(),
     )  # fmt: skip
+
+
+def parted(data: xr.Dataset, least: float) -> BoolArray:
+    """Return which bearings parted by more than a gap in each run.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs, or one.
+    least : float
+        The gap [m].
+
+    Returns
+    -------
+    ndarray of bool, (n_runs, n_bearings)
+        Those; where a gap is not known, those that lifted off.
+    """
+    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    return np.asarray(np.where(np.isnan(gap), time > 0.0, gap > least))
+
+
+def contact_notes(data: xr.Dataset, least: float) -> str:
+    """Return the runs in which bearings lifted off by no more than a gap [m], in words."""
+    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    small = (time > 0.0) & ~parted(data, least)
+    words = [
+        f"{motion_of(data, int(k))}: {1e3 * gap[k, small[k]].max():.2g} mm, "
+        f"{time[k, small[k]].max():.3g} s"
+        for k in np.flatnonzero(small.any(axis=1))
+    ]
+    if not words:
+        return ""
+    return f"gaps up to {1e3 * least:g} mm count as contact ({'; '.join(words)})"
 
 
 def motion_of(data: xr.Dataset, k: int) -> str:

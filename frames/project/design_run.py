@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -15,11 +15,10 @@ from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
-from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.histories import bounded_histories, history_checks, history_demands
-from frames.checks.history_rules import HISTORY_RULES
+from frames.checks.motions import motion_checks
+from frames.checks.storey_shear import storey_shear_check
 from frames.project.groundwork import groundwork, inputs_of
-from frames.project.parts import RULES
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
@@ -31,17 +30,12 @@ if TYPE_CHECKING:
     from frames.analysis.model_check import ModelCheck
     from frames.checks.bounds import PropertyBounds
     from frames.checks.check import Bound
-    from frames.checks.history_rules import HistoryRules
     from frames.checks.outcome import EquivalentLinear
     from frames.frame import Frame
     from frames.hazard.motion_set import MotionSet
     from frames.hazard.spectrum import Spectrum
     from frames.project.groundwork import Groundwork
     from frames.project.parts import Parts
-
-_ALWAYS = frozenset({"restoring force", "recentring, energy", "recentring, displacement"})
-"""Equivalent-linear checks that time histories do not make; the others are limits of that
-procedure, or have their counterpart in the histories."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -166,13 +160,17 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     CheckError
         If a check cannot be made.
     """
-    frame, bounds, rules, runs = known.frame, parts.bounds(), _rules(parts), histories.runs
+    frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
     minima = known.equivalent if _has_minima(parts) else None
-    found = [c for c in known.equivalent.checks if _is_for_any_analysis(c)]
-    found += known.equivalent.general
+    found = [c for c in known.equivalent.checks if c.scope == "any"]
+    found += motion_checks(known.motions, known.spectrum, known.equivalent)
     found += history_checks(
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
+    governing, _ = most_displaced(runs)
+    if minima is not None and governing != "" and governing in minima.bounds:
+        model = bounded(frame, governing, bounds)
+        found.append(storey_shear_check(histories.governing, model, minima, governing))
     demands = history_demands(runs, rules)
     found += _of_the_bearing(parts, known, demands)
     return ProjectRun(
@@ -213,7 +211,7 @@ def compare_devices(
     plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
     frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
     tables = {
-        device: history_demands(_histories(parts, frame, known.motions, progress), _rules(parts))
+        device: history_demands(_histories(parts, frame, known.motions, progress), parts.rules())
         for device, frame in frames.items()
     }
     columns = {device: table["envelope"] for device, table in tables.items()}
@@ -233,33 +231,27 @@ def _histories(
     )  # fmt: skip
 
 
-def _rules(parts: Parts) -> HistoryRules:
-    # Of the code, uplift as the file has it.
-    rules = HISTORY_RULES[RULES[parts.file.project.code]]
-    allowed = parts.file.analysis.uplift_allowed
-    return rules if allowed is None else replace(rules, uplift_allowed=allowed)
+def most_displaced(runs: Mapping[Bound, xr.Dataset]) -> tuple[Bound, int]:
+    """Return bound and place of the run that displaces a bearing most."""
+    reached = {
+        (bound, run): float(data["reached_displacement"].isel(run=run).max())
+        for bound, data in runs.items()
+        for run in range(data.sizes["run"])
+    }
+    return max(reached, key=lambda key: reached[key])
 
 
 def _governing(
     parts: Parts, frame: Frame, motions: MotionSet, runs: Mapping[Bound, xr.Dataset]
 ) -> tuple[xr.Dataset, str]:
     # Histories of the run that displaces a bearing most, run once more to keep them.
-    reached = {
-        (bound, int(run)): float(data["reached_displacement"].isel(run=run).max())
-        for bound, data in runs.items()
-        for run in range(data.sizes["run"])
-    }
-    bound, run = max(reached, key=lambda key: reached[key])
+    bound, run = most_displaced(runs)
     name, given = str(runs[bound]["motion"].to_numpy()[run]), parts.file.analysis
     model = frame if bound == "" else bounded(frame, bound, parts.bounds())
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motions[name], level=given.level, dt=given.dt)
     return data, f"{name}, {bound} bound"
-
-
-def _is_for_any_analysis(check: Check) -> bool:
-    return check.title in _ALWAYS and not is_limit_of_procedure(check)
 
 
 def _has_minima(parts: Parts) -> bool:

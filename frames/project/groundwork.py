@@ -11,6 +11,7 @@ from frames.checks.analysis import equivalent_linear
 from frames.checks.asce7 import ASCE7
 from frames.checks.en1998 import EN1998
 from frames.checks.isolation import IsolationSystem
+from frames.checks.motions import period_range
 from frames.checks.nch2745 import NCh2745
 from frames.project.parts import RULES
 from frames.project.schema import OpenSeesModel
@@ -24,11 +25,6 @@ if TYPE_CHECKING:
 
 CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
 """Equivalent-linear analysis by a project's code."""
-
-_RANGES = {
-    "ASCE 7-22": (0.75, 1.25), "EN 1998": (0.2, 2.0), "NCh2745": (0.5, 1.25),
-}  # fmt: skip
-"""Range of periods of scaling, over the shortest and the longest effective period."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -110,12 +106,8 @@ def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinea
     motions, scale = parts.motions(), parts.file.motions.scale
     if scale != "spectrum":
         return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
-    code = parts.file.project.code
-    low, high = _RANGES[code]
-    periods = [each.period for each in equivalent.bounds.values()]
-    return motions.scaled_to(
-        spectrum, rule=RULES[code], periods=(low * min(periods), high * max(periods))
-    )
+    rule = RULES[parts.file.project.code]
+    return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
 
 
 def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:

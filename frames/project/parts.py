@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import runpy
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from frames._errors import ProjectError
 from frames.checks.bounds import PropertyBounds, PropertyFactors
+from frames.checks.history_rules import HISTORY_RULES, HistoryRules
 from frames.checks.limits import DesignLimits
 from frames.checks.superstructure import Superstructure
 from frames.frame import Frame
@@ -121,6 +123,14 @@ class Parts:
         """Return what the engineer allows."""
         given = self.file.limits.model_dump(exclude_none=True)
         return in_section("limits", lambda: DesignLimits(**given))
+
+    def rules(self) -> HistoryRules:
+        """Return how time histories count: as the code has it, uplift as the file says."""
+        given = self.file.analysis.model_dump(
+            exclude_none=True, include={"uplift_allowed", "least_gap"}
+        )
+        rules = HISTORY_RULES[RULES[self.file.project.code]]
+        return _of("analysis", lambda: replace(rules, **given))
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""

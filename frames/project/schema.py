@@ -200,6 +200,7 @@ class Analysis(Section):
     workers: int | None = Field(default=None, ge=1)
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
     uplift_allowed: bool | None = None
+    least_gap: Length | None = None
 
 
 class ProjectFile(Section):

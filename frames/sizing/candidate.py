@@ -7,9 +7,8 @@ import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.checks.check import Check, Checks
+from frames.checks.check import Checks
 from frames.checks.device import device_checks
-from frames.checks.equivalent import is_limit_of_procedure
 from frames.checks.trace import Trace
 from lir_element import DesignWarning, LIRBearing
 from lir_element.device.bearing_checks import LARGEST_SINE
@@ -24,9 +23,6 @@ if TYPE_CHECKING:
     from lir_element.device.friction import Friction
 
     Analyse = Callable[[LIRBearing], EquivalentLinear]
-
-UPLIFT = "no uplift"
-"""How the check of axial loads on a rigid base begins: a time history has the uplift itself."""
 
 _SHALLOW = 0.2
 """Radius of a slider over that of its concave surface, at most: beyond it is no shallow bowl."""
@@ -95,7 +91,7 @@ class Candidate:
         return tuple(
             f"{check.title} ({check.bound})"
             for check in self.analysis.checks.failed
-            if _is_left_to_histories(check)
+            if check.scope == "procedure"
         )
 
     def row(self) -> dict[str, object]:
@@ -211,10 +207,6 @@ def rounded_up(value: float, step: float) -> float:
     return round(math.ceil(value / step - 1e-6) * step, 9)
 
 
-def _is_left_to_histories(check: Check) -> bool:
-    return check.title.startswith(UPLIFT) or is_limit_of_procedure(check)
-
-
 def _by_pressure(size: Size, target: DesignTarget) -> float:
     area = max(size.average / target.pressure, size.largest / target.largest_pressure)
     return rounded_up(math.sqrt(area / math.pi), target.slider_step)
@@ -295,5 +287,5 @@ def _lacks(
         if limit is not None and value > limit
     ]
     ill = [*checks.failed]
-    ill += [c for c in analysis.checks.failed if not _is_left_to_histories(c)]
+    ill += [c for c in analysis.checks.failed if c.scope != "procedure"]
     return found + sorted({f"{check.title} (ratio {check.ratio:.2f})" for check in ill})

@@ -167,12 +167,26 @@ def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(
     lifted = seven["reached_uplifts"].copy()
     lifted[2] = 3.0
     gone = seven.assign(
-        reached_uplifts=lifted, reached_time_lifted=seven["reached_time_lifted"] + 0.02
+        reached_uplifts=lifted,
+        reached_time_lifted=seven["reached_time_lifted"] + 0.02,
+        reached_gap=seven["reached_gap"] + np.where(np.arange(7) == 2, 2e-3, 4e-4)[:, None],
     )
     checks = history_checks(gone, frame, "EN 1998-1")
     assert "pulse 1.1: a bearing lifted off" in one(checks, "runs that failed").note
     assert one(checks, "time lifted off").demand == pytest.approx(0.02)
     assert one(checks, "isolator displacement").demand == math.inf
+    note = one(checks, "runs that failed").note
+    assert note.startswith("1 of 7 runs failed (pulse 1.1: a bearing lifted off)")
+    assert "gaps up to 1 mm count as contact (pulse 0.8: 0.4 mm, 0.02 s; pulse 1: 0.4" in note
+    assert note.count("0.4 mm") == 6
+    small = gone.isel(run=[0, 1, 3])
+    assert one(history_checks(small, frame, "EN 1998-1"), "time lifted off").passed
+    any_gap = replace(HISTORY_RULES["EN 1998-1"], least_gap=0.0)
+    assert (
+        "3 of 3 runs failed" in one(history_checks(small, frame, any_gap), "runs that failed").note
+    )
+    unknown = small.assign(reached_gap=small["reached_gap"] * math.nan)
+    assert not one(history_checks(unknown, frame, "EN 1998-1"), "time lifted off").passed
     assert history_checks(gone, frame, "ASCE 7-22").passed
     assert history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings", "envelope"] == 3.0
 

@@ -29,6 +29,7 @@ from frames import (
     overlap_area,
     peaks,
     repeated_motion,
+    resultant_offsets,
     rim_engagement,
     shear_building,
     slips_of_events,
@@ -218,3 +219,40 @@ def test_a_mass_thrown_up_flies_and_lands() -> None:
     assert not one(checks, "gap of uplift").passed
     for title in ("force of landing", "largest axial force"):
         assert one(checks, title).demand == row["axial force"]
+
+
+def test_resultant_offsets_say_what_pressed() -> None:
+    """By loops over the histories; a rim is set to press alone, its other 1.5 mm away."""
+    frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
+    data = quietly(time_history, frame, pulse(2.6))
+    offset = data["interface_eccentricity"][:, 0] / data["slider_radius"][0]
+    k = int(np.argmax(offset.to_numpy()))
+    row = resultant_offsets(data).iloc[0]
+    assert (row["offset"], row["time"]) == (float(offset[k]), float(data["time"][k]))
+    kept = quietly(time_histories, frame, [pulse(2.6)])["reached_eccentricity"]
+    assert row["offset"] == pytest.approx(float(kept[0, 0]))
+    assert row["load"] == float(data["axial_force"][k, 0] / data["static_axial_force"][0])
+    limit = 0.5 * row["offset"]
+    above = [
+        float(dt) for dt, e in zip(np.diff(data["time"]), offset[:-1], strict=True) if e > limit
+    ]
+    assert resultant_offsets(data, limit=limit)["time_above"][0] == pytest.approx(sum(above))
+    data["rim_force"][k, 0] = [3e3, 0.0]
+    data["slider_displacement"][k, 0] = 0.0
+    data["slider_displacement"][k, 0, 1, 0] = float(data["rim_displacement"][0, 1]) - 0.0015
+    row = resultant_offsets(data).iloc[0]
+    assert row["rims"] == "bottom"
+    assert row["clearance"] == pytest.approx(0.0015)
+    data["axial_force"][k, 0] = 0.04 * data["static_axial_force"][0]
+    assert resultant_offsets(data)["time"][0] != float(data["time"][k])
+    assert resultant_offsets(data, least_load=0.03)["time"][0] == float(data["time"][k])
+    with pytest.raises(CheckError, match="least_load"):
+        resultant_offsets(data, least_load=2.0)
+
+
+def test_eccentricity_check_says_what_its_level_can_say() -> None:
+    frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
+    data = quietly(time_history, frame, pulse(1.0))
+    (check,) = (c for c in impact_checks(data, frame) if c.title.startswith("resultant"))
+    assert "N > 0.05 of that at rest" in check.note
+    assert "level 'contact'" in check.note

@@ -320,6 +320,27 @@ def test_minima_of_time_histories() -> None:
     assert t.value("V_s_dyn") == pytest.approx(0.6 * t.value("V_s"))
 
 
+def test_scope_of_checks_and_their_table() -> None:
+    """What a time history leaves standing is asked of any bearing; tables do not show it."""
+    code = ASCE7(pressure_limit=60e6)
+    asce = nominal(SYSTEM, Asce(0.6), superstructure=ABOVE, code=code)["nominal"].checks
+    titles = {scope: {c.title for c in asce if c.scope == scope} for scope in ("any", "demand")}
+    assert titles["any"] == {"restoring force"}
+    load = "pressure on the slider"
+    assert titles["demand"] == {"storey drift", f"{load}, maximum", f"{load}, minimum"}
+    assert {c.title for c in asce if c.scope == "procedure"} == {
+        "rims free at the total displacement", "effective period", "effective damping",
+        "stiffness over that at 0.2 D_M", "period over fixed base", "storeys", "height",
+        "no uplift, maximum", "no uplift, minimum",
+    }  # fmt: skip
+    assert list(asce.to_dataframe()) == [
+        "clause", "title", "demand", "limit", "symbol", "unit", "relation", "standing", "bound",
+        "subject", "note", "ratio", "passed",
+    ]  # fmt: skip
+    with pytest.raises(CheckError, match="scope"):
+        replace(asce[0], scope="all")
+
+
 # --------------------------------------------------------------------------------- both bounds
 
 

@@ -218,12 +218,15 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
 
 
 def test_uplift_counts_as_the_file_says(folder: Path) -> None:
-    for line, is_void in (("", True), ("[analysis]\nuplift_allowed = true\n", False)):
-        (folder / "uplift.toml").write_text(f"{SMALL}\n{line}")
+    said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
+    for line, is_void in said.items():
+        (folder / "uplift.toml").write_text(f"{SMALL}\n[analysis]\n{line}\n")
         done = run(app, ["run", str(folder / "uplift.toml"), "--results", str(folder / "up")])
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)
         assert math.isinf(demands.loc["isolator displacement", "lower"]) == is_void
+        is_told = "count as contact" in (folder / "up" / "checks.csv").read_text()
+        assert is_told == (not line)
 
 
 def test_the_devices_are_compared(folder: Path) -> None:
@@ -311,3 +314,11 @@ def test_what_cannot_be_used_ends_with_two(folder: Path) -> None:
     assert done.exit_code == 2
     assert "bearing.capacity = 180" in done.stderr
     assert run(app, ["check", str(folder / "nowhere.toml")]).exit_code == 2
+
+
+def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:
+    said = 'uplift_allowed = true\nleast_gap = "0.2 mm"'
+    for text, allowed, gap in (("", False, 1e-3), (f"[analysis]\n{said}\n", True, 2e-4)):
+        (folder / "gap.toml").write_text(f"{SMALL}\n{text}")
+        rules = Parts(read_project(folder / "gap.toml"), folder).rules()
+        assert (rules.uplift_allowed, rules.least_gap) == (allowed, pytest.approx(gap))
