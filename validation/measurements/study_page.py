@@ -1,0 +1,3 @@
+"""x"""
+def figures(found): return {}
+def page(found): return ""
