@@ -1,3 +1,379 @@
-"""x"""
-def figures(found): return {}
-def page(found): return ""
+"""The page and the figures of the study of FEMA P695's records, from its numbers alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames.demo import bearing_for
+from frames.hazard.fema_records import RECORD_SETS
+from frames.plots import plot_style as ps
+from lir_element.units import STANDARD_GRAVITY
+from validation.measurements.study_runs import (
+    ALL,
+    COLLAPSE,
+    DEVICES,
+    FRACTILES,
+    INTENSITY,
+    LIMITS,
+    STEP,
+    ULTIMATE,
+    margin,
+    yield_rotations,
+)
+from validation.measurements.yielding_runs import LIR, RIMS, TAIL, WIDE, bearings_of
+from validation.page import table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+
+    Found = Mapping[str, Any]
+
+CURVES, MEDIANS = "study-curves.png", "study-medians.png"
+SETS = (ALL, *RECORD_SETS)
+DEMAND, FLOOR = "ductility", "floor acceleration in plan, mean"
+SHOWN = {
+    "ductility": ("ductility [-]", 1.0, ".2f"),
+    "storey drift, mean": ("storey drift [%]", 1e2, ".2f"),
+    FLOOR: ("floor acceleration [g]", 1.0 / STANDARD_GRAVITY, ".2f"),
+    "bearing displacement": ("bearing displacement [mm]", 1e3, ".0f"),
+    "bearing displacement left": ("displacement left [mm]", 1e3, ".1f"),
+    "interface slip": ("interface slip [mm]", 1e3, ".1f"),
+    "interface slip left": ("slip left [mm]", 1e3, ".1f"),
+    "rim force": ("rim force [kN]", 1e-3, ".0f"),
+    "base shear over weight": ("base shear / W", 1.0, ".2f"),
+}
+"""Demands: their text, a factor from SI, a format."""
+
+
+def figures(found: Found) -> dict[str, Figure]:
+    """Return the figures by the names of their files."""
+    return {CURVES: _curves(found), MEDIANS: _medians(found)}
+
+
+def page(found: Found) -> str:
+    """Return the page in Markdown."""
+    return "\n\n".join([
+        "# A study: the records of FEMA P695 on LIR-DCFP, DCFP and a larger DCFP",
+        _introduction(found),
+        "## What counts as what",
+        _definitions(),
+        "## In short",
+        _verdict(found),
+        f"![Fragility of three devices against six limit states, all records](figures/{CURVES})",
+        "All records; points are shares of stripes, bands of 90 % are from resampled records.",
+        "## Collapse margin",
+        _margins(found),
+        "## Fragility",
+        _medians_note(found),
+        _fragilities(found),
+        "## Demands",
+        f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",  # noqa: E501
+        "Medians over all records, and the range of the middle 68 %; a line ends where half of "
+        "the records have failed a bearing.",
+        _demands(found),
+        "## Size of the larger DCFP",
+        _sizes(found),
+        "## Runs that failed, and the step",
+        _failures(found),
+        _halved(found),
+        "## Cost",
+        _cost(found),
+    ]) + "\n"  # fmt: skip
+
+
+def _introduction(found: Found) -> str:
+    columns, beams = (1e3 * value for value in yield_rotations().values())
+    counts = ", ".join(f"{found['parts'][kind]['motions']} {kind}" for kind in RECORD_SETS
+                       if kind in found["parts"])  # fmt: skip
+    scales = ", ".join(f"{scale:g}" for scale in found["scales"])
+    cost = found["cost"]
+    return (
+        "Written by `python -m validation.measurements.study` "
+        f"({cost['date']}, {cost['machine']}). Auad, Castaldo and Almazan (2022) asked what the "
+        "LIR-DCFP does to the reliability of a building that yields; this is the question with "
+        "the building, the bearings and the time histories of this project, not a repetition of "
+        "their models. The light frame of [yielding_comparison.md](yielding_comparison.md) (three "
+        "storeys, nine bearings, plastic hinges) stands on the LIR-DCFP, on the DCFP of the same "
+        "plates with rims, and on a DCFP so large that it meets no rims. "
+        f"Record pairs of FEMA P695 ({counts}; horizontal, both at once, whole, and {TAIL:g} s to "
+        f"come to rest) are scaled to {INTENSITY.label} of {scales} m/s2, so that factors differ "
+        f"by record. Members yield at rotations of {columns:.1f} (columns) and {beams:.1f} mrad "
+        f"(beams). All runs have a step of {1e3 * STEP:g} ms; rims are passed in shorter ones."
+    )
+
+
+def _definitions() -> str:
+    rows = [
+        ("rim contact", "a force of any rim"),
+        ("slip over half of the overlap", "of the interface, any bearing; LIR-DCFP alone"),
+        ("storey drift 2 %", "limit of ASCE 7-22, chapter 17, for time histories"),
+        ("ductility", "1 + plastic over yield rotation M_p L / 6EI, any hinge; limit 4"),
+        ("floor acceleration", "in plan, mean of a floor: 0.5 g and 1 g"),
+        ("collapse", f"ductility {ULTIMATE:g} (an assumption; the hinges do not degrade), or "
+         "failure of a bearing: slip beyond the overlap, or a rim overrun"),
+        ("failure of a bearing", "exceeds every limit state (docs/fragility.md)"),
+        ("collapse margin ratio", "median of collapse over the Sa of the maximum considered "
+         "earthquake that fills the capacity: its ASCE 7 displacement (17.5-1, nominal friction) "
+         "is 250 mm; without spectral shape factor"),
+    ]  # fmt: skip
+    return table(("term", "definition"), rows)
+
+
+def _verdict(found: Found) -> str:
+    limits = found["parts"][ALL]["limits"]
+    lines = []
+    for limit in LIMITS:
+        for other, (value, low, high, _) in limits[limit.name]["ratios"].items():
+            if low > 1.0:
+                word = "better"
+            elif high < 1.0:
+                word = "worse"
+            else:
+                word = "neither better nor worse"
+            lines.append(
+                f"- {limit.name}: LIR-DCFP **{word}** than {other}: median {value:.2f} of its "
+                f"({low:.2f} to {high:.2f})."
+            )
+    return "\n".join([*lines, "", _physics(found)])
+
+
+def _physics(found: Found) -> str:
+    part, at = found["parts"][ALL]["demands"], _near(found)
+    floors = [part[FLOOR][name][at][1] for name in (LIR, RIMS)]
+    shears = [part["base shear over weight"][name][at][1] for name in (LIR, RIMS)]
+    told = ", ".join(
+        f"{name} {_of(value, 1.0 / STANDARD_GRAVITY, '.2f')} g and {_of(shear, 1.0, '.2f')} W"
+        for name, value, shear in zip((LIR, RIMS), floors, shears, strict=True)
+    )
+    slip = 1e3 * min(b.resolved()["slip_capacity"] for b in bearings_of("light").values())
+    return (
+        "The interface slips instead of pushing on the rims, so that the force is bounded by its "
+        f"friction: at {found['scales'][at]:g} m/s2 medians of floor acceleration and base shear "
+        f"are {told}. What it gains "
+        "in force it takes in travel: the sliders stand on each other until the slip uses up "
+        f"their overlap ({slip:.0f} mm and more), and it is the same friction at every intensity, "
+        "with nothing to bring the slip to a stop but friction and the restoring force of the "
+        "spheres. Beyond that the bearing has failed, where a DCFP whose rims hold still stands "
+        "and its frame yields. So the LIR-DCFP collapses at lower intensities than the "
+        "DCFP **if** rims and plates bear the forces of the table below, and the frame, its "
+        "connections and contents a floor acceleration of several g: rims are as strong as they "
+        "need be in this model, and nothing above breaks by acceleration. A rim that breaks at a "
+        "given force makes a DCFP fail where that force is reached. A larger DCFP "
+        "meets neither; its cost is its plan."
+    )
+
+
+def _margins(found: Found) -> str:
+    rows = []
+    for kind in _kinds(found):
+        for name in DEVICES:
+            ratio = margin(found, kind, name)
+            curve = found["parts"][kind]["limits"][COLLAPSE.name]["curves"][name]
+            rows.append((
+                kind, name, _median(curve), _spread(curve),
+                "-" if ratio is None else f"{ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})",
+            ))  # fmt: skip
+    head = ("records", "device", "median [m/s2] (90 %)", "dispersion", "margin (90 %)")
+    return (
+        f"The maximum considered earthquake that fills the capacity has {INTENSITY.label} of "
+        f"{found['considered']:.2f} m/s2 ({found['considered'] / STANDARD_GRAVITY:.2f} g).\n\n"
+        + table(head, rows)
+    )
+
+
+def _medians_note(found: Found) -> str:
+    return (
+        "Medians in m/s2 (interval of 90 %, records resampled), dispersion, and the LIR-DCFP's "
+        "median over that of the device, both under the same records. Fewer than 20 records "
+        "make intervals too narrow ([fragility.md](../fragility.md))."
+    )
+
+
+def _fragilities(found: Found) -> str:
+    rows = []
+    for limit in LIMITS:
+        for kind in _kinds(found):
+            own = found["parts"][kind]["limits"][limit.name]
+            for name in DEVICES:
+                curve, ratio = own["curves"][name], own["ratios"].get(name)
+                shown = (
+                    "" if ratio is None else f"{ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})"
+                )
+                rows.append((limit.name, kind, name, _median(curve), _spread(curve), shown))
+    head = ("limit state", "records", "device", "median", "dispersion", "LIR-DCFP over it")
+    return table(head, rows)
+
+
+def _demands(found: Found) -> str:
+    shares = ", ".join(f"{100 * share:g} %" for share in FRACTILES)
+    at = [_near(found, share) for share in (0.75, 1.0, 1.25)]
+    texts = []
+    for kind in _kinds(found):
+        rows = []
+        for place in dict.fromkeys(at):
+            for name in DEVICES:
+                cells = []
+                for quantity, (_, factor, form) in SHOWN.items():
+                    values = found["parts"][kind]["demands"][quantity][name][place]
+                    cells.append(", ".join(_of(value, factor, form) for value in values))
+                rows.append((f"{found['scales'][place]:g}", name, *cells))
+        head = ("Sa [m/s2]", "device", *(text for text, _, _ in SHOWN.values()))
+        texts.append(f"### {kind[0].upper()}{kind[1:]} records\n\n{table(head, rows)}")
+    note = (
+        f"Fractiles of {shares} at the intensities next to 0.75, 1 and 1.25 of that of the maximum "
+        "considered earthquake; \"failed\": that part of the records has failed a bearing."
+    )  # fmt: skip
+    return "\n\n".join([note, *texts])
+
+
+def _sizes(found: Found) -> str:
+    bearing = bearing_for(1000e3)
+    length = 2.0 * bearing.radius - bearing.slider_height
+    radius = max(b.slider_radius for b in bearings_of("light").values())
+
+    def dish(displacement: float) -> float:
+        return 2e3 * (displacement * bearing.radius / length + radius)
+
+    displacements = found["parts"][ALL]["demands"]["bearing displacement"][WIDE]
+    rows = [
+        (f"{scale:g}", *(f"{1e3 * d:.0f}, {dish(d):.0f}" for d in (row[1], row[2], largest)))
+        for scale, row, largest in zip(
+            found["scales"], displacements, found["largest"], strict=True
+        )
+    ]
+    return (
+        "Displacement, and the diameter of the dish that it needs under the centre bearing, "
+        f"2 (D R / L + a) [mm]. Those of the LIR-DCFP and the DCFP with rims are "
+        f"{dish(bearing.lateral_capacity):.0f} mm for {1e3 * bearing.lateral_capacity:.0f} mm.\n\n"
+        + table(("Sa [m/s2]", "median", "84 %", "largest"), rows)
+    )
+
+
+def _failures(found: Found) -> str:
+    rows = [(name, *(f"{number} `{status}`" for status, number in own.items()))
+            for name, own in found["statuses"].items()]  # fmt: skip
+    told = "; ".join(f"{row[0]}: {', '.join(row[1:])}" for row in rows)
+    failed = found["failed"]
+    if not failed:
+        return f"Statuses: {told}. No run failed numerically."
+    first = "; ".join(f"{d}, {m} at {im:g} m/s2: {why}" for d, m, im, why in failed[:5])
+    return (
+        f"Statuses: {told}. {len(failed)} runs failed numerically and count as neither exceeding "
+        f"nor keeping a limit: {first}{'; ...' if len(failed) > 5 else ''}."
+    )
+
+
+def _halved(found: Found) -> str:
+    if "halved" not in found:
+        return ""
+    rows = []
+    for run in found["halved"]:
+        whole, half = run["runs"]
+        cells = [
+            f"{factor * whole[quantity]:{form}}, {factor * half[quantity]:{form}}"
+            for quantity, (_, factor, form) in SHOWN.items()
+        ]
+        statuses = "`" + "`, `".join(dict.fromkeys((whole["status"], half["status"]))) + "`"
+        rows.append((run["device"], run["motion"], f"{run['im']:g}", statuses, *cells))
+    head = ("device", "motion", "Sa [m/s2]", "status", *(text for text, _, _ in SHOWN.values()))
+    return f"Runs at a step of {1e3 * STEP:g} ms, and at half of it:\n\n{table(head, rows)}"
+
+
+def _cost(found: Found) -> str:
+    cost, seconds = found["cost"], found["seconds"]
+    loops = "; ".join(
+        f"{name} {1e3 * total * len(seconds) / cost['runs']:.0f} ms a history, "
+        f"{most:.1f} s the longest"
+        for name, (total, most) in seconds.items()
+    )
+    return (
+        f"{cost['runs']} histories, {cost['computed']} of them in this call: "
+        f"{cost['clock']:.0f} s of clock, {cost['cpu']:.0f} s of processor time with "
+        f"{cost['workers']} workers (compilation is cached), {cost['memory']:.0f} MB of memory at "
+        f"most. The time loop takes: {loops}. Digest of the store: `{cost['digest']}`."
+    )
+
+
+def _curves(found: Found) -> Figure:
+    limits = [limit for limit in LIMITS if limit.name != "slip over half of the overlap"]
+    figure = ps.new_figure(5.0)
+    panels = [panel for row in ps.grid_of(figure, 2, 3, share_x=True, share_y=True)
+              for panel in row]  # fmt: skip
+    for panel, limit in zip(panels, limits, strict=True):
+        own = found["parts"][ALL]["limits"][limit.name]
+        for k, name in enumerate(DEVICES):
+            look, curve = ps.line_of(k), own["curves"][name]
+            if "why" not in curve:
+                panel.fill_between(curve["at"], curve["low"], curve["high"], alpha=0.15,
+                                   color=look["color"], linewidth=0.0)  # fmt: skip
+                panel.plot(curve["at"], curve["probability"], **look)
+            im, exceeded, total = np.array(own["stripes"][name]).T
+            panel.plot(im, exceeded / np.maximum(total, 1.0), "os^"[k], markersize=3.0,
+                       color=look["color"])  # fmt: skip
+        panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
+        ps.caption(panel, title=limit.name)
+        panel.set_ylim(0.0, 1.02)
+    for panel in panels[::3]:
+        ps.caption(panel, y="probability [-]")
+    for panel in panels[3:]:
+        ps.caption(panel, x="Sa(3 s) [m/s2]")
+    _legend(figure, "Fragility; dotted: maximum considered earthquake")
+    return figure
+
+
+def _medians(found: Found) -> Figure:
+    figure = ps.new_figure(2.9)
+    shown = (DEMAND, FLOOR, "bearing displacement left")
+    for panel, quantity in zip(ps.grid_of(figure, 1, 3)[0], shown, strict=True):
+        text, factor, _ = SHOWN[quantity]
+        for k, name in enumerate(DEVICES):
+            rows = found["parts"][ALL]["demands"][quantity][name]
+            low, middle, high = (
+                factor * np.array([np.nan if v is None else v for v in column])
+                for column in zip(*rows, strict=True)
+            )
+            look = ps.line_of(k)
+            panel.fill_between(found["scales"], low, high, alpha=0.12, color=look["color"],
+                               linewidth=0.0)  # fmt: skip
+            panel.plot(found["scales"], middle, marker="os^"[k], markersize=3.0, **look)
+        if quantity == FLOOR:
+            panel.set_yscale("log")
+        ps.caption(panel, x="Sa(3 s) [m/s2]", y=text)
+    _legend(figure, "Medians and the middle 68 % of all records")
+    return figure
+
+
+def _legend(figure: Figure, title: str) -> None:
+    from matplotlib.lines import Line2D
+
+    handles = [Line2D([], [], label=name, marker="os^"[k], markersize=3.0, **ps.line_of(k))
+               for k, name in enumerate(DEVICES)]  # fmt: skip
+    ps.add_legend(figure, handles, columns=3, title=title)
+
+
+def _kinds(found: Found) -> list[str]:
+    return [kind for kind in SETS if kind in found["parts"]]
+
+
+def _near(found: Found, share: float = 1.0) -> int:
+    # Place of the stripe next to a share of the maximum considered earthquake.
+    return int(np.argmin(np.abs(np.array(found["scales"]) - share * found["considered"])))
+
+
+def _of(value: float | None, factor: float, form: str) -> str:
+    return "failed" if value is None else f"{factor * value:{form}}"
+
+
+def _median(curve: Mapping[str, Any]) -> str:
+    if "why" in curve:
+        return f"none: {str(curve['why']).split(':')[0].split(';')[0]}"
+    value, low, high = curve["median"]
+    return f"{value:.2f} ({low:.2f} to {high:.2f})"
+
+
+def _spread(curve: Mapping[str, Any]) -> str:
+    return "" if "why" in curve else f"{curve['dispersion'][0]:.2f}"

@@ -135,9 +135,7 @@ def ductilities(data: xr.Dataset) -> Any:
     return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
 
 
-def runs_of(
-    data: xr.Dataset, motions: Mapping[str, GroundMotion], device: str
-) -> IntensityRuns:
+def runs_of(data: xr.Dataset, motions: Mapping[str, GroundMotion], device: str) -> IntensityRuns:
     """Return the runs of a device, with their ductility."""
     own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == device))
     found = IntensityRuns.from_dataset(own, dict(motions), INTENSITY)
@@ -150,6 +148,11 @@ def considered() -> float:
 
     Its displacement by ASCE 7-22, equation 17.5-1, on the nominal bearing is the capacity: the
     one-second spectrum ``S_M1 / T`` that this needs, at the period of the intensity.
+
+    Returns
+    -------
+    float
+        Of 5 % damping, at 3 s.
     """
     bearing = bearing_for(1000e3)
     displacement = bearing.lateral_capacity
@@ -246,9 +249,7 @@ def found_of(
             }
         for quantity in DEMANDS:
             part["demands"][quantity] = {n: fractiles(own[n], quantity) for n in own}
-    statuses = {
-        name: each.table["status"].value_counts().to_dict() for name, each in runs.items()
-    }
+    statuses = {name: each.table["status"].value_counts().to_dict() for name, each in runs.items()}
     failed = [
         [name, str(row["motion"]), float(row["im"]), str(row["message"])]
         for name, each in runs.items() for _, row in each.failed.iterrows()
