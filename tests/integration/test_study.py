@@ -1,4 +1,4 @@
-"""The study of FEMA P695's records: the same functions on two motions, and its page against JSON."""
+"""The study of the records of FEMA P695: its functions on two motions, its page against JSON."""
 
 import json
 

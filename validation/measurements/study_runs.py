@@ -190,20 +190,20 @@ def stripes_of(runs: IntensityRuns, limit: LimitState) -> list[list[float]]:
     return rows
 
 
-def numbers_of(curve: Fragility | CollapseFragility | str) -> dict[str, Any]:
-    """Return what is kept of a curve."""
+def numbers_of(curve: Fragility | CollapseFragility | str, *, band: bool) -> dict[str, Any]:
+    """Return what is kept of a curve; to be drawn with its band."""
     if isinstance(curve, str):
         return {"why": curve}
     table = curve.interval(0.9)  # type: ignore[union-attr]
-    at = np.linspace(0.05, 1.1 * SCALES[-1], 60)
-    low, high = curve.band(at)
-    median, spread = table.loc["median"], table.loc["dispersion"]
-    return {
-        "median": [float(median[key]) for key in ("value", "low", "high")],
-        "dispersion": [float(spread[key]) for key in ("value", "low", "high")],
-        "lost": curve.lost, "at": at.tolist(), "probability": curve.probability(at).tolist(),
-        "low": low.tolist(), "high": high.tolist(),
-    }  # fmt: skip
+    columns = ["value", "low", "high"]
+    kept = {str(name): row.tolist() for name, row in table[columns].iterrows()}
+    kept |= {"lost": curve.lost, "records": len(curve.records)}
+    if band:
+        at = np.linspace(0.05, 1.1 * SCALES[-1], 60)
+        drawn = curve.to_dataframe(at).round(4)
+        kept |= {"at": at.round(4).tolist()}
+        kept |= {str(name): column.tolist() for name, column in drawn.items()}
+    return kept
 
 
 def compared(curves: Curves) -> dict[str, list[float]]:
@@ -243,7 +243,9 @@ def found_of(
         for limit in LIMITS:
             curves = curves_of(own, limit, resamples)
             part["limits"][limit.name] = {
-                "curves": {name: numbers_of(curve) for name, curve in curves.items()},
+                "curves": {
+                    name: numbers_of(curve, band=kind == ALL) for name, curve in curves.items()
+                },
                 "stripes": {name: stripes_of(own[name], limit) for name in own},
                 "ratios": compared(curves),
             }
