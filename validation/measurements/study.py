@@ -16,6 +16,7 @@ import platform
 import resource
 import tempfile
 import warnings
+from math import isfinite
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
@@ -70,7 +71,9 @@ def halved(sets: Sets) -> list[dict[str, Any]]:
             peaks = data["peak"].isel(run=0).to_series().to_dict()
             peaks["ductility"] = float(ductilities(data)[0])
             status = str(data["status"].item())
-            numbers.append({"status": status} | {key: float(peaks[key]) for key in DEMANDS})
+            numbers.append({"status": status} | {
+                key: float(peaks[key]) if isfinite(peaks[key]) else None for key in DEMANDS
+            })  # fmt: skip
         rows.append({"device": device, "motion": name, "im": scale, "runs": numbers})
     return rows
 
