@@ -7,7 +7,8 @@ import pytest
 
 from frames import GroundMotion, ductility, time_histories, time_history
 from validation.measurements.study import study
-from validation.measurements.study_page import figures, page
+from validation.measurements.study_figures import figures
+from validation.measurements.study_page import page
 from validation.measurements.study_runs import (
     ALL,
     COLLAPSE,

@@ -25,7 +25,8 @@ from frames import AuditWarning, ModelWarning, open_campaign, time_histories
 from frames.hazard.fema_records import RECORD_SETS
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark import processor
-from validation.measurements.study_page import figures, page
+from validation.measurements.study_figures import figures
+from validation.measurements.study_page import page
 from validation.measurements.study_runs import (
     DEMANDS,
     SCALES,
