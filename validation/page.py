@@ -247,8 +247,10 @@ def index(folder: Path = FOLDER) -> str:
         "(`python -m validation.measurements.yielding`), "
         "[worked_building.md](worked_building.md), the design guide's building under three codes "
         "(`python -m validation.measurements.worked_building`), "
-        "and [yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
-        "systems (`python -m validation.measurements.yielding_comparison`).",
+        "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
+        "systems (`python -m validation.measurements.yielding_comparison`), "
+        "and [study.md](study.md), the records of FEMA P695 on three devices "
+        "(`python -m validation.measurements.study`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "
         "its text states, and closed forms. What the tests demand besides is listed in the "

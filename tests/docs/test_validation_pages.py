@@ -12,7 +12,7 @@ from validation.page import CLAIMS, FOLDER, index
 MEASUREMENTS = (
     "benchmark", "speed_error", "hard_cases", "opensees_hard_cases", "opensees_cost",
     "opensees_public_models", "random_scenes",
-    "slip", "worked_building", "yielding", "yielding_comparison",
+    "slip", "study", "worked_building", "yielding", "yielding_comparison",
 )  # fmt: skip
 PACKAGE = Path(str(validation.__file__)).parent
 FIGURE = re.compile(r"!\[[^\]]+\]\((figures/[^)]+)\)")

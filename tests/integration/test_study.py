@@ -1,0 +1,108 @@
+"""The study of the records of FEMA P695: its functions on two motions, its page against JSON."""
+
+import json
+
+import numpy as np
+import pytest
+
+from frames import GroundMotion, ductility, time_histories, time_history
+from validation.measurements.study import study
+from validation.measurements.study_figures import figures
+from validation.measurements.study_page import page
+from validation.measurements.study_runs import (
+    ALL,
+    COLLAPSE,
+    DEVICES,
+    INTENSITY,
+    LIMITS,
+    STEP,
+    considered,
+    devices,
+    ductilities,
+    margin,
+    normalised,
+    yield_rotations,
+)
+from validation.measurements.yielding_runs import RIMS, WIDE
+from validation.page import FOLDER
+
+
+def pulse(period):
+    t = np.arange(0.0, 2.0 * period, 0.02)
+    x = np.sin(2.0 * np.pi * t / period) * np.sin(0.5 * np.pi * t / period)
+    return GroundMotion(x=x, y=0.3 * x[::-1], dt=0.02, name=f"{period:g} s")
+
+
+SCALES = (0.5, 2.6)
+
+
+@pytest.fixture(scope="module")
+def sets():
+    return {"pulses": normalised({"1.5 s": pulse(1.5), "2.5 s": pulse(2.5)})}
+
+
+@pytest.fixture(scope="module")
+def found(sets, tmp_path_factory):
+    pytest.importorskip("zarr")
+    store = tmp_path_factory.mktemp("study") / "runs"
+    first = study(sets, store, 2, SCALES)
+    again = study(sets, store, 2, SCALES)
+    return first, again
+
+
+def test_a_store_that_is_there_is_not_run_again(found):
+    first, again = found
+    assert first["cost"]["computed"] == first["cost"]["runs"] == 12
+    assert again["cost"]["computed"] == 0
+    assert first["cost"]["digest"] == again["cost"]["digest"]
+    assert first["parts"] == again["parts"]
+
+
+def test_intensities_are_factors(sets):
+    for motion in sets["pulses"].values():
+        assert INTENSITY.of(motion) == pytest.approx(1.0, rel=1e-3)  # but for the tail
+
+
+def test_the_earthquake_that_fills_the_capacity():
+    # k = 1/2.25 + 0.065/0.25 = 0.7044 1/m, T = 2.391 s, damping 0.2350, B_M = 1.570
+    assert considered() == pytest.approx(0.25 * 39.478 * 1.570 / (2.391 * 3.0), rel=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_ductility_is_that_of_a_history(sets):
+    motion = sets["pulses"]["2.5 s"]
+    model = {RIMS: devices()[RIMS]}
+    batch = time_histories(model, {"2.5 s": motion}, scales=[2.6], dt=STEP)
+    table = ductility(time_history(model[RIMS], motion.scaled(2.6), dt=STEP))
+    limits = np.array([yield_rotations()[name.split("-")[0]] for name in table.index])
+    expected = 1.0 + (table["largest"].to_numpy() / limits).max()
+    assert expected > 1.1
+    assert ductilities(batch)[0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_stripes_count_what_the_runs_did(found):
+    part = found[0]["parts"][ALL]
+    rims = part["limits"][LIMITS[0].name]["stripes"]
+    assert [row[1:] for row in rims[RIMS]] == [[0.0, 2.0], [2.0, 2.0]]
+    assert [row[1:] for row in rims[WIDE]] == [[0.0, 2.0], [0.0, 2.0]]
+
+
+def test_the_page_says_what_it_was_given(found):
+    given = found[0]
+    text = page(given)
+    assert given["cost"]["digest"] in text
+    assert set(figures(given)) == {"study-curves.png", "study-medians.png"}
+    assert "none: no run exceeds the limit state" in text  # the larger DCFP has no rims
+
+
+def test_the_page_is_that_of_its_numbers():
+    stored = json.loads((FOLDER / "study.json").read_text(encoding="utf-8"))
+    text = (FOLDER / "study.md").read_text(encoding="utf-8")
+    assert text == page(stored)
+    assert stored["cost"]["runs"] == 3 * 50 * len(stored["scales"])
+    for device in DEVICES:
+        ratio = margin(stored, ALL, device)
+        curve = stored["parts"][ALL]["limits"][COLLAPSE.name]["curves"][device]
+        if ratio is not None:
+            assert ratio[0] * stored["considered"] == pytest.approx(curve["median"][0])
+            assert f"| {ratio[0]:.2f} (" in text
