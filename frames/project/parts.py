@@ -130,7 +130,7 @@ class Parts:
             exclude_none=True, include={"uplift_allowed", "least_gap"}
         )
         rules = HISTORY_RULES[RULES[self.file.project.code]]
-        return _of("analysis", lambda: replace(rules, **given))
+        return in_section("analysis", lambda: replace(rules, **given))
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""
