@@ -249,7 +249,7 @@ def index(folder: Path = FOLDER) -> str:
         "(`python -m validation.measurements.worked_building`), "
         "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
         "systems (`python -m validation.measurements.yielding_comparison`), "
-        "and [study.md](study.md), the records of FEMA P695 on three devices "
+        "and [study.md](study.md), the records of FEMA P695 on four devices "
         "(`python -m validation.measurements.study`).",
         "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
         "It prints its results as figures; no data of them is published, so the claims check what "

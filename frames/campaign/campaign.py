@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from frames.campaign.batches import Batch, Builder, Told
     from frames.motion.ground_motion import GroundMotion
 
-FEWEST, MOST, PARTS = 16, 128, 8
+FEWEST, MOST, PARTS = 16, 512, 8
 """Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
 
 
@@ -59,7 +59,7 @@ class Campaign:
         Histories to be kept besides what is reached.
     batch : int, optional
         Runs of a batch, the least that is computed and written at once. None: an eighth of all,
-        at least 16 and at most 128, with histories 16; of a store that is there, its own.
+        at least 16 and at most 512, with histories 16; of a store that is there, its own.
     duration, dt, level, integrator, spectral_radius, tolerance, features
         As for `time_histories`, the same for all runs.
 

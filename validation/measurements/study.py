@@ -1,4 +1,4 @@
-"""The records of FEMA P695 on three devices under a building that yields: writes the study's page.
+"""The records of FEMA P695 on four devices under a building that yields: writes the study's page.
 
     python -m validation.measurements.study --store study-runs
 

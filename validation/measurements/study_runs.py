@@ -1,4 +1,4 @@
-"""Three devices under a building that yields, under the records of FEMA P695: runs and numbers.
+"""Four devices under a building that yields, under the records of FEMA P695: runs and numbers.
 
 Records are normalised to a spectral acceleration of 1 m/s2 at the period of the bearings, so that
 factors common to all are intensities.
@@ -53,7 +53,13 @@ if TYPE_CHECKING:
 
     Curves = dict[str, Fragility | CollapseFragility | str]
 
-DEVICES = (LIR, RIMS, WIDE)
+ROOM = "LIR-DCFP, larger sliders"
+"""The same rims, more room for the slip, and an interface that holds more."""
+
+ROOM_RADIUS, ROOM_FRICTION = 0.06, 0.16
+"""What its sliders have more than those of the LIR-DCFP [m]; friction of its interface [-]."""
+
+DEVICES = (LIR, RIMS, WIDE, ROOM)
 STRUCTURE = "light"
 """Of `yielding_runs.structures`: the one whose members yield."""
 
@@ -92,7 +98,15 @@ FRACTILES = (0.16, 0.5, 0.84)
 
 def devices() -> dict[str, Frame]:
     """Return the building on each device."""
-    return {name: model_of(structures()[STRUCTURE], name) for name in DEVICES}
+    own = {name: model_of(structures()[STRUCTURE], name) for name in (LIR, RIMS, WIDE)}
+    larger = {
+        name: replace(
+            link.bearing, slider_radius=link.bearing.slider_radius + ROOM_RADIUS,
+            interface_friction=ROOM_FRICTION,
+        )
+        for name, link in own[LIR].bearings.items()
+    }  # fmt: skip
+    return own | {ROOM: own[LIR].with_bearings(larger)}
 
 
 def normalised(motions: Mapping[str, GroundMotion]) -> dict[str, GroundMotion]:
@@ -170,7 +184,7 @@ def curves_of(runs: Mapping[str, IntensityRuns], limit: LimitState, resamples: i
     """Return a curve by device, or why there is none."""
     found: Curves = {}
     for name, each in runs.items():
-        if limit is SLIP and name != LIR:
+        if limit is SLIP and name not in (LIR, ROOM):
             found[name] = "has no interface"
             continue
         try:
@@ -206,12 +220,12 @@ def numbers_of(curve: Fragility | CollapseFragility | str, *, band: bool) -> dic
     return kept
 
 
-def compared(curves: Curves) -> dict[str, list[float]]:
-    """Return the median of the LIR-DCFP over that of each other: value, low, high, share."""
+def compared(curves: Curves, device: str) -> dict[str, list[float]]:
+    """Return the median of a device over that of each other: value, low, high, share."""
     found = {}
-    own = curves[LIR]
+    own = curves[device]
     for name, other in curves.items():
-        if name == LIR or isinstance(other, str) or isinstance(own, str):
+        if name == device or isinstance(other, str) or isinstance(own, str):
             continue
         row = compare_fragility(other, own).to_dataframe(0.9).loc["median, ratio [-]"]
         found[name] = [float(row[key]) for key in ("value", "low", "high", "second better")]
@@ -247,7 +261,7 @@ def found_of(
                     name: numbers_of(curve, band=kind == ALL) for name, curve in curves.items()
                 },
                 "stripes": {name: stripes_of(own[name], limit) for name in own},
-                "ratios": compared(curves),
+                "ratios": {name: compared(curves, name) for name in (LIR, ROOM)},
             }
         for quantity in DEMANDS:
             part["demands"][quantity] = {n: fractiles(own[n], quantity) for n in own}
