@@ -236,8 +236,8 @@ def _demands(found: Found) -> str:
             rows.append((f"{found['scales'][place]:g}", name, *cells))
     head = ("Sa [m/s2]", "device", *(text for text, _, _ in SHOWN.values()))
     note = (
-        f"All records: fractiles of {shares} at the intensities next to 0.75, 1 and 1.25 of that of the "
-        "maximum considered earthquake; \"failed\": that part has failed a bearing."
+        f"All records: fractiles of {shares} at the intensities next to 0.75, 1 and 1.25 of that "
+        "of the maximum considered earthquake; \"failed\": that part has failed a bearing."
     )  # fmt: skip
     return f"{note}\n\n{table(head, rows)}"
 
