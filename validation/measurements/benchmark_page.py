@@ -218,6 +218,11 @@ def _growth(kept: dict[str, Any]) -> list[str]:
             "Exponents of the cost of a step over the numbers of bearings and of unknowns, fitted "
             "to cases b, c and d:",
             table(("program", "over bearings", "over unknowns"), rows),
+            "Not linear: a frame lets every bearing act on every other. Bearings share the "
+            "slab's three unknowns, but each keeps its vertical displacement and its rotations, "
+            "whose stiffness against all others is a full matrix; and the modes that are kept grow "
+            "with the bearings, each coupled with all of them. Both products grow with the square. "
+            "The reduced method keeps fewer modes, not fewer bearings.",
         ]
     if kept.get("b", {}).get("state") == "ok":
         parts.append(
