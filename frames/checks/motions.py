@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import CheckError
+from frames._errors import CheckError, MotionError
 from frames.checks.check import Check, Checks
 from frames.checks.equivalent import Judge
 from frames.checks.history_rules import HISTORY_RULES
@@ -82,26 +82,27 @@ def motion_checks(
     Checks
         Pairs of motions; mean spectrum over what the code asks of the target, at the period where
         it is least; the same at the period 0 by EN 1998-1; by ASCE 7, where motions are marked
-        "near_fault", how many of them are not turned to the fault's axes.
+        "near_fault", how many of them are not turned to the fault's axes, or do not say how they
+        lie to it.
 
     Raises
     ------
     CheckError
         If the rule is not known.
-    MotionError
-        If a near-fault motion says neither strike nor azimuths.
 
     Examples
     --------
     >>> import numpy as np
     >>> from frames import GroundMotion, IsolationSystem, MotionSet, Spectrum, equivalent_linear
+    >>> from frames import PropertyBounds, PropertyFactors
     >>> from lir_element import CoulombFriction, LIRBearing
     >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
     ...                      friction=CoulombFriction(0.06), interface_friction=0.25)
     >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
     ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
     >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
-    >>> linear = equivalent_linear(system, target)
+    >>> bounds = PropertyBounds(PropertyFactors(0.8, 1.2))
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
     >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
     >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
     >>> print(motion_checks(motions, target, linear)[0])
@@ -171,13 +172,20 @@ def _turned(motions: MotionSet, clause: str) -> list[Check]:
     t = Trace()
     t.given("n_odd", float(len(odd)), note=f"of {len(near)} near-fault pairs")
     t.given("n_allowed", 0.0)
-    note = f"MotionSet.fault_normal turns them: {', '.join(odd)}" if odd else ""
+    note = (
+        f"MotionSet.fault_normal turns those whose strike and azimuths are known: {', '.join(odd)}"
+        if odd
+        else ""
+    )
     title = "near-fault pairs that are not turned to the fault"
     return [Judge(t, "")(clause, title, "n_odd", "<=", "n_allowed", note=note)]
 
 
 def _is_turned(name: str, motions: MotionSet) -> bool:
     known = motions.facts[name]
-    strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
+    try:
+        strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
+    except MotionError:  # what is not known cannot be said to be turned
+        return False
     off = ((x - strike - 90.0 + 180.0) % 360.0 - 180.0, (y - strike + 180.0) % 360.0 - 180.0)
     return max(map(abs, off)) <= _TURNED

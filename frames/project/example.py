@@ -96,9 +96,9 @@ def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     require_choice("code", code, tuple(known), error=ProjectError)
     motions, chosen = folder / "motions", known[code]
     contents = {folder / "project.toml": _text(code, chosen)}
-    table = ["name,x,y,dt,unit,near_fault"]
+    table = ["name,x,y,dt,unit,near_fault,strike,azimuth_x,azimuth_y"]  # x across the fault
     for seed, (name, period) in enumerate(PULSES.items()):
-        table.append(f"{name},{name}-x.txt,{name}-y.txt,{_STEP},m/s2,yes")
+        table.append(f"{name},{name}-x.txt,{name}-y.txt,{_STEP},m/s2,yes,0,90,0")
         for axis, share in (("x", 1.0), ("y", _ACROSS)):
             raw = _artificial(period, 2 * seed + (axis == "y"))
             values = share * _matched(raw, chosen.spectrum)
