@@ -19,6 +19,7 @@ from frames.checks.histories import bounded_histories, history_checks, history_d
 from frames.checks.motions import motion_checks
 from frames.checks.storey_shear import storey_shear_check
 from frames.project.groundwork import groundwork, inputs_of
+from frames.results.storage import as_packed
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
@@ -251,7 +252,7 @@ def _governing(
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motions[name], level=given.level, dt=given.dt)
-    return data, f"{name}, {bound} bound"
+    return as_packed(data), f"{name}, {bound} bound"  # judged as it will be kept
 
 
 def _has_minima(parts: Parts) -> bool:

@@ -10,6 +10,7 @@ import uuid
 from collections.abc import Hashable, Mapping
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 
@@ -72,6 +73,23 @@ def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
         for key, variable in data.data_vars.items()
         if "time" in variable.dims
     }
+
+
+def as_packed(data: xr.Dataset) -> xr.Dataset:
+    """Return a result as `save` with `compress` keeps it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Any.
+
+    Returns
+    -------
+    xarray.Dataset
+        Histories in single precision, the energy as it is.
+    """
+    names = [key for key, kept in _packed(data).items() if "dtype" in kept]
+    return data.assign({key: data[key].astype(np.float32) for key in names})
 
 
 def write_whole(path: str | Path, content: bytes | memoryview) -> None:
