@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from frames._errors import CheckError
 from lir_element.door import require_between, require_non_negative, require_positive
@@ -73,6 +74,13 @@ class HistoryRules:
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name), "-", error=CheckError)
 
+
+RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
+    "ASCE 7-22": "ASCE 7-22",
+    "EN 1998": "EN 1998-1",
+    "NCh2745": "NCh2745",
+}
+"""Rules for motions and time histories by the code of an equivalent-linear analysis."""
 
 HISTORY_RULES = {
     "ASCE 7-22": HistoryRules(

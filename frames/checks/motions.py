@@ -9,7 +9,7 @@ import numpy as np
 from frames._errors import CheckError, MotionError
 from frames.checks.check import Check, Checks
 from frames.checks.equivalent import Judge
-from frames.checks.history_rules import HISTORY_RULES
+from frames.checks.history_rules import HISTORY_RULES, RULES
 from frames.checks.trace import Trace
 from frames.hazard.fault_axes import angle_of
 from frames.hazard.pair_spectra import pair_spectrum
@@ -30,7 +30,6 @@ PERIOD_RANGES = {
 """Range of periods by rule, over the shortest and the longest effective period of the bounds; to
 be confirmed against the standards."""
 
-_RULES = {"ASCE 7-22": "ASCE 7-22", "EN 1998": "EN 1998-1", "NCh2745": "NCh2745"}
 _TURNED = 1.0  # degrees
 
 
@@ -113,8 +112,7 @@ def motion_checks(
     low, high = period_range(equivalent, name)
     both = [_pair(motion) for motion in motions.values()]
     grid = np.geomspace(low, high, POINTS)
-    clause = asked.source.partition(";")[0].replace("ASCE/SEI", "ASCE").replace(",", "")
-    clause = clause.partition(":")[0] if name == "NCh2745" else clause
+    clause = asked.clause
     found = [_number(motions, name, clause), _mean(both, spectrum, grid, clause, name)]
     if asked.at_zero:
         found.append(_mean(both, spectrum, np.zeros(1), clause, name))
@@ -122,14 +120,13 @@ def motion_checks(
 
 
 def _rule(equivalent: EquivalentLinear, rule: str) -> str:
-    name = rule or _RULES[equivalent.code]
+    name = rule or RULES[equivalent.code]
     require_choice("rule", name, tuple(PERIOD_RANGES), error=CheckError)
     return name
 
 
 def _pair(motion: GroundMotion) -> GroundMotion:
-    none = np.zeros(motion.n_steps)
-    x, y = (none if a is None else a for a in (motion.x, motion.y))
+    x, y, _ = motion.components.T  # zeros where one is missing
     return GroundMotion(x=x, y=y, dt=motion.dt, name=motion.name)
 
 

@@ -101,7 +101,7 @@ def storey_shear_check(
     t("V_least", "a_dyn * V_s", "N")
     return Judge(t, bound).worst(
         "ASCE 7-22 17.6.4", "storey shear of time histories", "V_run", ">=", "V_least",
-        subjects=(list(frame.levels)[1].name,),
+        subjects=(frame.levels[1].name,),
         note=f"of {data.attrs['motion']} alone, not of the mean; where it fails, forces above the "
         "isolation count times the ratio",
     )  # fmt: skip

@@ -174,10 +174,10 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         Mean or largest, and which runs failed.
     """
     status = [str(value) for value in data["status"].to_numpy()]
-    lifted = np.atleast_1d(parted(data, rules.least_gap).any(axis=1))
+    lifted = parted(data, rules.least_gap)
     failed, words = [], []
     for k, word in enumerate(status):
-        torn = bool(lifted[k]) and not rules.uplift_allowed
+        torn = bool(lifted[k].any()) and not rules.uplift_allowed
         failed.append(word != "ok" or torn)
         if failed[-1]:
             at = float(data["failed_at"][k])

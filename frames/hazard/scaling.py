@@ -34,29 +34,26 @@ class ScalingRule(NamedTuple):
         The same at the period zero [-]; 0 where nothing is asked.
     least : int
         Number of pairs from which the mean response may be used.
-    source : str
-        Where the code says so, and how well it is known.
+    clause : str
+        Where the code says so; to be confirmed against the standard.
     """
 
     measure: str
     part: float
     at_zero: float
     least: int
-    source: str
+    clause: str
 
-
-_STANDING = "to be confirmed against the standard"
 
 SCALING_RULES = {
-    "ASCE 7-22": ScalingRule("RotD100", 1.0, 0.0, 7, f"ASCE/SEI 7-22, 17.3.3; {_STANDING}"),
-    "ASCE 7-10": ScalingRule("SRSS", 1.0, 0.0, 7, f"ASCE/SEI 7-10, 17.3.2; {_STANDING}"),
+    "ASCE 7-22": ScalingRule("RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3"),
+    "ASCE 7-10": ScalingRule("SRSS", 1.0, 0.0, 7, "ASCE 7-10 17.3.2"),
     "EN 1998-1": ScalingRule(
-        "arithmetic mean", 0.9, 1.0, 7, f"EN 1998-1:2004, 3.2.3.1.2 and 4.3.3.4.3; {_STANDING}"
+        "arithmetic mean", 0.9, 1.0, 7, "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3"
     ),
-    "EN 1998-2": ScalingRule("SRSS", 1.3, 0.0, 7, f"EN 1998-2:2005, 3.2.3; {_STANDING}"),
-    "NCh2745": ScalingRule(
-        "SRSS", 1.17, 0.0, 7, f"NCh2745:2013, 8.4: 1.3 less 10 %, as in UBC-97; {_STANDING}"
-    ),
+    "EN 1998-2": ScalingRule("SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3"),
+    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
+    "NCh2745": ScalingRule("SRSS", 1.17, 0.0, 7, "NCh2745"),
 }
 """Rules by code. Ranges of periods: ASCE 7-22 0.75 T_M of the upper bound to 1.25 T_M of the
 lower bound; EN 1998-1 0.2 T to 2 T; EN 1998-2 0.2 T to 1.5 T; NCh2745 0.5 T_D to 1.25 T_M."""

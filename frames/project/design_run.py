@@ -98,7 +98,7 @@ class Histories:
     runs : mapping of str to xarray.Dataset
         By bound, a row a motion.
     governing : xarray.Dataset
-        Histories of the run that displaces a bearing most.
+        Histories of the run that displaces a bearing most, in single precision as they are kept.
     governing_case : str
         Which that is.
     """
@@ -168,7 +168,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     found += history_checks(
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
-    governing, _ = most_displaced(runs)
+    governing, _ = _most_displaced(runs)
     if minima is not None and governing != "" and governing in minima.bounds:
         model = bounded(frame, governing, bounds)
         found.append(storey_shear_check(histories.governing, model, minima, governing))
@@ -232,8 +232,8 @@ def _histories(
     )  # fmt: skip
 
 
-def most_displaced(runs: Mapping[Bound, xr.Dataset]) -> tuple[Bound, int]:
-    """Return bound and place of the run that displaces a bearing most."""
+def _most_displaced(runs: Mapping[Bound, xr.Dataset]) -> tuple[Bound, int]:
+    # Bound and place of the run that displaces a bearing most.
     reached = {
         (bound, run): float(data["reached_displacement"].isel(run=run).max())
         for bound, data in runs.items()
@@ -246,7 +246,7 @@ def _governing(
     parts: Parts, frame: Frame, motions: MotionSet, runs: Mapping[Bound, xr.Dataset]
 ) -> tuple[xr.Dataset, str]:
     # Histories of the run that displaces a bearing most, run once more to keep them.
-    bound, run = most_displaced(runs)
+    bound, run = _most_displaced(runs)
     name, given = str(runs[bound]["motion"].to_numpy()[run]), parts.file.analysis
     model = frame if bound == "" else bounded(frame, bound, parts.bounds())
     with warnings.catch_warnings():  # as told of the same run among the others

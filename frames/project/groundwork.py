@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from frames.checks.analysis import equivalent_linear
 from frames.checks.asce7 import ASCE7
 from frames.checks.en1998 import EN1998
+from frames.checks.history_rules import RULES
 from frames.checks.isolation import IsolationSystem
 from frames.checks.motions import period_range
 from frames.checks.nch2745 import NCh2745
-from frames.project.parts import RULES
 from frames.project.schema import OpenSeesModel
 
 if TYPE_CHECKING:

@@ -7,11 +7,11 @@ import runpy
 import traceback
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from frames._errors import ProjectError
 from frames.checks.bounds import PropertyBounds, PropertyFactors
-from frames.checks.history_rules import HISTORY_RULES, HistoryRules
+from frames.checks.history_rules import HISTORY_RULES, RULES, HistoryRules
 from frames.checks.limits import DesignLimits
 from frames.checks.superstructure import Superstructure
 from frames.frame import Frame
@@ -40,13 +40,6 @@ BASE_DEPTH = 0.8
 """Depth over which a base node of a moment frame has its mass, for rotary inertia [m]."""
 
 T = TypeVar("T")
-
-RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
-    "ASCE 7-22": "ASCE 7-22",
-    "EN 1998": "EN 1998-1",
-    "NCh2745": "NCh2745",
-}
-"""Rules for motions and time histories by a project's code."""
 
 
 class Parts:

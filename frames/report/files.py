@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
@@ -50,8 +49,7 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         save(run.runs[bound], path)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    as_kept = replace(run, governing=load(governing))  # rounded, as whoever reads it has it
-    return [*write_judgement(as_kept, folder, source), *written.values(), governing]
+    return [*write_judgement(run, folder, source), *written.values(), governing]
 
 
 def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:

@@ -16,12 +16,13 @@ import platform
 import resource
 import tempfile
 import warnings
+from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
-from frames import AuditWarning, ModelWarning, open_campaign, time_histories
+from frames import ModelWarning, open_campaign, time_histories
 from frames.hazard.fema_records import RECORD_SETS
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark import processor
@@ -41,7 +42,7 @@ from validation.measurements.yielding_runs import LIR, RIMS, WIDE
 from validation.page import DPI, FOLDER
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Generator, Mapping, Sequence
 
     from frames import Campaign, GroundMotion
 
@@ -55,6 +56,15 @@ HALVED = (
 """Runs at half the step: device, set, motion by number, intensity [m/s2]."""
 
 
+@contextmanager
+def _quietly() -> Generator[None, None, None]:
+    # What is doubtful of a run or a model is in the tables.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AnalysisWarning)
+        warnings.simplefilter("ignore", ModelWarning)
+        yield
+
+
 def halved(sets: Sets) -> list[dict[str, Any]]:
     """Return demands of some runs at the step of the campaign, and at half of it."""
     models = devices()
@@ -63,9 +73,7 @@ def halved(sets: Sets) -> list[dict[str, Any]]:
         name, motion = list(sets[kind].items())[number]
         numbers = []
         for dt in (STEP, 0.5 * STEP):
-            with warnings.catch_warnings():
-                for category in (AnalysisWarning, AuditWarning, ModelWarning):
-                    warnings.simplefilter("ignore", category)
+            with _quietly():
                 data = time_histories(
                     {device: models[device]}, {name: motion}, scales=[scale], dt=dt
                 )
@@ -83,9 +91,7 @@ def performed(runs: Campaign, workers: int) -> dict[str, Any]:
     """Run what is not done, and return what it cost, with the store's digest."""
     before = runs.store.status().done if runs.store.exists else 0
     clock, cpu = perf_counter(), process_time()
-    with warnings.catch_warnings():
-        for category in (AnalysisWarning, AuditWarning, ModelWarning):
-            warnings.simplefilter("ignore", category)
+    with _quietly():
         runs.run(workers=workers, progress=True)
     status = runs.status()
     return {

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     Found = Mapping[str, Any]
 
 CURVES, MEDIANS = "study-curves.png", "study-medians.png"
+MARKERS = "os^d"  # of the devices
 DEMAND, FLOOR = "ductility", "floor acceleration in plan, mean"
 SHOWN = {
     "ductility": ("ductility [-]", 1.0, ".2f"),
@@ -53,7 +54,7 @@ def _curves(found: Found) -> Figure:
                                    color=look["color"], linewidth=0.0)  # fmt: skip
                 panel.plot(curve["at"], curve["probability"], **look)
             im, exceeded, total = np.array(own["stripes"][name]).T
-            panel.plot(im, exceeded / np.maximum(total, 1.0), "os^d"[k], markersize=3.0,
+            panel.plot(im, exceeded / np.maximum(total, 1.0), MARKERS[k], markersize=3.0,
                        color=look["color"])  # fmt: skip
         panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
         ps.caption(panel, title=limit.name)
@@ -80,7 +81,7 @@ def _medians(found: Found) -> Figure:
             look = ps.line_of(k)
             panel.fill_between(found["scales"], low, high, alpha=0.12, color=look["color"],
                                linewidth=0.0)  # fmt: skip
-            panel.plot(found["scales"], middle, marker="os^d"[k], markersize=3.0, **look)
+            panel.plot(found["scales"], middle, marker=MARKERS[k], markersize=3.0, **look)
         if quantity == FLOOR:
             panel.set_yscale("log")
         ps.caption(panel, x="Sa(3 s) [m/s2]", y=text)
@@ -89,6 +90,6 @@ def _medians(found: Found) -> Figure:
 
 
 def _legend(figure: Figure, title: str) -> None:
-    handles = [Line2D([], [], label=name, marker="os^d"[k], markersize=3.0, **ps.line_of(k))
+    handles = [Line2D([], [], label=name, marker=MARKERS[k], markersize=3.0, **ps.line_of(k))
                for k, name in enumerate(DEVICES)]  # fmt: skip
     ps.add_legend(figure, handles, columns=2, title=title)

@@ -51,7 +51,6 @@ def page(found: Found) -> str:
         "## Collapse margin",
         _margins(found),
         "## Fragility",
-        _medians_note(found),
         _fragilities(found),
         "## Demands",
         f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",  # noqa: E501
@@ -135,11 +134,20 @@ def _ratio(value: list[float] | None) -> str:
     return f"{word}{value[0]:.2f} ({value[1]:.2f} to {value[2]:.2f})"
 
 
+def _last_held(found: Found, device: str) -> int:
+    # The last stripe at which fewer than half of the records have failed a device's bearing.
+    rows = found["parts"][ALL]["demands"][FLOOR][device]
+    return max(k for k, row in enumerate(rows) if row[1] is not None)
+
+
+def _floor_and_shear(found: Found, device: str, at: int) -> str:
+    demands = found["parts"][ALL]["demands"]
+    floor, shear = (demands[key][device][at][1] for key in (FLOOR, "base shear over weight"))
+    return f"{_of(floor, 1.0 / STANDARD_GRAVITY, '.2f')} g and {_of(shear, 1.0, '.2f')} W"
+
+
 def _larger_sliders(found: Found) -> str:
-    part = found["parts"][ALL]
-    at = max(k for k, row in enumerate(part["demands"][FLOOR][ROOM]) if row[1] is not None)
-    floor = part["demands"][FLOOR][ROOM][at][1]
-    shear = part["demands"]["base shear over weight"][ROOM][at][1]
+    at = _last_held(found, ROOM)
     margins = [margin(found, ALL, name) for name in (LIR, ROOM, RIMS)]
     own, larger, rims = ("none" if each is None else f"{each[0]:.2f}" for each in margins)
     failed = [sum(n for status, n in found["statuses"][name].items() if status != "ok")
@@ -151,24 +159,18 @@ def _larger_sliders(found: Found) -> str:
         f"friction of {ROOM_FRICTION:g} its bearings fail in {failed[1]} of {runs} runs in place "
         f"of {failed[0]} (DCFP with rims: {failed[2]}), and the collapse margin is {larger} in "
         f"place of {own} (DCFP with rims: {rims}). At {found['scales'][at]:g} m/s2 medians of "
-        f"floor acceleration and base shear are {_of(floor, 1.0 / STANDARD_GRAVITY, '.2f')} g and "
-        f"{_of(shear, 1.0, '.2f')} W. The price is the plan: dishes of "
+        f"floor acceleration and base shear are {_floor_and_shear(found, ROOM, at)}. "
+        "The price is the plan: dishes of "
         f"{_dish(bearing_for(1000e3).lateral_capacity, ROOM_RADIUS):.0f} mm in place of "
         f"{_dish(bearing_for(1000e3).lateral_capacity):.0f} mm."
     )
 
 
 def _physics(found: Found) -> str:
-    part, limits = found["parts"][ALL]["demands"], found["parts"][ALL]["limits"]
-    at = max(k for k, row in enumerate(part[FLOOR][LIR]) if row[1] is not None)
+    limits, at = found["parts"][ALL]["limits"], _last_held(found, LIR)
     failures = limits[COLLAPSE.name]["stripes"][LIR]
     alone = [name for name, own in limits.items() if own["stripes"][LIR] == failures]
-    floors = [part[FLOOR][name][at][1] for name in (LIR, RIMS)]
-    shears = [part["base shear over weight"][name][at][1] for name in (LIR, RIMS)]
-    told = ", ".join(
-        f"{name} {_of(value, 1.0 / STANDARD_GRAVITY, '.2f')} g and {_of(shear, 1.0, '.2f')} W"
-        for name, value, shear in zip((LIR, RIMS), floors, shears, strict=True)
-    )
+    told = ", ".join(f"{name} {_floor_and_shear(found, name, at)}" for name in (LIR, RIMS))
     slip = 1e3 * min(b.resolved()["slip_capacity"] for b in bearings_of("light").values())
     return (
         "The interface slips instead of pushing on the rims, so that the force is bounded by its "
@@ -209,21 +211,18 @@ def _margins(found: Found) -> str:
     )
 
 
-def _medians_note(found: Found) -> str:
-    return (
+def _fragilities(found: Found) -> str:
+    note = (
         "Medians in m/s2 of all records (interval of 90 %, records resampled), and dispersion. "
         "Curves of each set are in study.json; there fewer than 20 records make intervals too "
         "narrow, as in the table above ([fragility.md](../fragility.md))."
     )
-
-
-def _fragilities(found: Found) -> str:
     rows = []
     for limit in LIMITS:
         own = found["parts"][ALL]["limits"][limit.name]["curves"]
         rows += [(limit.name, name, _median(own[name]), _spread(own[name])) for name in DEVICES]
     head = ("limit state", "device", "median", "dispersion")
-    return table(head, rows)
+    return f"{note}\n\n{table(head, rows)}"
 
 
 def _demands(found: Found) -> str:
@@ -329,7 +328,7 @@ def _kinds(found: Found) -> list[str]:
     return [kind for kind in SETS if kind in found["parts"]]
 
 
-def _near(found: Found, share: float = 1.0) -> int:
+def _near(found: Found, share: float) -> int:
     # Place of the stripe next to a share of the maximum considered earthquake.
     return int(np.argmin(np.abs(np.array(found["scales"]) - share * found["considered"])))
 

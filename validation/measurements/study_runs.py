@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,13 +30,11 @@ from frames.fragility.resampling import RESAMPLES
 from frames.hazard.damping_factors import damping_factor
 from frames.hazard.fema_records import RECORD_SETS
 from lir_element.units import STANDARD_GRAVITY
-from validation.measurements.yielding_page import rigidity
 from validation.measurements.yielding_runs import (
     LIR,
     RIMS,
     TAIL,
     WIDE,
-    YIELD_STRESS,
     model_of,
     structures,
 )
@@ -74,9 +71,6 @@ SCALES = (0.8, 1.2, 1.6, 1.9, 2.2, 2.6, 3.2, 4.2)
 
 STEP = 0.01
 """Time step of all runs [s]."""
-
-LENGTHS = {"column": 3.5, "beam": 6.0}
-"""Of members, by the first part of the names of their hinges [m]."""
 
 ULTIMATE = 9.0
 """Ductility of rotation at which a member has failed [-]: an assumption."""
@@ -139,21 +133,16 @@ def campaign(
     return Campaign(devices(), dict(motions), store=store, scales=list(scales), dt=STEP)
 
 
-@cache
 def yield_rotations() -> dict[str, float]:
-    """Return the rotation at which columns and beams yield, M_p L / (6 E I) [rad]."""
-    structure = structures()[STRUCTURE]
-    sections = {"column": structure.column, "beam": structure.beam}
-    return {
-        kind: YIELD_STRESS * modulus * LENGTHS[kind] / (6.0 * rigidity(section))
-        for (kind, section), modulus in zip(sections.items(), structure.moduli, strict=True)
-    }
+    """Return the rotation at which columns and beams yield [rad]."""
+    return structures()[STRUCTURE].yield_rotations()
 
 
 def ductilities(data: xr.Dataset) -> Any:
     """Return the largest ductility of rotation of each run, (runs,): 1 where no hinge yields."""
     kinds = [str(name).split("-")[0] for name in data["hinge"].to_numpy()]
-    limits = np.array([yield_rotations()[kind] for kind in kinds])
+    at_yield = yield_rotations()
+    limits = np.array([at_yield[kind] for kind in kinds])
     return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
 
 

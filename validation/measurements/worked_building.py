@@ -16,7 +16,6 @@ import re
 import tempfile
 import time
 import warnings
-from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
@@ -35,10 +34,9 @@ from frames import (
 )
 from frames.analysis.modes import modes
 from frames.analysis.recording import Recording
-from frames.checks.history_rules import HISTORY_RULES
 from frames.project.design_run import Histories, judged_run, run_project
 from frames.project.groundwork import groundwork
-from frames.project.parts import RULES, Parts
+from frames.project.parts import Parts
 from frames.project.reading import read_project
 from frames.report.files import write_run
 from lir_element.units import STANDARD_GRAVITY
@@ -51,7 +49,6 @@ if TYPE_CHECKING:
 
     from frames import Frame, MotionSet
     from frames.checks.bounds import BoundName
-    from frames.checks.history_rules import HistoryRules
     from frames.checks.outcome import BoundResult
     from frames.project.groundwork import Groundwork
 
@@ -98,10 +95,9 @@ def project_text(code: str = "ASCE 7-22") -> str:
 
 def storey_stiffness(frame: Frame) -> list[float]:
     """Return stiffnesses of storeys [N/m] that have the frame's first mode on a fixed base."""
-    found, mass = modes(frame, 1, "fixed"), gravity(frame).system.node_mass[:, 0]
-    levels = np.array([level.z for level in frame.levels])
-    z = gravity(frame).system.coordinates[:, 2]
-    floor = np.abs(z[:, None] - levels).argmin(axis=1)
+    found, system = modes(frame, 1, "fixed"), gravity(frame).system
+    mass, levels = system.node_mass[:, 0], np.array([level.z for level in frame.levels])
+    floor = np.abs(system.coordinates[:, 2, None] - levels).argmin(axis=1)
     axis = int(found.mass_ratios[0, :2].argmax())
     shares = np.bincount(floor, mass)
     shape = np.bincount(floor, mass * found.shapes[:, axis, 0]) / shares
@@ -155,11 +151,6 @@ def demands_by_bound(table: pd.DataFrame) -> dict[str, dict[str, float]]:
     return {c: {row: float(table[c][row]) for row in ROWS if row in table.index} for c in columns}
 
 
-def lenient(code: str) -> HistoryRules:
-    """Return a code's rules for histories, with uplift allowed."""
-    return replace(HISTORY_RULES[RULES[code]], uplift_allowed=True)
-
-
 def lenient_parts(source: Path, folder: Path) -> Parts:
     """Return a project whose runs count where a bearing lifts off."""
     text = source.read_text(encoding="utf-8") + "[analysis]\nuplift_allowed = true\n"
@@ -169,13 +160,13 @@ def lenient_parts(source: Path, folder: Path) -> Parts:
 
 
 def device_numbers(parts: Parts, known: Groundwork, *, rims: bool) -> dict[str, dict[str, float]]:
-    """Return what the histories ask of the bearings with sliders in one piece, by bound."""
+    """Return what the histories of a project ask of sliders in one piece, by bound."""
     plain = {n: link.bearing.as_dcfp(rims=rims) for n, link in known.frame.bearings.items()}
     runs = bounded_histories(
         known.frame.with_bearings(plain), known.motions, parts.bounds(),
         record=Recording(every=None),
     )  # fmt: skip
-    found = demands_by_bound(history_demands(runs, lenient(parts.file.project.code)))
+    found = demands_by_bound(history_demands(runs, parts.rules()))
     for bound, data in runs.items():
         moved = data["reached_displacement"].sel(bearing=list(MIDDLE))
         found[bound]["centre"] = float(moved.mean())
@@ -203,7 +194,8 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
     run = run_project(parts)
     lap("`lir run`: 7 motions at 3 bounds, the governing run again, checks")
     kept = Histories(runs=run.runs, governing=run.governing, governing_case=run.governing_case)
-    again = judged_run(lenient_parts(source, folder), known, kept)
+    lenient = lenient_parts(source, folder)
+    again = judged_run(lenient, known, kept)
     lap("of it demands and checks")
     write_run(run, folder / "results", project_text(code))
     lap("report and files")
@@ -219,12 +211,12 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
             for bound, result in known.equivalent.bounds.items()
         },
         "limits": [f"{c.title} ({c.bound})" for c in known.equivalent.checks.failed],
-        "free": device_numbers(parts, known, rims=False),
+        "free": device_numbers(lenient, known, rims=False),
         "lir": demands_by_bound(again.demands),
         "checks": len(run.checks),
         "failed": [f"{c.title} ({c.bound})" for c in run.checks.failed],
         "failed_with_uplift": [str(c.statement) for c in again.checks.failed],
-        "walled": device_numbers(parts, known, rims=True) if code == "ASCE 7-22" else {},
+        "walled": device_numbers(lenient, known, rims=True) if code == "ASCE 7-22" else {},
     }  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from frames.plots import plot_style as ps
 from lir_element.units import STANDARD_GRAVITY
@@ -90,18 +90,11 @@ def yield_rotations() -> str:
     """Return the rotations at which the members yield, M_p L / (6 E I), in words."""
     parts = []
     for structure in structures().values():
-        lengths = (("columns", structure.column, 3.5), ("beams", structure.beam, 6.0))
         numbers = [
-            f"{kind} {1e3 * YIELD_STRESS * modulus * length / (6.0 * rigidity(section)):.1f}"
-            for (kind, section, length), modulus in zip(lengths, structure.moduli, strict=True)
+            f"{kind}s {1e3 * value:.1f}" for kind, value in structure.yield_rotations().items()
         ]
         parts.append(f"{structure.name} frame: {' and '.join(numbers)} mrad")
     return "; ".join(parts)
-
-
-def rigidity(section: Any) -> float:
-    """Return the larger bending stiffness of a section [N m2]."""
-    return float(section.elastic_modulus * max(section.inertia_y, section.inertia_z))
 
 
 def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> str:

@@ -98,6 +98,19 @@ class Structure:
             ),
         }  # fmt: skip
 
+    def yield_rotations(self) -> dict[str, float]:
+        """Return the rotations at which columns and beams yield, M_p L / (6 E I) [rad]."""
+        members = {"column": (self.column, 3.5), "beam": (self.beam, 6.0)}  # lengths [m]
+        return {
+            kind: YIELD_STRESS * modulus * length / (6.0 * _rigidity(section))
+            for (kind, (section, length)), modulus in zip(members.items(), self.moduli, strict=True)
+        }
+
+
+def _rigidity(section: Section) -> float:
+    # The larger bending stiffness [N m2].
+    return float(section.elastic_modulus * max(section.inertia_y, section.inertia_z))
+
 
 def box_modulus(side: float, wall: float) -> float:
     """Return the plastic modulus of a square box [m3]."""
