@@ -62,8 +62,6 @@ from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
 from frames.checks.resultants import resultant_offsets as resultant_offsets
 from frames.checks.single_run import event_checks as event_checks
 from frames.checks.single_run import impact_checks as impact_checks
-from frames.checks.storey_shear import storey_shear_check as storey_shear_check
-from frames.checks.storey_shear import storey_shear_peaks as storey_shear_peaks
 from frames.checks.superstructure import Superstructure as Superstructure
 from frames.checks.trace import Trace as Trace
 from frames.fragility.analyses import cloud_analysis as cloud_analysis
@@ -271,8 +269,6 @@ __all__ = [
     "storey_drift",
     "storey_ductility",
     "storey_forces",
-    "storey_shear_check",
-    "storey_shear_peaks",
     "summary",
     "support_reactions",
     "synthetic_near_fault",

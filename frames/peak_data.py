@@ -24,23 +24,24 @@ class Devices(NamedTuple):
 class Shape(NamedTuple):
     """What the peaks of the structure are formed with: rows over free degrees of freedom.
 
-    With ``x = (b, eta, beyond)`` those that are needed are ``moves.T @ x + rest`` and, of
-    accelerations, ``rates.T @ x``; rows are sparse.
+    With ``x = (b, eta, beyond)`` those that are needed, and behind them the storey shears of
+    members, are ``moves.T @ x + rest`` and, of accelerations, ``rates.T @ x``; rows are sparse.
     """
 
-    moves: Array  # (n_x, n_u)
-    rest: Array  # (n_u,)
+    moves: Array  # (n_x, n_u + 2 n_storeys): displacements, then shears along x and y
+    rest: Array  # (n_u + 2 n_storeys,)
     rates: Array  # (n_x, n_a)
     mass_e: Array  # (n_e,) 0 of what lags without mass: it has no acceleration of use
     u_start: Array  # rows over displacements: pairs of drifts, then of lines, then three of shear
     u_place: Array
     u_value: Array
     shear: Array  # (3, m + 1) base shear of other supports: of forces beyond, constant
+    crossed: Array  # (n_storeys, n_bearings) 1 where the bearing passes through the storey
     a_start: Array  # rows over accelerations: three a node, then three a level
     a_place: Array
     a_value: Array
     sizes: Array  # (4,) nodes, levels, storeys, lines
-    x: Array  # scratch: (AT_ONCE, n_x), (AT_ONCE, n_u), (AT_ONCE, n_x), (AT_ONCE, n_a)
+    x: Array  # scratch: (AT_ONCE, n_x), as `rest`, (AT_ONCE, n_x), (AT_ONCE, n_a)
     u: Array
     x_rate: Array
     a: Array
@@ -59,6 +60,8 @@ class Reached(NamedTuple):
     level_at: Array
     storey: Array  # (n_storeys,)
     storey_at: Array
+    shear: Array  # (n_storeys,)
+    shear_at: Array
     line: Array  # (n_lines,)
     line_at: Array
     whole: Array  # (5,) base shear, terms of the energy

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from frames.analysis.cutting import storey_rows
 from frames.analysis.static import expand
 from frames.analysis.yielding import part_variables
 from frames.assembly.assemble import node_geometric_stiffness
@@ -130,6 +131,15 @@ def build_dataset(
             "energy since gravity",
         ),
     } | _permanent(frame, state)
+    storeys = [lv.name for lv in frame.levels[1:]]
+    if storeys:
+        names["storey"] = storeys
+        variables["storey_shear"] = labelled(
+            ("time", "storey", "axis"),
+            of(lambda: motion.storey_shear([lv.z for lv in frame.levels]), len(storeys), 3),
+            "N",
+            "resisting force of what is below a storey: its members, and bearings through it",
+        )
     coordinates = {
         "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
         "node": list(system.node_names),
@@ -205,6 +215,16 @@ class _Motion:
         forces = self._states["force"][: self._count, grounded, 6:9].sum(axis=1)
         beyond = self._out.beyond[: self._count]
         found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
+        return found
+
+    def storey_shear(self, heights: list[float]) -> FloatArray:
+        state = self._state
+        rows = storey_rows(state.system, state.member_forces, heights)
+        found = np.asarray(rows.over_q @ self._moves().T).T + rows.constant
+        found += self._out.beyond[: self._count] @ rows.over_beyond.T
+        found = found.reshape(self._count, len(rows.crossed), 3)
+        for k, crossed in enumerate(rows.crossed):
+            found[:, k] += self._states["force"][: self._count, crossed, 6:9].sum(axis=1)
         return found
 
     def _of_nodes(self, q: FloatArray) -> FloatArray:

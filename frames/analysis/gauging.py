@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import sparse
 
+from frames.analysis.cutting import storey_rows
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.kernel_data import device_records
 from frames.kernels.peaking import (
@@ -46,6 +47,14 @@ def places_of(data: xr.Dataset) -> Places:
     """Return where the nodes of a result stand."""
     levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
     return Places(*levels, lines_of(data))
+
+
+class StoreyMaps(NamedTuple):
+    """Storey shears along x and y, storey by storey, over ``x = (b, eta, beyond)``."""
+
+    over_x: FloatArray  # (2 n_storeys, n_x)
+    rest: FloatArray  # (2 n_storeys,)
+    crossed: IntArray  # (n_storeys, n_bearings) 1 where the bearing passes through the storey
 
 
 def can_gauge(state: GravityState) -> bool:
@@ -96,8 +105,10 @@ def shape_of(state: GravityState, places: Places) -> Shape:
     whole = expand if state.parts is None else np.hstack([expand, -state.part_shift])
     u_used, u_place = np.unique(over_u.indices, return_inverse=True)
     a_used, a_place = np.unique(over_a.indices, return_inverse=True)
+    shears = _storey_shear_maps(state, places, whole)
     levels = len(places.height)
     storeys, lines = max(levels - 1, 0), len(places.lines[0])
+    moves = np.vstack([whole[u_used], shears.over_x])
 
     def of(rows: SparseMatrix, where: IntArray) -> tuple[IntArray, IntArray, FloatArray]:
         kinds = rows.indptr.astype(np.int64), where.astype(np.int64)
@@ -105,15 +116,15 @@ def shape_of(state: GravityState, places: Places) -> Shape:
 
     u_rows, a_rows = of(over_u, u_place), of(over_a, a_place)
     return Shape(
-        moves=np.ascontiguousarray(whole[u_used].T),
-        rest=np.ascontiguousarray(basis.offset[u_used]),
+        moves=np.ascontiguousarray(moves.T),
+        rest=np.concatenate([basis.offset[u_used], shears.rest]),
         rates=np.ascontiguousarray(expand[a_used].T),
         mass_e=np.ascontiguousarray(basis.mass_e),
         u_start=u_rows[0], u_place=u_rows[1], u_value=u_rows[2],
-        shear=shear[1],
+        shear=shear[1], crossed=shears.crossed,
         a_start=a_rows[0], a_place=a_rows[1], a_value=a_rows[2],
         sizes=np.array([len(system.node_names), levels, storeys, lines], dtype=np.int64),
-        x=np.zeros((AT_ONCE, whole.shape[1])), u=np.zeros((AT_ONCE, len(u_used))),
+        x=np.zeros((AT_ONCE, whole.shape[1])), u=np.zeros((AT_ONCE, len(moves))),
         x_rate=np.zeros((AT_ONCE, expand.shape[1])), a=np.zeros((AT_ONCE, len(a_used))),
     )  # fmt: skip
 
@@ -132,6 +143,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
         node=lowest(nodes, 2), node_at=np.zeros((nodes, 2)),
         level=lowest(levels, 2), level_at=np.zeros((levels, 2)),
         storey=lowest(storeys), storey_at=np.zeros(storeys),
+        shear=lowest(storeys), shear_at=np.zeros(storeys),
         line=lowest(lines), line_at=np.zeros(lines),
         whole=lowest(whole), whole_at=np.zeros(whole),
         total=np.zeros(3), lifted=np.zeros((bearings, 2)), last=np.zeros(2),
@@ -184,6 +196,7 @@ class Gauge:
             if len(r.level):
                 found[f"floor_{way}"] = Extreme(r.level[:, k].copy(), r.level_at[:, k].copy())
         if len(r.storey):
+            found["storey_shear"] = Extreme(r.shear.copy(), r.shear_at.copy())
             found["drift"] = Extreme(r.storey.copy(), r.storey_at.copy())
         if len(r.line):
             found["line_drift"] = Extreme(r.line.copy(), r.line_at.copy())
@@ -252,3 +265,18 @@ def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:
     found = sparse.csr_array(sparse.vstack(rows))
     found.eliminate_zeros()
     return found, rest
+
+
+def _storey_shear_maps(state: GravityState, places: Places, whole: FloatArray) -> StoreyMaps:
+    # `whole` are displacements over (b, eta, beyond).
+    heights, bearings = places.height.tolist(), len(state.system.bearings)
+    if len(heights) < 2:
+        none = np.zeros((0, bearings), dtype=np.int64)
+        return StoreyMaps(np.zeros((0, whole.shape[1])), np.zeros(0), none)
+    rows = storey_rows(state.system, state.member_forces, heights)
+    in_plan = np.arange(len(rows.constant)) % 3 < 2
+    over_x = np.asarray(rows.over_q @ whole)
+    if state.parts is not None:
+        over_x[:, -len(state.parts.d_old) :] += rows.over_beyond
+    rest = rows.over_q @ state.basis.offset + rows.constant
+    return StoreyMaps(over_x[in_plan], rest[in_plan], rows.crossed.astype(np.int64))

@@ -15,6 +15,7 @@ import xarray as xr
 from scipy import sparse
 
 from frames._errors import ModelError
+from frames.analysis.cutting import cuts
 from frames.analysis.springs import first_displacement
 from frames.analysis.yielding import forces_beyond
 from frames.assembly.assemble import (
@@ -22,11 +23,10 @@ from frames.assembly.assemble import (
     member_axial_forces,
     member_end_forces,
     node_geometric_stiffness,
-    scatter,
 )
 from frames.assembly.end_zones import at_ends
 from frames.assembly.nonlinear import with_axial_forces
-from frames.model.axes import matrix_to_global, to_global, to_local
+from frames.model.axes import to_local
 from frames.model.parts import DOFS
 from frames.results.envelopes import envelope
 from frames.results.kept import noted, require_recorded, require_steps
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
-    from frames.assembly.system import MemberTable, System
+    from frames.assembly.system import System
     from frames.model.contents import FrameContents
     from frames.model.parts import Level
 
@@ -44,8 +44,6 @@ COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
 
 _AT_ONCE = 50
 """Members whose histories `force_tables` holds at a time."""
-
-_LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
 
 
 class _Structure(NamedTuple):
@@ -298,25 +296,18 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
 
 
 def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray:
-    system, table = found.system, found.system.members
-    own, whole = (
-        matrix_to_global(local, table.arrays.axes)
-        for local in (table.stiffness, table.stiffness + table.geometric(found.axial))
-    )
-    rest = system.node_stiffness - scatter(own, table.nodes, len(system.node_names))
+    system = found.system
     values = np.zeros((len(found.u), len(levels), 6))
-    for k in range(len(levels)):
-        below = levels[max(k - 1, 0)]
-        height = below.z - _LEVEL if k == 0 else below.z + _LEVEL
-        above = system.coordinates[:, 2] > height
-        nodes = [system.node_names.index(name) for name in below.nodes]
+    for k, cut in enumerate(cuts(system, found.axial, [level.z for level in levels])):
+        nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
         middle = system.coordinates[nodes].mean(axis=0)
-        rows, constant = _crossing(table, whole, above)
-        lower, upper = (_resultant(system.coordinates, middle, part) for part in (~above, above))
-        values[:, k] = -np.asarray((lower @ (rest + rows)) @ found.u.T).T - lower @ constant
+        lower, upper = (
+            _resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
+        )
+        values[:, k] = -np.asarray((lower @ cut.rows) @ found.u.T).T - lower @ cut.constant
         values[:, k] -= np.asarray((lower @ system.parts.node_rows.T) @ found.beyond.T).T
-        held = _bearing_ends(found, _crossed(system, above))
-        values[:, k] += np.asarray(upper @ held.T).T
+        upper_ends = np.column_stack([np.zeros_like(cut.crossed), cut.crossed])
+        values[:, k] += np.asarray(upper @ _bearing_ends(found, upper_ends).T).T
     return xr.DataArray(
         values,
         dims=("time", "storey", "component"),
@@ -329,19 +320,6 @@ def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray
         | noted(found.data),
         name="storey_forces",
     )
-
-
-def _crossing(
-    table: MemberTable, blocks: FloatArray, above: BoolArray
-) -> tuple[SparseMatrix, FloatArray]:
-    # Forces on the ends of the members that cross a cut: rows over all displacements, and the
-    # constant part; `blocks` are their stiffness in global axes.
-    crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
-    rows = scatter(blocks[crosses], table.nodes[crosses], len(above))
-    constant = np.zeros(6 * len(above))
-    fixed_end = to_global(table.fixed_end, table.arrays.axes)
-    np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
-    return rows, constant
 
 
 def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
@@ -363,11 +341,6 @@ def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
                 total[:, 6 * node : 6 * node + 3] += sign * force[:, b]
                 total[:, 6 * node + 3 : 6 * node + 6] += moment[:, b, end]
     return total
-
-
-def _crossed(system: System, above: BoolArray) -> BoolArray:
-    # The upper ends of those bearings that cross a cut, (n_bearings, 2).
-    return np.array([(False, bool(above[j] and not above[i])) for _, i, j, _ in system.bearings])
 
 
 def _resultant(coordinates: FloatArray, about: FloatArray, chosen: BoolArray) -> SparseMatrix:

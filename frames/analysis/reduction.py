@@ -97,8 +97,6 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
         lines, storeys = storeys_of_lines(data)
         variables[f"{REACHED}line_storey"] = xr.Variable(("line",), storeys)
         coordinates["line"] = lines
-    if "drift" in found.reached:
-        coordinates["storey"] = data["level"].to_numpy()[1:]
     return data.assign_coords(coordinates).assign(variables)
 
 
@@ -359,7 +357,7 @@ def present_quantities(piece: xr.Dataset) -> list[str]:
     levels = piece.sizes["level"]
     lacking: set[str] = set() if levels else {"floor_plan", "floor_vertical"}
     if levels < 2:
-        lacking |= {"drift", "line_drift"}
+        lacking |= {"drift", "line_drift", "storey_shear"}
     elif not storeys_of_lines(piece)[0]:
         lacking |= {"line_drift"}
     if "body_rotation" not in piece:

@@ -89,8 +89,8 @@ class AtBound:
             self._motions(), self._failed(),
             *left_out_checks(self.data, list(map(str, self.data["doubts"].to_numpy())), self.bound),
             *moved, *self._engagement(moved), *bearings.slips(),
-            *bearings.forces(), *self._uplift(), *self._base_shear(), *self._drift(),
-            *self._acceleration(),
+            *bearings.forces(), *self._uplift(), *self._base_shear(), *self._storey_shear(),
+            *self._drift(), *self._acceleration(),
         ]  # fmt: skip
 
     @cached_property
@@ -179,6 +179,32 @@ class AtBound:
 
         clause, symbol = self.rules.force_clause, "V_d" if least > 0.0 else "V"
         return self._worst(clause, "base shear", "base_shear", symbol, "N", limit, fill=fill)
+
+    def _storey_shear(self) -> list[Check]:
+        # On the storey over the lowest level: less is not a failure of the run, but of the demand.
+        if self.equivalent is None or not self._least("V_s_dyn") or len(self.frame.levels) < 2:
+            return []
+        if "reached_storey_shear" not in self.data:
+            msg = "runs have no storey shears (reached_storey_shear): compute them anew"
+            raise CheckError(msg)
+        known, t = self.equivalent.bounds[self.bound].trace, Trace()
+        if self._suite.is_usable:
+            self._suite.enter(t, "V_st", reached(self.data, "storey_shear")[:, 0], "N")
+            t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
+            t("V_run", "V_st / R_I", "N")
+        else:  # no value: none is above the least one
+            t.given("V_run", 0.0, "N", note=self._suite.reason)
+        t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
+        t.given("a_dyn", known.value("a_dyn"), source="ASCE 7-22 17.6.4")
+        t("V_least", "a_dyn * V_s", "N")
+        more = "where it fails, forces above the isolation count times the ratio"
+        return [
+            Judge(t, self.bound).worst(
+                self._clause(self.rules.force_clause), "storey shear of time histories", "V_run",
+                ">=", "V_least", subjects=(self.frame.levels[1].name,),
+                note="; ".join(part for part in (self._note, more) if part),
+            )
+        ]  # fmt: skip
 
     def _drift(self) -> list[Check]:
         limit = self.rules.drift if self.limits.drift is None else self.limits.drift

@@ -44,6 +44,7 @@ _TABLE = (
     ("time lifted", "time_lifted", "s", 1.0),
     ("gap of uplift", "gap", "m", 1.0),
     ("base shear", "base_shear", "N", 1.0),
+    ("storey shear", "storey_shear", "N", 1.0),
     ("storey drift ratio", "drift", "-", 1.0),
     ("storey drift ratio, worst line", "line_drift", "-", 1.0),
     ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
@@ -127,7 +128,8 @@ def history_checks(
         What bearings and structure may be asked for; its drift takes the place of the code's.
     equivalent : EquivalentLinear, optional
         Of ASCE 7-22 with a superstructure: at the bounds that it has, its minima are put under
-        displacement and base shear, and drifts grow as the base shear does.
+        displacement and base shear, drifts grow as the base shear does, and the shear of the
+        storey over the lowest level is held against its least value.
 
     Returns
     -------

@@ -262,6 +262,22 @@ def peak_shear(
     raise_to(reached.whole, reached.whole_at, 0, math.sqrt(square), t)
 
 
+@inlined
+def peak_storey_shear(
+    shape: Shape, reached: Reached, states: Records, row: int, s: int, t: float
+) -> None:
+    """Take up the shear of each storey at one step: of members, and of bearings through it."""
+    storeys, n_bearings = shape.crossed.shape
+    u, first = shape.u[s], shape.u.shape[1] - 2 * storeys
+    for k in range(storeys):
+        x, y = u[first + 2 * k], u[first + 2 * k + 1]
+        for b in range(n_bearings):
+            if shape.crossed[k, b] == 1:
+                x += states[row, b].force[6]
+                y += states[row, b].force[7]
+        raise_to(reached.shear, reached.shear_at, k, math.sqrt(x * x + y * y), t)
+
+
 @kernel
 def peak_of_bearings(
     devices: Devices, reached: Reached, states: Records, out: Output, first: int, last: int
@@ -289,4 +305,5 @@ def peak_of_structure(
             t = out.time[row + s]
             peak_motion(shape, reached, ground, s, t)
             peak_shear(devices, shape, reached, states, out.beyond, row + s, s, t)
+            peak_storey_shear(shape, reached, states, row + s, s, t)
         row += count

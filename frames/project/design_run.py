@@ -17,7 +17,6 @@ from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.motions import motion_checks
-from frames.checks.storey_shear import storey_shear_check
 from frames.project.groundwork import groundwork, inputs_of
 from frames.results.storage import as_packed
 from lir_element.errors import AnalysisWarning
@@ -168,10 +167,6 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     found += history_checks(
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
-    governing, _ = _most_displaced(runs)
-    if minima is not None and governing != "" and governing in minima.bounds:
-        model = bounded(frame, governing, bounds)
-        found.append(storey_shear_check(histories.governing, model, minima, governing))
     demands = history_demands(runs, rules)
     found += _of_the_bearing(parts, known, demands)
     return ProjectRun(
@@ -252,7 +247,7 @@ def _governing(
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motions[name], level=given.level, dt=given.dt)
-    return as_packed(data), f"{name}, {bound} bound"  # judged as it will be kept
+    return as_packed(data), f"{name}, {bound} bound"  # as it will be kept
 
 
 def _has_minima(parts: Parts) -> bool:

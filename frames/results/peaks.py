@@ -168,6 +168,8 @@ def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
             those = Extreme(each.values[on], each.at[on])
             yield _peak(f"acceleration{text}, worst node", "m/s2", those, nodes)
     if data.sizes["level"] > 1:
+        storeys = data.variables["storey"].to_numpy()
+        yield _peak("storey shear", "N", largest(data, "storey_shear"), storeys)
         yield from _of_drifts(data)
 
 

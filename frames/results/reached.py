@@ -300,6 +300,10 @@ QUANTITIES: dict[str, Quantity] = {
         (), "N", "base shear in plan",
         lambda d: in_plan(_values(d, "base_shear", "time", "axis")),
     ),
+    "storey_shear": Quantity(
+        ("storey",), "N", "storey shear in plan",
+        lambda d: in_plan(_values(d, "storey_shear", "time", "storey", "axis")),
+    ),
     "floor_plan": Quantity(
         ("level",), "m/s2", "floor acceleration in plan, mean of the level",
         lambda d: in_plan(_floor(d)),

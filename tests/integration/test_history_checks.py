@@ -238,7 +238,8 @@ def test_minima_raise_displacement_shear_and_drift(frame: Frame, seven: xr.Datas
     ratio = one(raised, "storey drift ratio").demand / one(plain, "storey drift ratio").demand
     assert ratio == pytest.approx(factor)
     weak = history_checks(runs, frame, "ASCE 7-22", equivalent=equivalent(frame, 0.3), **given)
-    assert [c.demand for c in weak] == [c.demand for c in plain]
+    least_shear = one(weak, "storey shear of time histories")
+    assert [c.demand for c in weak if c is not least_shear] == [c.demand for c in plain]
     with pytest.raises(CheckError, match="no minima"):
         history_checks(runs, frame, "NCh2745", equivalent=strong, **given)
 

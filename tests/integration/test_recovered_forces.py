@@ -143,6 +143,7 @@ def test_columns_of_a_storey_carry_its_shear(building):
             total -= local @ system.members.arrays.axes[m]
     shear = storey_forces(frame, data).sel(storey=frame.levels[2].name)
     assert_allclose(total, shear.sel(component=["Vx", "Vy", "Fz"]), rtol=1e-9, atol=1e-3)
+    assert_allclose(data["storey_shear"].sel(storey=frame.levels[2].name), total, atol=1e-3)
 
 
 def test_ends_of_a_member_balance(building):

@@ -33,6 +33,7 @@ from frames import (
     shear_building,
     storey_forces,
     support_reactions,
+    time_histories,
     time_history,
 )
 from frames.analysis.scene import is_plane
@@ -144,11 +145,17 @@ def test_deformations_are_those_of_the_nodes(stack, hinged):
 
 
 def test_storeys_are_in_equilibrium(stack, hinged):
-    for frame, data in (stack, hinged):
+    for (frame, data), motion in ((stack, waves()), (hinged, waves(axes="xyz"))):
         top = frame.levels[-1].name
         found = storey_forces(frame, data)
         base = found.sel(storey=frame.levels[0].name, component=["Vx", "Vy"])
         assert_allclose(base, data["base_shear"][:, :2], rtol=0.0, atol=1e-6 * np.abs(base).max())
+        above = found.isel(storey=slice(1, None)).sel(component=["Vx", "Vy", "Fz"])
+        scale = np.abs(above).max()
+        assert_allclose(data["storey_shear"], above, rtol=0.0, atol=1e-9 * scale)
+        kept = time_histories(frame, [motion], dt=DT)["reached_storey_shear"][0]
+        in_plan = np.linalg.norm(above[..., :2], axis=-1).max(axis=0)
+        assert_allclose(kept, in_plan, rtol=1e-9)
         if frame.links:
             shear = found.sel(storey=top, component="Vx")
             own = data["link_force"].sel(link=f"storey-{len(frame.levels) - 1}-x")

@@ -1,0 +1,110 @@
+"""What passes through horizontal cuts of a frame: rows over its displacements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from frames.assembly.assemble import scatter
+from frames.model.axes import matrix_to_global, to_global
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames.assembly.system import System
+
+_LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
+
+
+class Cut(NamedTuple):
+    """A horizontal cut: forces on all ends of elements, and those of members that cross it.
+
+    Forces of the nodes on them, of members as far as they cross; those of other elements cancel
+    in the resultant where both their ends lie on one side.
+    """
+
+    above: BoolArray  # (n_nodes,)
+    rows: SparseMatrix  # (6 n_nodes, 6 n_nodes) over displacements
+    constant: FloatArray  # (6 n_nodes,) [N, N m]
+    crossed: BoolArray  # (n_bearings,) bearings that cross it
+
+
+@dataclass(frozen=True)
+class StoreyRows:
+    """Forces that storeys above the lowest level pass on, along x, y and z, storey by storey.
+
+    `over_q @ q + over_beyond @ beyond + constant`, and the forces of the bearings that cross.
+    """
+
+    over_q: SparseMatrix  # (3 n_storeys, n_free) [N/m, N]
+    over_beyond: FloatArray  # (3 n_storeys, m)
+    constant: FloatArray  # (3 n_storeys,) [N]
+    crossed: BoolArray  # (n_storeys, n_bearings)
+
+
+def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Cut]:
+    """Return the cuts of the storeys: below the lowest level, then above each but the last.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    axial : ndarray, (n_members,)
+        Axial forces of permanent loads, tension positive [N].
+    heights : sequence of float, (n_levels,)
+        Elevations of the levels [m].
+
+    Returns
+    -------
+    list of Cut
+        One for each level: what is above it passes there through what is below.
+    """
+    table = system.members
+    own, whole = (
+        matrix_to_global(local, table.arrays.axes)
+        for local in (table.stiffness, table.stiffness + table.geometric(axial))
+    )
+    count = len(system.node_names)
+    others = system.node_stiffness - scatter(own, table.nodes, count)
+    fixed_end = to_global(table.fixed_end, table.arrays.axes)
+    found = []
+    for z in (heights[0] - _LEVEL, *(height + _LEVEL for height in heights[:-1])):
+        above = system.coordinates[:, 2] > z
+        crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
+        constant = np.zeros(6 * count)
+        np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
+        rows = others + scatter(whole[crosses], table.nodes[crosses], count)
+        crossed = np.array([bool(above[j] and not above[i]) for _, i, j, _ in system.bearings])
+        found.append(Cut(above, rows, constant, crossed))
+    return found
+
+
+def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> StoreyRows:
+    """Return the forces of the storeys above the lowest level.
+
+    Parameters
+    ----------
+    system, axial, heights
+        As for `cuts`; at least two levels.
+
+    Returns
+    -------
+    StoreyRows
+        Positive with positive displacement of what is above, as bearing forces are.
+    """
+    over_q, over_beyond, constant, crossed = [], [], [], []
+    for cut in cuts(system, axial, heights)[1:]:
+        below = np.repeat(~cut.above, 6).astype(np.float64)
+        lower = sparse.csr_array(np.tile(np.eye(3, 6), len(cut.above)) * -below)
+        over_q.append(lower @ cut.rows @ system.transform)
+        over_beyond.append((lower @ system.parts.node_rows.T).toarray())
+        constant.append(np.asarray(lower @ cut.constant))
+        crossed.append(cut.crossed)
+    return StoreyRows(
+        sparse.csr_array(sparse.vstack(over_q)), np.vstack(over_beyond),
+        np.concatenate(constant), np.array(crossed),
+    )  # fmt: skip
