@@ -215,6 +215,7 @@ def coordinates(history: xr.Dataset) -> list[str]:
         "dof": "displacements and rotations of a node",
         "term": "terms of the energy (below)",
         "level": "names of the levels, from below",
+        "storey": "names of the levels above the lowest, each of the storey below it",
         "link": "names of the nonlinear links; only of models that have some",
         "hinge": 'plastic hinges, "member:end"; only of models that have some',
         "hinge_force_component": "forces on a hinge, local axes of its member",
