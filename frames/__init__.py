@@ -30,6 +30,8 @@ from frames.campaign.sampling import sobol_sample as sobol_sample
 from frames.campaign.store import CampaignStatus as CampaignStatus
 from frames.campaign.store import CampaignStore as CampaignStore
 from frames.campaign.store import open_campaign as open_campaign
+from frames.checks.acceptance import AcceptanceLimits as AcceptanceLimits
+from frames.checks.acceptance import acceptance_checks as acceptance_checks
 from frames.checks.analysis import equivalent_linear as equivalent_linear
 from frames.checks.asce7 import ASCE7 as ASCE7
 from frames.checks.bounds import PropertyBounds as PropertyBounds
@@ -53,12 +55,16 @@ from frames.checks.impacts import slips_of_events as slips_of_events
 from frames.checks.impacts import uplift_events as uplift_events
 from frames.checks.isolation import IsolationSystem as IsolationSystem
 from frames.checks.limits import DesignLimits as DesignLimits
+from frames.checks.loops import LoopTest as LoopTest
+from frames.checks.loops import loop_properties as loop_properties
 from frames.checks.motions import motion_checks as motion_checks
 from frames.checks.motions import period_range as period_range
 from frames.checks.nch2745 import NCh2745 as NCh2745
 from frames.checks.outcome import EquivalentLinear as EquivalentLinear
 from frames.checks.overlap import overlap_area as overlap_area
 from frames.checks.pendulum import FrictionPendulum as FrictionPendulum
+from frames.checks.programme import ProgrammeDemands as ProgrammeDemands
+from frames.checks.programme import programme_of_tests as programme_of_tests
 from frames.checks.resultants import resultant_offsets as resultant_offsets
 from frames.checks.single_run import event_checks as event_checks
 from frames.checks.single_run import impact_checks as impact_checks
@@ -144,6 +150,7 @@ __all__ = [
     "EN1998",
     "HISTORY_RULES",
     "IDA",
+    "AcceptanceLimits",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",
@@ -178,6 +185,7 @@ __all__ = [
     "IntensityRuns",
     "IsolationSystem",
     "LimitState",
+    "LoopTest",
     "ModalDamping",
     "ModelCheck",
     "ModelError",
@@ -192,6 +200,7 @@ __all__ = [
     "Pinching",
     "PlasticHinge",
     "PointSource",
+    "ProgrammeDemands",
     "ProjectError",
     "PropertyBounds",
     "PropertyFactors",
@@ -210,6 +219,7 @@ __all__ = [
     "Tornado",
     "Trace",
     "ViscousDamper",
+    "acceptance_checks",
     "audit",
     "audit_report",
     "bounded",
@@ -245,6 +255,7 @@ __all__ = [
     "latin_hypercube",
     "load",
     "lognormal_fragility",
+    "loop_properties",
     "lumped_mass",
     "mean_annual_frequency",
     "member_forces",
@@ -258,6 +269,7 @@ __all__ = [
     "pair_spectrum",
     "peaks",
     "period_range",
+    "programme_of_tests",
     "repeated_motion",
     "resultant_offsets",
     "rim_engagement",

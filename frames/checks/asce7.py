@@ -129,6 +129,7 @@ class ASCE7:
 
         def step(displacement: float) -> Trace:
             t = enter_system(system)
+            t.given("S_MS", spectrum.parameters["S_MS"], note="in g")
             t.given("S_M1", s_m1, note="in g")
             t.given("D_0", displacement, "m", note="assumed, and found again")
             secant(t, "D_0", _SYMBOLS, "ASCE 7-22 17.2.8, (17.5-2)")
@@ -210,7 +211,6 @@ class ASCE7:
         t("R_I", "min(max(a_I * R, 1), R_max)", source="ASCE 7-22 17.5.4.2")
         t("V_red", "V_st / R_I", "N", source="ASCE 7-22 (17.5-6)")
         least = "ASCE 7-22 17.5.4.3"
-        t.given("S_MS", spectrum.parameters["S_MS"], note="in g")
         t("S_DS", "2 / 3 * S_MS", source="ASCE 7-22 (11.4-3)")
         t("S_D1", "2 / 3 * S_M1", source="ASCE 7-22 (11.4-4)")
         t.given("I_e", above.importance)

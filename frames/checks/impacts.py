@@ -33,7 +33,8 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row for each rim that is met: bearing, surface, time [s], displacement in plan then [m],
-        largest rim force [N].
+        speed in plan a recorded step before (NaN where it was not recorded) [m/s], largest rim
+        force [N].
 
     Raises
     ------
@@ -45,6 +46,9 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
     time = data["time"].to_numpy()
     force = data["rim_force"].transpose("time", "bearing", "surface").to_numpy()
     moved = in_plan(data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy())
+    speed = np.full(moved.shape, np.nan)
+    if "bearing_velocity" in data.variables:
+        speed = in_plan(data["bearing_velocity"].transpose("time", "bearing", "axis").to_numpy())
     rows = []
     for b, name in enumerate(data["bearing"].to_numpy()):
         for s, surface in enumerate(data["surface"].to_numpy()):
@@ -52,8 +56,9 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
             if len(met):
                 k = met[0]
                 largest = float(force[:, b, s].max())
-                rows.append((str(name), str(surface), float(time[k]), float(moved[k, b]), largest))
-    columns = ["bearing", "surface", "time", "displacement", "rim_force"]
+                then = float(moved[k, b]), float(speed[max(k - 1, 0), b])
+                rows.append((str(name), str(surface), float(time[k]), *then, largest))
+    columns = ["bearing", "surface", "time", "displacement", "speed", "rim_force"]
     return pd.DataFrame(rows, columns=columns)
 
 

@@ -16,7 +16,9 @@ from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.device import device_checks
 from frames.checks.histories import bounded_histories, history_checks, history_demands
+from frames.checks.impacts import rim_engagement
 from frames.checks.motions import motion_checks
+from frames.checks.programme import ProgrammeDemands, programme_of_tests
 from frames.project.groundwork import groundwork, inputs_of
 from frames.results.storage import as_packed
 from lir_element.errors import AnalysisWarning
@@ -71,6 +73,8 @@ class ProjectRun:
         Which that is.
     inputs : mapping of str to str
         Digests of what the time histories depend on, by section of the file.
+    programme : pandas.DataFrame
+        Tests that prove the bearings.
     """
 
     frame: Frame
@@ -86,6 +90,7 @@ class ProjectRun:
     governing: xr.Dataset
     governing_case: str
     inputs: Mapping[str, str]
+    programme: pd.DataFrame
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -168,13 +173,14 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
     demands = history_demands(runs, rules)
-    found += _of_the_bearing(parts, known, demands)
+    loads, slip = _asked(parts, known, demands["envelope"])
+    found += _of_the_bearing(parts, known, loads, slip)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
         equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
         bounds=bounds, model=frame.check(), loads=known.system.loads,
         governing=histories.governing, governing_case=histories.governing_case,
-        inputs=inputs_of(parts, known),
+        inputs=inputs_of(parts, known), programme=_programme(parts, known, histories, loads, slip),
     )  # fmt: skip
 
 
@@ -255,21 +261,44 @@ def _has_minima(parts: Parts) -> bool:
     return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
 
 
-def _of_the_bearing(parts: Parts, known: Groundwork, demands: pd.DataFrame) -> list[Check]:
-    # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
-    bearing, bounds = parts.bearing(), parts.bounds()
-    envelope = demands["envelope"]
+def _asked(
+    parts: Parts, known: Groundwork, envelope: pd.Series[float]
+) -> tuple[tuple[float, float], float]:
+    # Least and largest axial load of all combinations and histories [N], and their slip [m].
     loads = [load for load in _loads(known, envelope) if 0.0 < load < float("inf")]
     slip = float(envelope["interface slip"])
     if not math.isfinite(slip):  # runs failed: the most that it holds
-        slip = bearing.resolved()["slip_capacity"]
-    checks = device_checks(
-        bearing, (min(loads), max(loads)), slip=slip, bounds=bounds, limits=parts.limits()
-    )
+        slip = parts.bearing().resolved()["slip_capacity"]
+    return (min(loads), max(loads)), slip
+
+
+def _of_the_bearing(
+    parts: Parts, known: Groundwork, loads: tuple[float, float], slip: float
+) -> list[Check]:
+    # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
+    bearing, bounds = parts.bearing(), parts.bounds()
+    checks = device_checks(bearing, loads, slip=slip, bounds=bounds, limits=parts.limits())
     totals: dict[Bound, float] = {
         each.bound: each.total_displacement for each in known.equivalent.bounds.values()
     }
     return [*checks, *engagement_checks(bearing, totals)]
+
+
+def _programme(
+    parts: Parts,
+    known: Groundwork,
+    histories: Histories,
+    loads: tuple[float, float],
+    slip: float,
+) -> pd.DataFrame:
+    # Tests at the loads, the slip and the speed of impact that the histories gave.
+    above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
+    wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
+    demands = ProgrammeDemands(
+        loads=loads, slip=slip, wind=wind or None,
+        impact_speed=float(speeds.max()) if len(speeds) else None,
+    )  # fmt: skip
+    return programme_of_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
 
 
 def _loads(known: Groundwork, envelope: pd.Series[float]) -> list[float]:

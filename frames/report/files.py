@@ -39,7 +39,7 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     list of Path
         ``project.toml``; ``runs-<bound>.nc``, the time histories; ``equivalent-linear.csv``,
         ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
-        ``members.csv`` in SI units; ``checks.txt`` with each calculation;
+        ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
         outcome.
     """

@@ -172,9 +172,9 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "members".
+        "bearings", "friction", "modes", "members", "programme" of tests.
     """
     return {
         "bearings": bearing_table(run), "friction": friction_table(run),
-        "modes": mode_table(run), "members": member_table(run),
+        "modes": mode_table(run), "members": member_table(run), "programme": run.programme,
     }  # fmt: skip

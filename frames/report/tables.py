@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -34,11 +35,15 @@ def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tu
         if "unit" in row:
             row["unit"], factor = _SHOWN.get(row["unit"], (row["unit"], 1.0))
         shown = (
-            f"{factor * value:.4g}" if isinstance(value, float) else text(value)
+            _number(factor * value) if isinstance(value, float) else text(value)
             for value in row.values()
         )
         rows.append((str(name), *shown))
     return rows
+
+
+def _number(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.4g}"
 
 
 def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:

@@ -10,6 +10,7 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
+from frames.checks.check import CONFIRMED
 from frames.checks.rendering import quantity
 from frames.report.figures import pictures
 from frames.report.tables import in_mm_and_kn, rows_of
@@ -77,6 +78,7 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         friction=_table(tables["friction"], "friction coefficient"),
         modes=_table(tables["modes"], "mode"),
         members=_table(tables["members"], "members"),
+        programme=_programme(tables["programme"]),
         motions=_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
         demands=_table(run.demands, "quantity"),
@@ -99,6 +101,15 @@ def _judged(check: Check) -> Judged:
 
 def _table(frame: pd.DataFrame, index: str) -> Table:
     return Table((index, *map(str, frame.columns)), rows_of(frame, _word))
+
+
+def _programme(tests: pd.DataFrame) -> Table:
+    # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
+    starred = tests["clause"].where(tests["standing"] == CONFIRMED, tests["clause"] + " *")
+    shown = tests.assign(clause=starred).drop(columns="standing")
+    if shown["bearings"].nunique() == 1:
+        shown = shown.drop(columns="bearings")
+    return _table(in_mm_and_kn(shown), "test")
 
 
 def _word(value: object) -> str:

@@ -78,7 +78,8 @@ MIDDLE = ("bearing-1-1", "bearing-2-1")
 ROWS = (
     "isolator displacement", "displacement left", "interface slip", "interface slip left",
     "rim force", "least axial force", "largest axial force", "uplifts, all bearings",
-    "gap of uplift", "base shear", "storey drift ratio", "floor acceleration in plan",
+    "gap of uplift", "base shear", "storey shear", "storey drift ratio",
+    "floor acceleration in plan",
 )  # fmt: skip
 """What is kept of the histories."""
 

@@ -22,6 +22,7 @@ UNITS = {
     "interface slip": ("mm", 1e3), "interface slip left": ("mm", 1e3), "rim force": ("kN", 1e-3),
     "least axial force": ("kN", 1e-3), "largest axial force": ("kN", 1e-3),
     "uplifts, all bearings": ("-", 1.0), "gap of uplift": ("mm", 1e3), "base shear": ("kN", 1e-3),
+    "storey shear": ("kN", 1e-3),
     "storey drift ratio": ("%", 1e2), "floor acceleration in plan": ("m/s2", 1.0),
 }  # fmt: skip
 LEVEL_COLUMNS = {"displacement": 1e3, "slip": 1e3, "seconds": 1.0}

@@ -1,0 +1,340 @@
+"""The tests by which a manufacturer proves the properties that a design counts on, by code."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames._errors import CheckError
+from frames.checks.bounds import ENDS, bounded
+from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED
+from frames.checks.pendulum import FrictionPendulum
+from lir_element import LIRBearing
+from lir_element.door import require_non_negative, require_positive
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import pandas as pd
+
+    from frames.checks.bounds import BoundName, PropertyBounds
+    from frames.checks.isolation import IsolationSystem
+    from frames.checks.outcome import BoundResult, EquivalentLinear
+
+PROPOSAL = "no code: a proposal"
+"""Clause of tests that no code has."""
+
+_LEAST_SLIP = 0.25  # of the slip that holds: tested though runs slip less
+_STEPS = (0.25, 0.50, 0.67, 1.00)
+_TESTS = {"ASCE 7-22": "ASCE 7-22 17.8.2.2", "EN 1998": "EN 15129 8.3.4", "NCh2745": "NCh2745 14"}
+
+
+class PlannedTest(NamedTuple):
+    """A test of the programme; NaN where a number is not given or has no meaning."""
+
+    name: str
+    displacement: float  # m
+    load: float  # N
+    cycles: float
+    speed: float  # m/s, the largest of a cycle
+    shows: str
+    clause: str
+    lateral: float = math.nan  # N, where the test goes to a force
+    alone: bool = False  # the interface between the sliders, without the concave surfaces
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProgrammeDemands:
+    """What a programme of tests asks for besides the equivalent-linear analysis.
+
+    Parameters
+    ----------
+    loads : (float, float), optional
+        Least and largest axial force of a bearing with the earthquake [N]: of time histories or
+        load combinations. None: the least and the largest of the system's combinations.
+    wind : float, optional
+        Lateral force of the design wind on one bearing [N].
+    service : float, optional
+        Displacement without an earthquake, of temperature for instance [m].
+    slip : float, optional
+        Largest interface slip of time histories [m]. None: what the design displacement with
+        torsion is beyond the rims. A quarter of the slip that holds is tested at least.
+    impact_speed : float, optional
+        Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
+        displacement with torsion; its largest, where that does not reach a rim.
+    slow_speed : float
+        Peak speed of tests that are not dynamic [m/s]; EN 15129 has 50 mm/s.
+
+    Raises
+    ------
+    CheckError
+        If a number is out of bounds.
+    """
+
+    loads: tuple[float, float] | None = None
+    wind: float | None = None
+    service: float | None = None
+    slip: float | None = None
+    impact_speed: float | None = None
+    slow_speed: float = 0.05
+
+    def __post_init__(self) -> None:
+        for name, unit in (("wind", "N"), ("service", "m"), ("impact_speed", "m/s")):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name), unit, error=CheckError)
+        if self.slip is not None:
+            require_non_negative("slip", self.slip, "m", error=CheckError)
+        require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
+        if self.loads is not None:
+            least, most = (require_positive("axial load", n, "N", error=CheckError)
+                           for n in self.loads)  # fmt: skip
+            if least > most:
+                msg = f"loads = {self.loads}: give the least first, then the largest [N]"
+                raise CheckError(msg)
+
+
+@dataclass(frozen=True)
+class _Design:
+    # What the tests of one kind of bearing are made of.
+    result: BoundResult  # at the bound of the largest displacement
+    bearing: LIRBearing | FrictionPendulum
+    average: float  # N
+    least: float  # N
+    largest: float  # N
+    demands: ProgrammeDemands
+
+    def speed_at(self, displacement: float) -> float:
+        """Peak speed of harmonic motion with the effective period."""
+        return 2.0 * math.pi * displacement / self.result.period
+
+
+def programme_of_tests(
+    equivalent: EquivalentLinear,
+    system: IsolationSystem,
+    demands: ProgrammeDemands | None = None,
+    *,
+    bounds: PropertyBounds | None = None,
+) -> pd.DataFrame:
+    """Return the tests of a design's bearings: what is imposed, and the forces to expect.
+
+    Parameters
+    ----------
+    equivalent : EquivalentLinear
+        Analysis by ASCE 7-22, EN 1998 or NCh2745: its code decides, and its displacement, period
+        and damping factor at the bound of the largest displacement count.
+    system : IsolationSystem
+        The bearings with nominal friction, their average loads and combinations. Equal bearings
+        are one kind, which is tested at the mean of its average loads.
+    demands : ProgrammeDemands, optional
+        Loads with the earthquake, wind, slip, speeds.
+    bounds : PropertyBounds, optional
+        Factors of friction; the forces expected are nominal if None.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
+        fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
+        largest lateral force to expect with friction of high speed at its bounds [N], what the
+        test shows, clause and its standing. NaN: not given, or without meaning. Of an LIR-DCFP
+        there are tests besides that no code has: the interface alone, and impacts.
+
+    Raises
+    ------
+    CheckError
+        If the analysis is not of one of the three codes, or least and largest load are not above
+        zero.
+    """
+    import pandas as pd
+
+    asked = ProgrammeDemands() if demands is None else demands
+    if equivalent.code not in _TESTS:
+        msg = f"code of the analysis {equivalent.code!r}: there are tests of {', '.join(_TESTS)}"
+        raise CheckError(msg)
+    result = max(equivalent.bounds.values(), key=lambda each: each.total_displacement)
+    rows = []
+    for title, bearing, places in _kinds(system):
+        design = _Design(result, bearing, *_loads(system, places, asked), asked)
+        own = _TESTS_OF[equivalent.code](design)
+        rows += [_row(title, test, design, bounds) for test in (*own, *_of_interface(design))]
+    return pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
+
+
+def _kinds(
+    system: IsolationSystem,
+) -> list[tuple[str, LIRBearing | FrictionPendulum, list[int]]]:
+    # Equal bearings: title, the bearing, where they are.
+    found: list[tuple[LIRBearing | FrictionPendulum, list[int]]] = []
+    for k, bearing in enumerate(system.bearings):
+        for known, places in found:
+            if known == bearing:
+                places.append(k)
+                break
+        else:
+            found.append((bearing, [k]))
+    return [
+        (f"kind {n}, {len(places)} of {len(system.bearings)}", bearing, places)
+        for n, (bearing, places) in enumerate(found, start=1)
+    ]
+
+
+def _loads(
+    system: IsolationSystem, places: list[int], asked: ProgrammeDemands
+) -> tuple[float, float, float]:
+    # Average, least and largest load of a kind.
+    average = sum(system.loads[k] for k in places) / len(places)
+    if asked.loads is not None:
+        return average, *asked.loads
+    groups = (system.loads, *system.combinations.values())
+    every = [loads[k] for loads in groups for k in places]
+    remedy = "give the loads with the earthquake, ProgrammeDemands(loads=(least, largest))"
+    least = require_positive(
+        "least axial load of the combinations", min(every), "N", remedy=remedy, error=CheckError
+    )
+    return average, least, max(every)
+
+
+def _asce7(d: _Design) -> Iterable[PlannedTest]:
+    clause, t = _TESTS["ASCE 7-22"], d.result.trace
+    moved, total, slow = d.result.displacement, d.result.total_displacement, d.demands.slow_speed
+    yield PlannedTest("production, each bearing", 0.67 * moved, d.average, 3.0, slow,
+                      "each bearing is as the prototypes", "ASCE 7-22 17.8.5")  # fmt: skip
+    wind = math.nan if d.demands.wind is None else d.demands.wind
+    yield PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind",
+                      f"{clause} (1)", wind)  # fmt: skip
+    named = (("average", d.average), ("largest", d.largest), ("least", d.least))
+    for words, load in named:
+        for share in _STEPS:
+            at = share * moved
+            yield PlannedTest(
+                f"increments, {words} load, {share:g} D_M", at, load, 3.0, d.speed_at(at),
+                "stiffness and energy at each displacement", f"{clause} (2)",
+            )  # fmt: skip
+    yield PlannedTest("maximum displacement, D_M", moved, d.average, 3.0, d.speed_at(moved),
+                      "stable at D_M", f"{clause} (3)")  # fmt: skip
+    count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
+    yield PlannedTest(
+        "many cycles, 0.75 D_M", 0.75 * moved, d.average, float(math.ceil(count - 1e-9)),
+        d.speed_at(0.75 * moved), "heat and wear over an earthquake", f"{clause} (4)",
+    )  # fmt: skip
+    for words, load in named[1:]:
+        yield PlannedTest(f"static, {words} load, D_TM", total, load, 1.0, slow,
+                          "carries its load at D_TM", "ASCE 7-22 17.8.2.5")  # fmt: skip
+
+
+def _en15129(d: _Design) -> Iterable[PlannedTest]:
+    clause, total, slow = _TESTS["EN 1998"], d.result.total_displacement, d.demands.slow_speed
+    fast = d.speed_at(total)
+    service = math.nan if d.demands.service is None else d.demands.service
+    for name, share, load, cycles, speed, shows in (
+        ("S, service", service / total, d.average, 20.0, 0.1 * slow, "moves with temperature"),
+        ("P1, benchmark", 1.0, d.average, 3.0, slow, "what later tests are compared with"),
+        ("D1, dynamic", 0.25, d.average, 3.0, fast, "friction and stiffness"),
+        ("D2, dynamic", 0.50, d.average, 3.0, fast, "friction and stiffness"),
+        ("D3, dynamic", 1.00, d.average, 3.0, fast, "friction and stiffness"),
+        ("P2, integrity of the liner", 1.0, d.average, 3.0, slow, "as P1 after the dynamic tests"),
+        ("D4, seismic, largest load", 1.0, d.largest, 3.0, fast, "friction and stability"),
+        ("D5, seismic, least load", 1.0, d.least, 3.0, fast, "friction and stability"),
+        ("B, both directions", 1.0, d.average, 3.0, fast, "clover-leaf path: friction in plan"),
+    ):
+        yield PlannedTest(name, share * total, load, cycles, speed, shows, clause)
+
+
+def _nch2745(d: _Design) -> Iterable[PlannedTest]:
+    clause, t = _TESTS["NCh2745"], d.result.trace
+    design, most, total = t.value("D_D"), t.value("D_M"), t.value("D_TM")
+    wind = math.nan if d.demands.wind is None else d.demands.wind
+    yield PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause,
+                      wind)  # fmt: skip
+    named = (("average", d.average), ("largest", d.largest), ("least", d.least))
+    steps = (("0.2 D_D", 0.2 * design), ("0.5 D_D", 0.5 * design), ("D_D", design), ("D_M", most))
+    for words, load in named:
+        for name, at in steps:
+            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, d.speed_at(at),
+                              "stiffness and energy at each displacement", clause)  # fmt: skip
+    yield PlannedTest("maximum displacement, D_TM", total, d.average, 3.0, d.speed_at(total),
+                      "stable at D_TM", clause)  # fmt: skip
+    at = t.value("D_TD")
+    yield PlannedTest("many cycles, D_TD", at, d.average, 10.0, d.speed_at(at),
+                      "heat and wear over an earthquake", clause)  # fmt: skip
+    for words, load in named[1:]:
+        yield PlannedTest(f"static, {words} load, D_TM", total, load, 1.0, d.demands.slow_speed,
+                          "carries its load at D_TM", clause)  # fmt: skip
+
+
+_TESTS_OF: dict[str, Callable[[_Design], Iterable[PlannedTest]]] = {
+    "ASCE 7-22": _asce7,
+    "EN 1998": _en15129,
+    "NCh2745": _nch2745,
+}
+
+
+def _of_interface(d: _Design) -> Iterable[PlannedTest]:
+    # Of an LIR-DCFP: its interface alone, and impacts.
+    bearing = d.bearing
+    if not isinstance(bearing, LIRBearing) or bearing.is_dcfp:
+        return
+    rim, total = bearing.lateral_capacity, d.result.total_displacement
+    if not math.isfinite(rim):
+        return
+    holds = min(bearing.resolved()["slip_capacity"], max(bearing.slip_stability, 0.0))
+    slip = max(total - rim, 0.0) if d.demands.slip is None else d.demands.slip
+    slip = max(slip, _LEAST_SLIP * holds)
+    speed = d.demands.impact_speed
+    if speed is None:  # harmonic: at the rim, of the amplitude
+        speed = d.speed_at(math.sqrt(total**2 - rim**2) if total > rim else total)
+    slow = d.demands.slow_speed
+    for words, load in (("largest", d.largest), ("least", d.least)):
+        for pace, at in (("slow", slow), ("at the speed of impact", speed)):
+            yield PlannedTest(
+                f"interface alone, {words} load, {pace}", slip, load, 3.0, at,
+                "friction of the interface: what holds it, and limits the impact", PROPOSAL,
+                alone=True,
+            )  # fmt: skip
+    for words, load in (("average", d.average), ("largest", d.largest)):
+        yield PlannedTest(
+            f"impact and return, {words} load", rim + slip, load, 3.0, speed,
+            "rims met, interface slips and comes back; slip left, liner and rims looked at",
+            PROPOSAL,
+        )  # fmt: skip
+    moved = min(d.result.displacement, 0.9 * rim)
+    yield PlannedTest("after the impacts", moved, d.average, 3.0, slow,
+                      "the interface holds again: loop as before", PROPOSAL)  # fmt: skip
+
+
+def _row(
+    kind: str, test: PlannedTest, design: _Design, bounds: PropertyBounds | None
+) -> dict[str, object]:
+    least, most = (_force(test, _at(design.bearing, end, bounds)) for end in ENDS)
+    period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
+    return {
+        "bearings": kind, "what": test.name, "displacement [m]": test.displacement,
+        "vertical load [N]": test.load, "cycles": test.cycles, "period [s]": period,
+        "peak speed [m/s]": test.speed, "least force [N]": least, "largest force [N]": most,
+        "shows": test.shows, "clause": test.clause,
+        "standing": CONFIRMED if test.clause == PROPOSAL else TO_BE_CONFIRMED,
+    }  # fmt: skip
+
+
+def _at(
+    bearing: LIRBearing | FrictionPendulum, bound: BoundName, bounds: PropertyBounds | None
+) -> LIRBearing | FrictionPendulum:
+    if bounds is None:
+        return bearing
+    if isinstance(bearing, LIRBearing):
+        return bounded(bearing, bound, bounds)
+    return bounded(bearing, bound, bounds)
+
+
+def _force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> float:
+    # Lateral force at the displacement, as design formulas have it.
+    if math.isfinite(test.lateral) or math.isnan(test.displacement):
+        return test.lateral
+    own = FrictionPendulum.of(bearing)
+    if test.alone and isinstance(bearing, LIRBearing):
+        return bearing.interface_friction * test.load
+    if own.corner <= test.displacement <= own.capacity:
+        return own.force(test.displacement, test.load)
+    limit = bearing.force_limit(test.load) if isinstance(bearing, LIRBearing) else math.inf
+    return limit if math.isfinite(limit) else math.nan
