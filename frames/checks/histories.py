@@ -193,11 +193,11 @@ def history_demands(
             columns = values.reshape(len(values), -1).T
             each = [suite.value(column) for column in columns]
             k = int(np.argmax(each))
-            row[bound or "value"] = sign * each[k]
+            row[bound or "value"] = sign * each[k] + 0.0  # no -0
             if each[k] > worst:
                 worst, where = each[k], names_of(data, name)[k] if suite.is_usable else ""
         if len(row) > 2:
-            rows.append(row | {"envelope": sign * worst, "where": where})
+            rows.append(row | {"envelope": sign * worst + 0.0, "where": where})
     return pd.DataFrame(rows).set_index("quantity")
 
 

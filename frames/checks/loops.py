@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -29,7 +29,7 @@ class LoopTest:
     Parameters
     ----------
     name : str
-        Which of the programme; tests of one name are judged together.
+        Which test of the programme; tests of one name are judged together.
     displacement : array_like, (n,)
         Lateral displacement about the centre [m]; of the interface alone its slip.
     force : array_like, (n,)
@@ -49,9 +49,9 @@ class LoopTest:
     """
 
     name: str
-    displacement: npt.ArrayLike
-    force: npt.ArrayLike
-    load: npt.ArrayLike
+    displacement: npt.ArrayLike = field(repr=False)
+    force: npt.ArrayLike = field(repr=False)
+    load: npt.ArrayLike = field(repr=False)
     specimen: str = ""
     kind: Literal["bearing", "interface"] = "bearing"
 

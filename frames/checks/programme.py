@@ -286,7 +286,7 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
         speed = d.speed_at(math.sqrt(total**2 - rim**2) if total > rim else total)
     slow = d.demands.slow_speed
     for words, load in (("largest", d.largest), ("least", d.least)):
-        for pace, at in (("slow", slow), ("at the speed of impact", speed)):
+        for pace, at in (("slow", slow), ("fast", speed)):
             yield PlannedTest(
                 f"interface alone, {words} load, {pace}", slip, load, 3.0, at,
                 "friction of the interface: what holds it, and limits the impact", PROPOSAL,

@@ -26,6 +26,7 @@ _REACHED = {
 """What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
 
 _COUNT = 6
+_ROUND_OFF = 1e-6  # of the largest force, or moment: histories are kept in single precision
 _COMPONENTS = {"N": "N", "Vy": "N", "Vz": "N", "T": "N m", "My": "N m", "Mz": "N m"}
 
 
@@ -128,7 +129,8 @@ def member_table(run: ProjectRun) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a group and component, in local axes: number of members, unit, smallest and largest
-        value, each with its member. Empty for a structure without members.
+        value, each with its member. Empty for a structure without members. What is below a
+        millionth of the largest of its unit is left out: round-off.
     """
     frame = run.frame
     if not frame.members:
@@ -158,7 +160,9 @@ def member_table(run: ProjectRun) -> pd.DataFrame:
                 "largest": float(high.max()),
                 "member of largest": names[members[int(high.argmax())]],
             })  # fmt: skip
-    return pd.DataFrame(rows).set_index("group")
+    table = pd.DataFrame(rows).set_index("group")
+    size = table[["smallest", "largest"]].abs().max(axis=1)
+    return table[size > _ROUND_OFF * size.groupby(table["unit"]).transform("max")]
 
 
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import jinja2
 import numpy as np
+import pandas as pd
 from markupsafe import Markup
+from pandas.api.types import is_string_dtype
 
 from frames.checks.check import CONFIRMED
 from frames.checks.rendering import quantity
@@ -19,17 +21,16 @@ from lir_element.results.dataset import package_version
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    import pandas as pd
-
     from frames.checks.check import Check
     from frames.project.design_run import ProjectRun
 
 
 class Table(NamedTuple):
-    """A table of the report: cells as text, the first column to the left."""
+    """A table of the report: cells as text, the first column and those named to the left."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
+    left: frozenset[int] = frozenset()
 
 
 class Judged(NamedTuple):
@@ -100,13 +101,17 @@ def _judged(check: Check) -> Judged:
 
 
 def _table(frame: pd.DataFrame, index: str) -> Table:
-    return Table((index, *map(str, frame.columns)), rows_of(frame, _word))
+    words = [k for k, kind in enumerate(frame.dtypes, start=1) if is_string_dtype(kind)]
+    return Table((index, *map(str, frame.columns)), rows_of(frame, _word), frozenset(words))
 
 
 def _programme(tests: pd.DataFrame) -> Table:
     # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
     starred = tests["clause"].where(tests["standing"] == CONFIRMED, tests["clause"] + " *")
-    shown = tests.assign(clause=starred).drop(columns="standing")
+    named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
+    shown = (
+        tests.assign(clause=starred).drop(columns=["standing", "what", "shows"]).set_index(named)
+    )
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
     return _table(in_mm_and_kn(shown), "test")

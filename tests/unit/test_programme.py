@@ -1,0 +1,345 @@
+"""Programmes of tests by hand, and measured loops judged against a design."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from frames import (
+    ASCE7,
+    EN1998,
+    AcceptanceLimits,
+    CheckError,
+    Checks,
+    FrictionPendulum,
+    IsolationSystem,
+    LoopTest,
+    NCh2745,
+    ProgrammeDemands,
+    PropertyBounds,
+    PropertyFactors,
+    Spectrum,
+    acceptance_checks,
+    equivalent_linear,
+    loop_properties,
+    programme_of_tests,
+)
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
+
+BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.25), PropertyFactors(0.9, 1.2))
+LOADS = 300e3, 900e3
+L, MU, MU_H, U_CAP = 2.25, 0.06 * 2.37 / 2.25, 0.20, 0.25
+
+
+def bearing(**changed: Any) -> LIRBearing:
+    given: dict[str, Any] = {
+        "radius": 1.185, "slider_height": 0.12, "slider_radius": 0.15, "capacity": U_CAP,
+        "friction": CoulombFriction(0.06), "interface_friction": MU_H,
+    }  # fmt: skip
+    return LIRBearing(**given | changed)
+
+
+def system(*bearings: LIRBearing | FrictionPendulum) -> IsolationSystem:
+    return IsolationSystem(
+        bearings=bearings or (bearing(),) * 4, loads=(450e3, 500e3, 550e3, 600e3),
+        positions=((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)), plan=(12.0, 12.0),
+        combinations={
+            "maximum": (700e3, 750e3, 800e3, 880e3), "minimum": (320e3, 330e3, 340e3, 350e3),
+        },
+    )  # fmt: skip
+
+
+def programme(code: Any, spectrum: Spectrum, **demands: Any) -> tuple[Any, pd.DataFrame]:
+    own = system()
+    found = equivalent_linear(own, spectrum, code=code, bounds=BOUNDS)
+    return found, programme_of_tests(found, own, ProgrammeDemands(**demands), bounds=BOUNDS)
+
+
+def asce7(**demands: Any) -> tuple[Any, pd.DataFrame]:
+    return programme(ASCE7(), Spectrum.asce7(s_ms=0.9, s_m1=0.6), **demands)
+
+
+def test_prototype_tests_of_asce7_by_hand() -> None:
+    found, table = asce7(wind=20e3)
+    lower = found["lower"]
+    moved, period = lower.displacement, lower.period
+    assert list(table.index) == list(range(1, len(table) + 1))
+    kind = set(table["bearings"])
+    assert kind == {"kind 1, 4 of 4"}
+    wind = table[table["what"] == "wind"].iloc[0]
+    assert (wind["cycles"], wind["largest force [N]"]) == (20.0, 20e3)
+    steps = table[table["clause"] == "ASCE 7-22 17.8.2.2 (2)"]
+    shares = [0.25, 0.5, 0.67, 1.0]
+    assert steps["displacement [m]"].to_numpy() == pytest.approx(np.tile(shares, 3) * moved)
+    assert steps["vertical load [N]"].to_numpy() == pytest.approx(
+        np.repeat([525e3, 880e3, 320e3], 4)
+    )
+    assert (steps["cycles"] == 3.0).all()
+    assert steps["period [s]"].to_numpy() == pytest.approx(period)
+    one = steps.iloc[1]
+    assert one["peak speed [m/s]"] == pytest.approx(math.pi * moved / period)
+    for name, factor in (("least", 0.8), ("largest", 1.25)):
+        force = 525e3 * (0.5 * moved / L + factor * MU)
+        assert one[f"{name} force [N]"] == pytest.approx(force)
+    many = table[table["clause"] == "ASCE 7-22 17.8.2.2 (4)"].iloc[0]
+    assert many["cycles"] == math.ceil(30.0 * 0.6 / (0.9 * lower.damping_factor))
+    assert many["displacement [m]"] == pytest.approx(0.75 * moved)
+    static = table[table["clause"] == "ASCE 7-22 17.8.2.5"]
+    assert static["displacement [m]"].to_numpy() == pytest.approx(lower.total_displacement)
+    assert list(static["vertical load [N]"]) == [880e3, 320e3]
+    production = table[table["clause"] == "ASCE 7-22 17.8.5"].iloc[0]
+    assert production["displacement [m]"] == pytest.approx(0.67 * moved)
+    assert (table["standing"][table["clause"].str.startswith("ASCE")] != "").all()
+
+
+def test_few_cycles_are_ten() -> None:
+    _, table = programme(ASCE7(), Spectrum.asce7(s_ms=1.5, s_m1=0.6))
+    many = table[table["what"] == "many cycles, 0.75 D_M"].iloc[0]
+    assert many["cycles"] == 10.0
+
+
+def test_the_interface_and_impacts_of_an_lir() -> None:
+    found, table = asce7(loads=LOADS)
+    total, period = found["lower"].total_displacement, found["lower"].period
+    assert total > U_CAP
+    own = table[table["clause"] == "no code: a proposal"]
+    alone = own[own["what"].str.startswith("interface")]
+    slip = max(total - U_CAP, 0.25 * 0.15)
+    assert alone["displacement [m]"].to_numpy() == pytest.approx(slip)
+    assert list(alone["vertical load [N]"]) == [900e3, 900e3, 300e3, 300e3]
+    assert alone["least force [N]"].iloc[0] == pytest.approx(0.9 * MU_H * 900e3)
+    assert alone["largest force [N]"].iloc[-1] == pytest.approx(1.2 * MU_H * 300e3)
+    speed = 2.0 * math.pi / period * math.sqrt(total**2 - U_CAP**2)
+    impact = own[own["what"] == "impact and return, largest load"].iloc[0]
+    assert impact["displacement [m]"] == pytest.approx(U_CAP + slip)
+    assert impact["peak speed [m/s]"] == pytest.approx(speed)
+    tilt = math.asin(U_CAP / L)
+    assert impact["largest force [N]"] == pytest.approx(
+        900e3 * math.tan(tilt + math.atan(1.2 * MU_H))
+    )
+    assert own["what"].iloc[-1] == "after the impacts"
+    _, told = asce7(loads=LOADS, slip=0.09, impact_speed=0.7)
+    last = told[told["what"] == "impact and return, average load"].iloc[0]
+    assert last["displacement [m]"] == pytest.approx(U_CAP + 0.09)
+    assert last["peak speed [m/s]"] == pytest.approx(0.7)
+
+
+def test_sliders_in_one_piece_have_no_interface_to_test() -> None:
+    kinds = system(bearing().as_dcfp(), *(FrictionPendulum((L,), (0.06,)),) * 3)
+    found = equivalent_linear(kinds, Spectrum.asce7(s_ms=0.9, s_m1=0.6), bounds=BOUNDS)
+    table = programme_of_tests(found, kinds)
+    assert list(dict.fromkeys(table["bearings"])) == ["kind 1, 1 of 4", "kind 2, 3 of 4"]
+    assert not table["clause"].str.contains("proposal").any()
+    beyond = table[table["displacement [m]"] > U_CAP]
+    stopped = beyond["bearings"] == "kind 1, 1 of 4"  # at its rims: no formula
+    assert beyond["largest force [N]"][stopped].isna().all()
+    assert stopped.any()
+    assert beyond["largest force [N]"][~stopped].notna().all()
+
+
+def test_type_tests_of_en15129_by_hand() -> None:
+    found, table = programme(EN1998(), Spectrum.en1998(3.0, "C"), loads=LOADS, service=0.01)
+    result = max(found.bounds.values(), key=lambda each: each.total_displacement)
+    most, speed = result.total_displacement, 2.0 * math.pi / result.period
+    own = table[table["clause"] == "EN 15129 8.3.4"].set_index("what")
+    assert [name.split(",")[0] for name in own.index] == [
+        "S", "P1", "D1", "D2", "D3", "P2", "D4", "D5", "B",
+    ]  # fmt: skip
+    assert own["displacement [m]"].to_numpy() == pytest.approx(
+        [0.01, *(np.array([1.0, 0.25, 0.5, 1.0, 1.0, 1.0, 1.0, 1.0]) * most)]
+    )
+    dynamic = own.filter(regex="^D", axis=0)
+    assert dynamic["peak speed [m/s]"].to_numpy() == pytest.approx(speed * most)
+    assert own.loc["P1, benchmark", "peak speed [m/s]"] == 0.05
+    assert list(own["vertical load [N]"])[-3:-1] == [900e3, 300e3]
+
+
+def test_tests_of_nch2745_by_hand() -> None:
+    found, table = programme(NCh2745(), Spectrum.nch2745("III", 3))
+    t = max(found.bounds.values(), key=lambda each: each.total_displacement).trace
+    own = table[table["clause"] == "NCh2745 14"]
+    at = own.set_index("what")["displacement [m]"]
+    assert at["increments, average load, 0.2 D_D"] == pytest.approx(0.2 * t.value("D_D"))
+    assert at["increments, least load, D_M"] == pytest.approx(t.value("D_M"))
+    assert at["many cycles, D_TD"] == pytest.approx(t.value("D_TD"))
+    assert at["static, least load, D_TM"] == pytest.approx(t.value("D_TM"))
+
+
+def test_programmes_that_cannot_be_are_refused() -> None:
+    own = system()
+    found = equivalent_linear(own, Spectrum.asce7(s_ms=0.9, s_m1=0.6), bounds=BOUNDS)
+    lifted = IsolationSystem(
+        bearings=own.bearings, loads=own.loads, positions=own.positions, plan=own.plan,
+        combinations={"minimum": (-5e3, 1e5, 1e5, 1e5)},
+    )  # fmt: skip
+    with pytest.raises(CheckError, match=r"least axial load.*loads=\(least, largest\)"):
+        programme_of_tests(found, lifted)
+    with pytest.raises(CheckError, match="least first"):
+        ProgrammeDemands(loads=(2e5, 1e5))
+    with pytest.raises(CheckError, match="impact_speed"):
+        ProgrammeDemands(impact_speed=-1.0)
+
+
+# Measured loops ---------------------------------------------------------------------------------
+
+
+def loop(
+    amplitude: float = 0.2,
+    cycles: int = 3,
+    *,
+    friction: float = MU,
+    radius: float = L,
+    load: float = 500e3,
+    fade: float = 0.0,
+    noise: float = 0.0,
+    start: float = 1.0,
+) -> LoopTest:
+    """Return N d / L + mu N sign(v), the friction falling by `fade` each cycle."""
+    phase = 2.0 * math.pi * np.linspace(0.0, cycles, 800 * cycles + 1)
+    moved = start * amplitude * np.sin(phase)
+    now = friction * (1.0 - fade) ** np.floor(phase / (2.0 * math.pi))
+    force = load * (moved / radius + now * np.sign(start * np.cos(phase)))
+    random = np.random.default_rng(5)
+    return LoopTest(
+        name=f"{1e3 * amplitude:g} mm", displacement=moved,
+        force=force + noise * random.normal(size=len(force)), load=load,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("start", [1.0, -1.0])
+def test_a_bilinear_loop_by_hand(start: float) -> None:
+    table = loop_properties(loop(start=start))
+    n, d = 500e3, 0.2
+    force = n * (d / L + MU)
+    assert len(table) == 3
+    assert table["force + [N]"].to_numpy() == pytest.approx(force, rel=1e-9)
+    assert table["force - [N]"].to_numpy() == pytest.approx(-force, rel=1e-9)
+    assert table["k_eff [N/m]"].to_numpy() == pytest.approx(force / d, rel=1e-9)
+    assert table["k_d [N/m]"].to_numpy() == pytest.approx(n / L, rel=1e-9)
+    assert table["E_loop [J]"].to_numpy() == pytest.approx(4.0 * MU * n * d, rel=1e-4)
+    assert table["friction [-]"].to_numpy() == pytest.approx(MU, rel=1e-4)
+    damping = 2.0 / math.pi * MU / (d / L + MU)
+    assert table["beta_eff [-]"].to_numpy() == pytest.approx(damping, rel=1e-4)
+
+
+def test_noise_does_not_decide() -> None:
+    """Two per cent of the force: sample by sample it has slopes of any sign."""
+    quiet, noisy = loop_properties(loop()), loop_properties(loop(noise=1500.0))
+    for column in ("k_d [N/m]", "E_loop [J]", "k_eff [N/m]"):
+        assert noisy[column].to_numpy() == pytest.approx(quiet[column].to_numpy(), rel=0.03)
+    assert judged(loop(noise=1500.0)).passed
+
+
+def test_a_cycle_that_does_not_come_back_is_none() -> None:
+    full = loop()
+    cut = slice(0, 1700)  # two cycles and an eighth
+    part = LoopTest(
+        name="cut", displacement=full.displacement[cut], force=full.force[cut], load=500e3
+    )
+    assert len(part.cycles) == 2
+
+
+def judged(*tests: LoopTest, of: LIRBearing | None = None, **options: Any) -> Checks:
+    return acceptance_checks(tests, of or bearing(), "ASCE 7-22", bounds=BOUNDS, **options)
+
+
+def failing(checks: Checks) -> set[str]:
+    return {check.title for check in checks.failed}
+
+
+def test_the_loops_of_the_design_itself_pass() -> None:
+    phase = 2.0 * math.pi * np.linspace(0.0, 3.0, 1501)
+    tests = []
+    for amplitude in (0.1, 0.2, 0.28):  # the last meets the rims
+        path = amplitude * np.sin(phase)
+        data = cyclic_test(bearing(), path, axial_load=500e3, velocity=0.3)
+        force = data["bearing_force"].sel(axis="x").isel(bearing=0)
+        tests.append(LoopTest(name=f"{amplitude}", displacement=path, force=force, load=500e3))
+    found = judged(*tests)
+    assert found.passed
+    within = [check for check in found if check.title == "friction by the energy"]
+    assert {check.subject for check in within} == {"0.1", "0.2"}
+    assert within[0].demand == pytest.approx(MU, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("changed", "title"),
+    [
+        ({"friction": 0.75 * MU}, "friction by the energy"),
+        ({"friction": 1.3 * MU}, "friction by the energy"),
+        ({"radius": 0.8 * L}, "second stiffness over N / L"),
+        ({"radius": 1.2 * L}, "second stiffness over N / L"),
+        ({"radius": -20.0 * L}, "slope of loading"),
+        ({"fade": 0.15}, "energy of a cycle, off the set's mean"),
+        ({"fade": 0.3}, "effective damping: drop over the cycles"),
+    ],
+)
+def test_each_check_fails_by_what_it_is_for(changed: dict[str, float], title: str) -> None:
+    assert title not in failing(judged(loop()))
+    assert title in failing(judged(loop(**changed)))
+
+
+def test_drop_and_spread_by_hand() -> None:
+    found = {check.title: check for check in judged(loop(fade=0.1))}
+    energy = 0.9 ** np.arange(3)
+    spread = abs(energy / energy.mean() - 1.0).max()
+    assert found["energy of a cycle, off the set's mean"].demand == pytest.approx(spread, rel=1e-2)
+    force = 0.2 / L + MU * energy
+    stiffness = found["effective stiffness: drop over the cycles"].demand
+    assert stiffness == pytest.approx(1.0 - force[-1] / force[0], rel=1e-3)
+
+
+def test_specimens_of_one_set_are_judged_together() -> None:
+    """Two bearings 20 % apart: each is steady, the set is not."""
+    one, two = loop(friction=0.85 * MU), loop(friction=1.25 * MU)
+    assert judged(one).passed
+    both = judged(one, two)
+    assert failing(both) == {"energy of a cycle, off the set's mean"}
+
+
+def interface(friction: float) -> LoopTest:
+    phase = 2.0 * math.pi * np.linspace(0.0, 3.0, 2401)
+    return LoopTest(
+        name="alone", displacement=0.05 * np.sin(phase), load=300e3, kind="interface",
+        force=300e3 * friction * np.sign(np.cos(phase)),
+    )  # fmt: skip
+
+
+def test_the_interface_alone_goes_by_its_own_bounds() -> None:
+    assert judged(interface(1.15 * MU_H)).passed
+    assert failing(judged(interface(1.25 * MU_H))) == {"friction of the interface"}
+    assert failing(judged(interface(0.85 * MU_H))) == {"friction of the interface"}
+    assert all(check.clause == "no code: a proposal" for check in judged(interface(MU_H)))
+    with pytest.raises(CheckError, match="has none"):
+        judged(interface(MU_H), of=bearing().as_dcfp())
+
+
+def test_limits_are_the_engineers() -> None:
+    tight = judged(loop(fade=0.03), limits=AcceptanceLimits(spread=0.02, drop=0.01))
+    assert {"energy of a cycle, off the set's mean"} <= failing(tight)
+    assert judged(loop(fade=0.03)).passed
+    with pytest.raises(CheckError, match="around 1"):
+        AcceptanceLimits(stiffness=(1.1, 1.2))
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"force": np.zeros(3)}, r"displacement \(5,\) and force \(3,\)"),
+        ({"force": [0.0, 1.0, math.nan, 0.0, 0.0]}, "force is nan at sample 2"),
+        ({"load": -5e3}, "compression as positive"),
+        ({"load": np.ones(4)}, r"load \(4,\)"),
+        ({}, "samples in a part of a half cycle"),
+        ({"displacement": [0.0, 1.0, 2.0, 1.0, 0.5]}, "no full cycle about zero"),
+        ({"kind": "slider"}, "kind = 'slider'"),
+    ],
+)
+def test_loops_that_cannot_be_judged_are_refused(changed: dict[str, Any], message: str) -> None:
+    given: dict[str, Any] = {
+        "name": "short", "displacement": [0.0, 1.0, 0.0, -1.0, 0.0], "force": np.ones(5),
+        "load": 1e5,
+    }  # fmt: skip
+    with pytest.raises(CheckError, match=message):
+        LoopTest(**given | changed)
