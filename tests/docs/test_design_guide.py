@@ -148,6 +148,7 @@ def test_histories_are_those_measured() -> None:
         "slip of the interface [mm]": ("interface slip", 1e3),
         "rim force [kN]": ("rim force", 1e-3),
         "base shear [kN]": ("base shear", 1e-3),
+        "storey shear above the isolation [kN]": ("storey shear", 1e-3),
         "storey drift [%]": ("storey drift ratio", 1e2),
         "floor acceleration [m/s2]": ("floor acceleration in plan", 1.0),
     }

@@ -95,11 +95,28 @@ def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
         )
 
 
+def test_the_programme_of_tests_is_there(results: Path, page: str) -> None:
+    table = pd.read_csv(results / "programme.csv", index_col=0)
+    demands = pd.read_csv(results / "demands.csv", index_col=0)
+    assert len(table) > 20
+    for number, row in table.iterrows():
+        shown = cells(page, f"{number} {row['what']}")
+        for text, name, factor in zip(
+            shown[1:3], ("displacement [m]", "vertical load [N]"), (1e3, 1e-3), strict=True
+        ):
+            if text != "-":
+                assert float(text) == pytest.approx(factor * row[name], rel=1e-3)
+    alone = table[table["what"].str.startswith("interface alone")]
+    slip = demands.loc["interface slip", "envelope"]
+    assert (alone["displacement [m]"] >= slip - 1e-12).all()
+
+
 def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> None:
     checks = pd.read_csv(results / "checks.csv")
     body = page[page.index('<h2 id="checks">') : page.index('<h2 id="input">')]
     assert body.count('<section class="steps">') == len(checks)
     table, calculations = body.split('<h2 id="calculations">')
+    table = table.split('<h2 id="test-programme">')[0]
     assert table.count(">FAILS<") == calculations.count(">FAILS<") == (~checks["passed"]).sum()
     assert calculations.count("<math") > 2 * len(checks)
     assert table.count(" *</td>") == checks["standing"].str.startswith("to be confirmed").sum()
