@@ -106,6 +106,8 @@ def run(
         except AnalysisInterrupted as stop:
             kept = write_interrupted(stop.data, results)
             err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
+            if (results / "run.json").is_file():
+                err.print("the other files there are of the run before", highlight=False)
             raise
         written = write_run(found, results, file.read_text(encoding="utf-8"))
         _told_of(found, written, results)

@@ -53,7 +53,7 @@ SCALING_RULES = {
     ),
     "EN 1998-2": ScalingRule("SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3"),
     # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
-    "NCh2745": ScalingRule("SRSS", 1.17, 0.0, 7, "NCh2745"),
+    "NCh2745": ScalingRule("SRSS", 1.17, 0.0, 7, "NCh2745 8.4"),
 }
 """Rules by code. Ranges of periods: ASCE 7-22 0.75 T_M of the upper bound to 1.25 T_M of the
 lower bound; EN 1998-1 0.2 T to 2 T; EN 1998-2 0.2 T to 1.5 T; NCh2745 0.5 T_D to 1.25 T_M."""

@@ -41,15 +41,18 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
         ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
-        outcome.
+        outcome. What an interrupted run left is removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    (folder / "run.json").unlink(missing_ok=True)  # written last: without it there is no run
     written = {bound: folder / f"runs-{bound}.nc" for bound in run.runs}
     for bound, path in written.items():
         save(run.runs[bound], path)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    return [*write_judgement(run, folder, source), *written.values(), governing]
+    kept = [*write_judgement(run, folder, source), *written.values(), governing]
+    (folder / "interrupted.nc").unlink(missing_ok=True)
+    return kept
 
 
 def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:

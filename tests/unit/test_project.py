@@ -13,9 +13,10 @@ pytest.importorskip("pint")
 pytest.importorskip("typer")
 
 import pandas as pd
+import xarray as xr
 from typer.testing import CliRunner
 
-from frames import AnalysisInterrupted, ProjectError, bounded, load, time_history
+from frames import AnalysisInterrupted, ProjectError, bounded, load, save, time_history
 from frames.command import app as command
 from frames.command.app import app
 from frames.project.groundwork import groundwork
@@ -23,6 +24,7 @@ from frames.project.parts import Parts
 from frames.project.quantities import si
 from frames.project.reading import read_project, schema
 from frames.project.speed import Way
+from frames.report import files
 
 SMALL = """
 [project]
@@ -286,6 +288,28 @@ def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch
     done = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
     assert done.exit_code == 130
     assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3
+    assert "are of the run before" in done.output
+    monkeypatch.undo()
+    again = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
+    assert again.exit_code in {0, 1}
+    assert not (folder / "out" / "interrupted.nc").exists()
+
+
+def test_a_run_that_was_not_written_whole_is_none(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(data: xr.Dataset, path: Path, *, compress: bool = False) -> None:
+        if path.name == "governing.nc":
+            raise OSError(28, "No space left on device")
+        save(data, path, compress=compress)
+
+    words = [str(folder / "small.toml"), "--results", str(folder / "out")]
+    run(app, ["run", *words])
+    monkeypatch.setattr(files, "save", full)
+    assert isinstance(run(app, ["run", *words]).exception, OSError)
+    done = run(app, ["report", *words])
+    assert done.exit_code == 2
+    assert "holds no run" in done.output
 
 
 @pytest.mark.parametrize(
