@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from frames._errors import CheckError
 from frames.checks.bearing_numbers import NO_CODE, enter_bearing
 from frames.checks.check import CONFIRMED, Bound, Check
@@ -117,7 +119,7 @@ class BearingDemands:
             if bearing.is_dcfp:
                 t.given("U_max", bearing.lateral_capacity, "m", shown="mm", note="a rim is met")
             else:
-                t = enter_bearing(bearing, None)
+                t = self._entered(k)
                 t("U_max", "U_cap + s_lim", "m", shown="mm")
             self.suite.enter(t, "D", values[:, k], "m", "mm")
             formula = "D"
@@ -142,7 +144,7 @@ class BearingDemands:
 
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
             def fill(k: int) -> Calculation:
-                t = enter_bearing(self._at(k), None)
+                t = self._entered(k)
                 self.suite.enter(t, symbol, values[:, k], "m", "mm")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
@@ -182,6 +184,15 @@ class BearingDemands:
         title = "pressure on the liner around its resultant"
         return found + self._pressure(title, limits.liner_pressure, self._on_liners)
 
+    def _entered(self, k: int) -> Trace:
+        # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.
+        bearing = self._at(k)
+        if bearing.pressure_dependence is None:
+            return enter_bearing(bearing, None)
+        least = float(-np.nanmax(reached(self.data, "axial_tension")[:, k]))
+        most = float(np.nanmax(reached(self.data, "axial_force")[:, k]))
+        return enter_bearing(bearing, None, (max(least, 0.0), most))
+
     def _pressure(
         self, title: str, limit: float | None, of: Callable[[Trace], None]
     ) -> list[Check]:
@@ -190,7 +201,7 @@ class BearingDemands:
         load, slip = reached(self.data, "axial_force"), reached(self.data, "slip")
 
         def fill(k: int) -> Calculation:
-            t = enter_bearing(self._at(k), None)
+            t = self._entered(k)
             t.given("p_lim", limit, "Pa", note="as given")
             self.suite.enter(t, "N", load[:, k], "N")
             self.suite.enter(t, "s", slip[:, k], "m", "mm")

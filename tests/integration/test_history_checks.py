@@ -35,7 +35,7 @@ from frames import (
     time_histories,
     time_history,
 )
-from lir_element import AnalysisWarning, LIRBearing, VelocityFriction
+from lir_element import AnalysisWarning, LIRBearing, PressureDependence, VelocityFriction
 
 BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
 SLIDING = (0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5)
@@ -242,6 +242,26 @@ def test_minima_raise_displacement_shear_and_drift(frame: Frame, seven: xr.Datas
     assert [c.demand for c in weak if c is not least_shear] == [c.demand for c in plain]
     with pytest.raises(CheckError, match="no minima"):
         history_checks(runs, frame, "NCh2745", equivalent=strong, **given)
+
+
+def test_the_slip_that_holds_goes_by_the_pressure_of_the_runs(bearing: LIRBearing) -> None:
+    """Friction rises as the pressure falls: the least axial force of all runs decides."""
+    law = PressureDependence(rate=8e-9, reference_pressure=8e6)
+    own = replace(bearing, pressure_dependence=law, interface_friction=0.2)
+    model = shear_building(own, [60e3, 60e3], 60e6, base_mass=60e3)
+    time = np.arange(0.0, 6.0, 0.01)
+    lifting = 4.0 * np.sin(2.0 * math.pi * time) * (time < 2.0)
+    wave = pulse(0.8).components[:, 0]
+    data = quietly(
+        time_histories, model, [GroundMotion(x=wave, z=k * lifting, dt=0.01, name=f"{k:g}")
+                                for k in np.linspace(0.4, 1.0, 7)],
+    )  # fmt: skip
+    least = -float(data["reached_axial_tension"].max())
+    assert 0.0 < least < 0.8 * 180e3 * 9.80665
+    check = one(history_checks(data, model, "ASCE 7-22"), "slip over the one that holds")
+    factor = math.exp(-8e-9 * (least / (math.pi * 0.15**2) - 8e6))
+    whole = own.effective_radius * 0.2 - factor * 0.065 * 2.0 * 1.185
+    assert check.limit == pytest.approx(whole, rel=1e-9)
 
 
 def test_runs_that_do_not_fit_are_refused(frame: Frame, seven: xr.Dataset) -> None:
