@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from frames.checks.trace import Trace
     from frames.hazard.spectrum import Spectrum
 
-_SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s")
+_SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,6 +155,7 @@ class EN1998:
         t.given("gamma_x", self.reliability)
         t.each("d_Ed", "gamma_x * d_bi", "m", source="EN 1998-1 10.3", shown="mm")
         t("d_bd", "max(d_bi)", "m", shown="mm")
+        t("d_max", "max(d_Ed)", "m", shown="mm", note="that bearings must allow")
 
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: Judge) -> Checks:
         t.given("a_k", self.stiffness_ratio)

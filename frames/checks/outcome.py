@@ -29,6 +29,8 @@ class Symbols(NamedTuple):
         Damping factor.
     base_shear, shear : str
         Shear of the isolation system, and design shear above it.
+    allowed : str
+        Displacement that bearings must allow, where that is more than the total one.
     """
 
     displacement: str
@@ -39,6 +41,7 @@ class Symbols(NamedTuple):
     factor: str
     base_shear: str
     shear: str
+    allowed: str = ""
 
 
 class Iteration(NamedTuple):
@@ -102,6 +105,11 @@ class BoundResult:
     def total_displacement(self) -> float:
         """Largest displacement of a bearing, torsion included [m]."""
         return self.trace.value(self.symbols.total)
+
+    @property
+    def allowed_displacement(self) -> float:
+        """Largest displacement that a bearing must allow, with the code's factor on it [m]."""
+        return self.trace.value(self.symbols.allowed or self.symbols.total)
 
     @property
     def stiffness(self) -> float:
@@ -182,6 +190,11 @@ class EquivalentLinear:
     def total_displacement(self) -> float:
         """Largest displacement of a bearing, torsion included [m]."""
         return max(each.total_displacement for each in self.bounds.values())
+
+    @property
+    def allowed_displacement(self) -> float:
+        """Largest displacement that a bearing must allow, with the code's factor on it [m]."""
+        return max(each.allowed_displacement for each in self.bounds.values())
 
     @property
     def base_shear(self) -> float:

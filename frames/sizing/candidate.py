@@ -229,7 +229,8 @@ def _measures(
     t = Trace()
     t.given("W", system.seismic_weight, "N")
     t.given("V_b", analysis.base_shear, "N", note="largest, without rims")
-    t.given("D", analysis.total_displacement, "m", shown="mm", note="largest, without rims")
+    t.given("D", analysis.allowed_displacement, "m", shown="mm",
+            note="that bearings must allow, without rims")  # fmt: skip
     t.given("R", plain.radii[0], "m")
     t.given("a", plain.slider_radius, "m", shown="mm", note="largest slider")
     t.given("h", plain.slider_height, "m", shown="mm")

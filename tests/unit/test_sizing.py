@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from frames import (
     ASCE7,
+    EN1998,
     CheckError,
     DesignLimits,
     DesignTarget,
@@ -79,6 +80,19 @@ def test_a_candidate_is_what_a_calculation_by_hand_gives() -> None:
     edge = 0.75 * free * 2.0 / length + a
     assert h >= 2.0 * (2.0 - math.sqrt(4.0 - edge**2)) + 0.010
     assert found.chosen.plan_diameter == pytest.approx(2.0 * (edge + 0.025))
+
+
+def test_en_1998_asks_for_room_beyond_its_displacement() -> None:
+    """10.3: gamma_x = 1.2 on the displacement with torsion, of rims and slip together."""
+    spectrum = Spectrum.en1998(2.5, "C")
+    found = design(SYSTEM, spectrum, code=EN1998(), bounds=BOUNDS, target=ONE)
+    whole = found.chosen.analysis
+    assert whole.allowed_displacement == pytest.approx(1.2 * whole.total_displacement, rel=1e-12)
+    t = found.chosen.trace
+    assert t.value("U_cap") == pytest.approx(0.75 * 1.2 * whole.total_displacement)
+    assert t.value("U_cap") + t.value("s") == pytest.approx(1.2 * whole.total_displacement)
+    asce = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=ONE).chosen.analysis
+    assert asce.allowed_displacement == asce.total_displacement
 
 
 def test_the_slider_is_the_least_that_keeps_the_checks() -> None:
