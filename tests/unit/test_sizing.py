@@ -84,7 +84,7 @@ def test_a_candidate_is_what_a_calculation_by_hand_gives() -> None:
 
 def test_en_1998_asks_for_room_beyond_its_displacement() -> None:
     """10.3: gamma_x = 1.2 on the displacement with torsion, of rims and slip together."""
-    spectrum = Spectrum.en1998(2.5, "C")
+    spectrum = Spectrum.en1998(5.0, "D")
     found = design(SYSTEM, spectrum, code=EN1998(), bounds=BOUNDS, target=ONE)
     whole = found.chosen.analysis
     assert whole.allowed_displacement == pytest.approx(1.2 * whole.total_displacement, rel=1e-12)
