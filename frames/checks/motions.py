@@ -184,5 +184,5 @@ def _is_turned(name: str, motions: MotionSet) -> bool:
         strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
     except MotionError:  # what is not known cannot be said to be turned
         return False
-    off = ((x - strike - 90.0 + 180.0) % 360.0 - 180.0, (y - strike + 180.0) % 360.0 - 180.0)
-    return max(map(abs, off)) <= _TURNED
+    off = (abs((azimuth - strike + 45.0) % 90.0 - 45.0) for azimuth in (x, y))  # either way round
+    return max(off) <= _TURNED

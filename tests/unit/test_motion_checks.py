@@ -86,7 +86,10 @@ def test_pairs_are_counted(linear: EquivalentLinear) -> None:
     [
         ({"strike": 30.0, "azimuth_x": 120.0, "azimuth_y": 30.0}, 0.0),
         ({"strike": 30.0, "azimuth_x": -240.0, "azimuth_y": 390.0}, 0.0),
+        ({"strike": 30.0, "azimuth_x": 300.0, "azimuth_y": 210.0}, 0.0),  # normal, other way
+        ({"strike": 30.0, "azimuth_x": 30.0, "azimuth_y": 300.0}, 0.0),  # x along the fault
         ({"strike": 30.0, "azimuth_x": 90.0, "azimuth_y": 0.0}, 7.0),
+        ({"strike": 30.0, "azimuth_x": 118.0, "azimuth_y": 28.0}, 7.0),
         ({}, 7.0),  # nothing is known
     ],
 )
