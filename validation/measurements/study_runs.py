@@ -167,8 +167,7 @@ def considered() -> float:
     """
     bearing = bearing_for(1000e3)
     displacement = bearing.lateral_capacity
-    friction = max(law.f_max for law in bearing.frictions)
-    length = 2.0 * bearing.radius - bearing.slider_height
+    friction, length = bearing.effective_friction, bearing.effective_radius
     stiffness = 1.0 / length + friction / displacement  # over the weight, 1/m
     period = 2.0 * math.pi / math.sqrt(STANDARD_GRAVITY * stiffness)
     damping = 2.0 / math.pi * friction / (friction + displacement / length)

@@ -69,9 +69,6 @@ SYMBOLS = {
 """Displacement, the same with torsion, period, damping, base shear and shear above, at the level
 of motion that the histories have. EN 1998: shear over q, and without gamma_x."""
 
-WORST: tuple[str, BoundName] = ("Northridge 1994, Beverly Hills - Mulhol", "upper")
-"""The run that displaces a bearing most."""
-
 MIDDLE = ("bearing-1-1", "bearing-2-1")
 """Bearings on either side of the middle of the plan."""
 
@@ -214,6 +211,7 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
         "limits": [f"{c.title} ({c.bound})" for c in known.equivalent.checks.failed],
         "free": device_numbers(lenient, known, rims=False),
         "lir": demands_by_bound(again.demands),
+        "worst": run.governing_case.removesuffix(" bound").rsplit(", ", 1),
         "checks": len(run.checks),
         "failed": [f"{c.title} ({c.bound})" for c in run.checks.failed],
         "failed_with_uplift": [str(c.statement) for c in again.checks.failed],
@@ -275,7 +273,7 @@ def main() -> None:
     if not options.page:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found["contact"] = at_levels(*WORST)
+            found["contact"] = at_levels(*found["codes"]["ASCE 7-22"]["worst"])
         kept.write_text(json.dumps(found, indent=1), encoding="utf-8")
     write(found)
 
