@@ -327,6 +327,15 @@ def _at(
     return bounded(bearing, bound, bounds)
 
 
+def pressure_factor(bearing: LIRBearing | FrictionPendulum, load: float) -> float:
+    """Return what the pressure under a load [N] makes of the surfaces' nominal friction [-]."""
+    if not isinstance(bearing, LIRBearing) or bearing.pressure_dependence is None:
+        return 1.0
+    area = math.pi * bearing.slider_radius**2
+    reference = bearing.resolved()["design_load"] / area
+    return bearing.pressure_dependence.factor(load / area, reference)
+
+
 def _force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> float:
     # Lateral force at the displacement, as design formulas have it.
     if math.isfinite(test.lateral) or math.isnan(test.displacement):
@@ -335,6 +344,7 @@ def _force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> float:
     if test.alone and isinstance(bearing, LIRBearing):
         return bearing.interface_friction * test.load
     if own.corner <= test.displacement <= own.capacity:
-        return own.force(test.displacement, test.load)
+        more = (pressure_factor(bearing, test.load) - 1.0) * own.effective_friction
+        return own.force(test.displacement, test.load) + more * test.load
     limit = bearing.force_limit(test.load) if isinstance(bearing, LIRBearing) else math.inf
     return limit if math.isfinite(limit) else math.nan

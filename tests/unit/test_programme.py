@@ -26,7 +26,7 @@ from frames import (
     loop_properties,
     programme_of_tests,
 )
-from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element import CoulombFriction, LIRBearing, PressureDependence, cyclic_test
 
 BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.25), PropertyFactors(0.9, 1.2))
 LOADS = 300e3, 900e3
@@ -279,6 +279,28 @@ def test_the_loops_of_the_design_itself_pass() -> None:
 def test_each_check_fails_by_what_it_is_for(changed: dict[str, float], title: str) -> None:
     assert title not in failing(judged(loop()))
     assert title in failing(judged(loop(**changed)))
+
+
+def test_nominal_friction_goes_by_pressure_and_corners() -> None:
+    law = PressureDependence(rate=1e-8, reference_pressure=20e6)
+    own = bearing(pressure_dependence=law)
+    factor = math.exp(-1e-8 * (500e3 / (math.pi * 0.15**2) - 20e6))
+    of_energy = [c for c in judged(loop(), of=own) if c.title == "friction by the energy"]
+    assert of_energy[0].limit == pytest.approx(0.8 * factor * MU)
+    system_of_one = IsolationSystem(
+        bearings=(own,), loads=(500e3,), positions=((0.0, 0.0),), plan=(5.0, 5.0)
+    )
+    found = equivalent_linear(system_of_one, Spectrum.asce7(s_ms=0.9, s_m1=0.4), bounds=BOUNDS)
+    table = programme_of_tests(found, system_of_one, bounds=BOUNDS).set_index("what")
+    row = table.loc["increments, average load, 0.25 D_M"]
+    force = 500e3 * (row["displacement [m]"] / L + 1.25 * factor * MU)
+    assert row["largest force [N]"] == pytest.approx(force)
+    two = FrictionPendulum((1.0, 1.25), (0.04, 0.08))
+    corner = 4.0 * 1.0 * 1.25 * 0.04**2 / L
+    checks = acceptance_checks([loop()], two, "EN 1998", bounds=BOUNDS)
+    low = next(c for c in checks if c.title == "friction by the energy")
+    whole = (0.04 * 1.0 + 0.08 * 1.25) / L
+    assert low.limit == pytest.approx(0.8 * (whole - corner / (4.0 * 0.2)), rel=1e-9)
 
 
 def test_drop_and_spread_by_hand() -> None:
