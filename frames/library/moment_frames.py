@@ -31,6 +31,9 @@ DEFAULT_DAMPING = ModalDamping(0.02)
 DEFAULT_FLOOR_LOAD = 1450.0
 """Mass of a floor besides its steel [kg/m2]: slab, finishes, cladding, part of the live load."""
 
+DEFAULT_BASE_DEPTH = 0.8
+"""Depth of the base beams with their slab [m]."""
+
 DEFAULT_COLUMN = Section.box(0.40, 0.40, 0.025)
 DEFAULT_BEAM = Section.i_shape(0.55, 0.22, 0.020, 0.012)
 DEFAULT_BASE_BEAM = Section.i_shape(0.80, 0.30, 0.030, 0.016)
@@ -54,6 +57,7 @@ def moment_frame(
     base_beam: Section | None = None,
     hinges: Mapping[str, PlasticHinge] | None = None,
     eccentricity: tuple[float, float] = (0.0, 0.0),
+    base_depth: float = DEFAULT_BASE_DEPTH,
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
     name: str = "moment frame",
@@ -86,6 +90,10 @@ def moment_frame(
         Distance of the floors' centre of mass from the middle of the plan along x and y, over the
         sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). The masses of the
         nodes rise linearly towards it; the steel's own is not moved.
+    base_depth : float
+        Depth of what is cast with the nodes over the bearings [m]: about x and y they get the
+        inertia m depth^2 / 12 of their mass m. Without any (0) the moment of a rim that is met hard
+        may have no equilibrium, and the run stops there.
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float
@@ -117,6 +125,10 @@ def moment_frame(
     z = bearing_grid(frame, bearing, places, width, (0.0, 0.0))
     below = "base"
     _add_floor(frame, below, masses, base_beam or DEFAULT_BASE_BEAM)
+    depth = require_non_negative("moment_frame: base_depth [m]", base_depth, error=ModelError)
+    for (ix, iy), mass in masses.items():
+        inertia = mass * depth**2 / 12.0
+        frame.add_mass(f"{below}-{ix}-{iy}", 0.0, (inertia, inertia, 0.0))
     for storey in range(1, levels + 1):
         floor = f"floor-{storey}"
         for ix, iy in places:
