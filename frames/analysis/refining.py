@@ -83,7 +83,8 @@ def refined(
     -------
     Refined
         Of the last run: attributes `reduction_runs` and ``reduction_error_...``, the
-        differences to the run before [-], which are larger than what the last one leaves out;
+        differences to the run before [-], which are larger than what the last one leaves out (of
+        vertical accelerations, which settle last, that may be half more);
         NaN of a single run, and zero where all modes were taken.
 
     Notes

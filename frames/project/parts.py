@@ -36,9 +36,6 @@ if TYPE_CHECKING:
     from frames.project import schema
     from frames.project.schema import MotionSource, ProjectFile, Structure
 
-BASE_DEPTH = 0.8
-"""Depth over which a base node of a moment frame has its mass, for rotary inertia [m]."""
-
 T = TypeVar("T")
 
 
@@ -145,12 +142,11 @@ def bearing_of(given: schema.Bearing) -> LIRBearing:
 def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
-        frame = moment_frame(
+        return moment_frame(
             given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
             storey_height=given.storey_height, floor_load=given.floor_load,
             eccentricity=given.eccentricity, name=name,
         )  # fmt: skip
-        return _with_turning_nodes(frame, given)
     if isinstance(given, ShearBuilding):
         return shear_building(
             bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
@@ -212,16 +208,6 @@ class _Running:
         where = f", line {lines[-1]}" if lines else ""
         msg = f"script = {name}{where}: {type(cause).__name__}: {cause}"
         raise ProjectError(msg) from cause
-
-
-def _with_turning_nodes(frame: Frame, given: MomentFrame) -> Frame:
-    # Nodes on bearings turn with what they carry: without inertia the moment of a rim may have no
-    # equilibrium.
-    mass = given.floor_load * given.bay_width[0] * given.bay_width[1]
-    inertia = mass * BASE_DEPTH**2 / 12.0
-    for link in frame.bearings.values():
-        frame.add_mass(link.j, 0.0, (inertia, inertia, 0.0))
-    return frame
 
 
 def _arguments(given: schema.Bearing) -> dict[str, Any]:

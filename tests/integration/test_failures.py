@@ -270,7 +270,7 @@ def test_plates_without_inertia_are_named_where_they_find_no_equilibrium():
         y=2.0 * np.sin(2.0 * np.pi * 0.6 * t) * shape,
         dt=0.01,
     )
-    frame = moment_frame((2, 1), 3, bearing=device)
+    frame = moment_frame((2, 1), 3, bearing=device, base_depth=0.0)
     with pytest.warns(AnalysisWarning, match=r"turn without inertia.*add_mass\(node, 0.0, \(J, J"):
         data = time_history(frame, motion)
     assert data.attrs["status"] == "step_too_small"

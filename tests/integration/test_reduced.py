@@ -113,14 +113,15 @@ def test_reduced_is_as_direct_within_what_is_asked_for(both):
             np.abs(member_forces(frame, data, names).to_numpy()).max(axis=(0, 1, 2))
             for data in (direct, reduced)
         )
-        assert_allclose(other, exact, rtol=1e-2)
+        assert_allclose(other, exact, rtol=1e-2, atol=1e-4 * exact[3:].max())  # torsion is little
 
 
 def test_the_error_it_reports_is_larger_than_its_error(both):
     _, direct, reduced = both
     off = differences(reached(direct), reached(reduced))
     for part, error in off.items():
-        assert error <= 1.05 * reduced.attrs[f"reduction_error_{part}"] + 1e-5, part
+        more = 1.5 if part == "vertical_acceleration" else 1.05  # as its docstring says
+        assert error <= more * reduced.attrs[f"reduction_error_{part}"] + 1e-5, part
     assert reduced.attrs["reduction_runs"] >= 2
     assert "reduced:" not in reduced.attrs["audit"]
 

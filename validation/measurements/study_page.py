@@ -15,7 +15,6 @@ from validation.measurements.study_runs import (
     COLLAPSE,
     DEVICES,
     FRACTILES,
-    INERTIA,
     INTENSITY,
     LIMITS,
     ROOM,
@@ -84,7 +83,6 @@ def _introduction(found: Found) -> str:
         f"same rims whose sliders have {1e3 * ROOM_RADIUS:g} mm more in radius and an interface "
         f"friction of {ROOM_FRICTION:g} in place of "
         f"{bearing_for(1000e3).interface_friction:g}. "
-        f"Nodes on bearings have a rotary inertia of {INERTIA:g} kg m2. "
         f"Record pairs of FEMA P695 ({counts}; horizontal, both at once, whole, and {TAIL:g} s to "
         f"come to rest) are scaled to {INTENSITY.label} of {scales} m/s2, so that factors differ "
         f"by record. Members yield at rotations of {columns:.1f} (columns) and {beams:.1f} mrad "

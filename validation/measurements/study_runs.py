@@ -58,10 +58,6 @@ ROOM_RADIUS, ROOM_FRICTION = 0.06, 0.16
 
 DEVICES = (LIR, RIMS, WIDE, ROOM)
 
-INERTIA = 100.0
-"""Rotary inertia of the nodes on the bearings [kg m2]: moments of rims may have no equilibrium
-without."""
-
 STRUCTURE = "light"
 """Of `yielding_runs.structures`: the one whose members yield."""
 
@@ -98,9 +94,6 @@ FRACTILES = (0.16, 0.5, 0.84)
 def devices() -> dict[str, Frame]:
     """Return the building on each device."""
     own = {name: model_of(structures()[STRUCTURE], name) for name in (LIR, RIMS, WIDE)}
-    for frame in own.values():
-        for link in frame.bearings.values():
-            frame.add_mass(link.j, 0.0, (INERTIA, INERTIA, 0.0))
     larger = {
         name: replace(
             link.bearing, slider_radius=link.bearing.slider_radius + ROOM_RADIUS,
