@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from frames.checks.bounds import PropertyBounds
     from frames.checks.loops import Cycle, LoopTest
 
+_ALIKE = 1.1  # displacements of cycles that are judged together, largest over least
 _CLAUSES = {"ASCE 7-22": "ASCE 7-22 17.8.4", "EN 1998": "EN 15129 8.3.4", "NCh2745": "NCh2745 14"}
 
 
@@ -89,8 +90,9 @@ def acceptance_checks(
     Raises
     ------
     CheckError
-        If there is no test, the code is not known, the interface was tested of a bearing that has
-        none, or two surfaces of unlike friction do not both slide.
+        If there is no test, cycles of a set differ in displacement by more than a tenth, the code
+        is not known, the interface was tested of a bearing that has none, or two surfaces of
+        unlike friction do not both slide.
 
     Notes
     -----
@@ -105,9 +107,20 @@ def acceptance_checks(
     for test in tests:
         sets.setdefault((test.name, test.kind), []).append(test)
     for (name, kind), group in sets.items():
+        _require_alike(name, group)
         one = _Set(name, group, bearing, bounds, chosen, _CLAUSES[code])
         found += one.of_interface() if kind == "interface" else one.of_bearing()
     return Checks(found)
+
+
+def _require_alike(name: str, tests: Sequence[LoopTest]) -> None:
+    ways = [cycle.travel for test in tests for cycle in test.cycles]
+    if max(ways) > _ALIKE * min(ways):
+        msg = (
+            f"test {name!r} has cycles from {500.0 * min(ways):.4g} to {500.0 * max(ways):.4g} mm: "
+            "give the cycles of each displacement as a test with a name of its own"
+        )
+        raise CheckError(msg)
 
 
 @dataclass(frozen=True)

@@ -321,6 +321,17 @@ def test_specimens_of_one_set_are_judged_together() -> None:
     assert failing(both) == {"energy of a cycle, off the set's mean"}
 
 
+def test_cycles_of_unlike_displacement_are_refused() -> None:
+    one, two = loop(0.1), loop(0.2)
+    both = LoopTest(
+        name="steps", displacement=np.append(one.displacement, two.displacement),
+        force=np.append(one.force, two.force), load=500e3,
+    )  # fmt: skip
+    assert len(both.cycles) == 6
+    with pytest.raises(CheckError, match=r"cycles from 100 to 200 mm"):
+        judged(both)
+
+
 def interface(friction: float) -> LoopTest:
     phase = 2.0 * math.pi * np.linspace(0.0, 3.0, 2401)
     return LoopTest(
