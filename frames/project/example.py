@@ -47,7 +47,7 @@ def _examples() -> dict[str, _Example]:
         "EN 1998": _Example(Spectrum.en1998(3.4, "B"), {
             "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
             "kind = 1\n",
-            "bearing": _bearing("2.5 m", 185, 125, 0.04, 0.075),
+            "bearing": _bearing("2.5 m", 185, 150, 0.04, 0.075),
             "analysis": _UPLIFT,
         }),
         "NCh2745": _Example(Spectrum.nch2745("II", 3), {

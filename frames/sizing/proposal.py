@@ -170,9 +170,10 @@ def design(
     """Propose LIR-DCFP bearings for a structure, by equivalent-linear analysis.
 
     Each radius and friction of the target is tried. Without rims the bearings would go as far as
-    the lower bound of friction lets them; rims are put at a share of that, and the interface gets
-    the friction that holds until then and stays stable over what is left. Of those that keep what
-    is asked, the one with the least base shear is taken, or as `least` says.
+    the lower bound of friction lets them, by EN 1998 times gamma_x; rims are put at a share of
+    that, and the interface gets the friction that holds until then and stays stable over what is
+    left. Of those that keep what is asked, the one with the least base shear is taken, or as
+    `least` says.
 
     Parameters
     ----------

@@ -28,8 +28,9 @@ class DesignTarget:
     frictions : sequence of float or CoulombFriction or VelocityFriction
         Nominal frictions of the concave surfaces to choose from.
     rim_share : float
-        Displacement at which the rims are met, over the largest of a bearing without rims [-], in
-        (0, 1). What is left, the interface has to slip.
+        Displacement at which the rims are met, over the largest that a bearing without rims must
+        allow [-], in (0, 1): D_TM, by EN 1998 gamma_x d_bd. What is left, the interface has to
+        slip.
     pressure : float
         Mean pressure on a slider under the average combination [Pa].
     largest_pressure : float
@@ -43,7 +44,7 @@ class DesignTarget:
     slider_step, friction_step : float
         What radii of sliders [m] and the friction of the interface [-] are rounded up to.
     max_displacement : float, optional
-        Largest displacement of a bearing without rims, that the gap around the building allows [m].
+        Largest that a bearing without rims must allow, as the gap around the building has it [m].
     max_base_shear : float, optional
         Largest base shear over weight [-].
     max_plan_diameter : float, optional
