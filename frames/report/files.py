@@ -30,7 +30,7 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     run : ProjectRun
         The run.
     folder : Path
-        Made if it is not there; files of an earlier run are written over.
+        Made if it is not there; files of an earlier run are written over, its histories removed.
     source : str
         Text of the project's file, which is kept beside the results.
 
@@ -44,7 +44,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         outcome. What an interrupted run left is removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "run.json").unlink(missing_ok=True)  # written last: without it there is no run
+    for stale in (folder / "run.json", *folder.glob("runs-*.nc")):  # the first is written last
+        stale.unlink(missing_ok=True)
     written = {bound: folder / f"runs-{bound}.nc" for bound in run.runs}
     for bound, path in written.items():
         save(run.runs[bound], path)
