@@ -1,5 +1,6 @@
 """Ctrl-C, sent for real: answered at once at every level, and what was computed is kept."""
 
+import os
 import signal
 import statistics
 import subprocess  # runs this interpreter on the lines below  # noqa: S404
@@ -86,7 +87,8 @@ def test_answered_and_kept(level: str, options: str) -> None:
         finally:
             watch.cancel()
             child.kill()
-    assert statistics.median(waited) < PROMPT, waited
+    busy = max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))  # processes that share a core
+    assert statistics.median(waited) < PROMPT * busy, (waited, busy)
 
 
 def check(
