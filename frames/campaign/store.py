@@ -200,9 +200,18 @@ class CampaignStore:
 
         Raises
         ------
+        CampaignError
+            If the store was laid out for other results.
         OSError
             If it cannot be written. The batch has no mark then, and is run again.
         """
+        unknown = [name for name in batch.arrays if name not in self._arrays]
+        if unknown:
+            msg = (
+                f"{self.path} has no room for {', '.join(unknown)}: another version of the package "
+                "began it; name another store"
+            )
+            raise CampaignError(msg)
         rows = plan.rows(number)
         try:
             for name, values in batch.arrays.items():

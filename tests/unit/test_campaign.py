@@ -27,7 +27,7 @@ from frames.campaign.lock import locked
 from frames.campaign.plan import Plan, differences
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
-pytest.importorskip("zarr")
+zarr = pytest.importorskip("zarr")
 
 BEARING = LIRBearing(
     radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
@@ -171,6 +171,15 @@ def test_a_batch_that_was_damaged_is_found(tmp_path: Path) -> None:
     chunk.unlink()
     with pytest.raises(CampaignError, match=r"batch 2 is not as it was written: remove .*000002"):
         campaign.digest()
+
+
+def test_a_store_of_another_version_is_refused(tmp_path: Path) -> None:
+    small(tmp_path / "store").run()
+    group = zarr.open_group(tmp_path / "store/runs.zarr", mode="r+")
+    group.attrs["results"] = [n for n in group.attrs["results"] if n != "reached_slip"]
+    next((tmp_path / "store").rglob("000002.json")).unlink()
+    with pytest.raises(CampaignError, match="no room for reached_slip: another version"):
+        small(tmp_path / "store").run()
 
 
 def test_failed_runs_are_rows_with_their_reason(tmp_path: Path) -> None:
