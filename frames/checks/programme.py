@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import CheckError
 from frames.checks.bounds import ENDS, bounded
-from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED
+from frames.checks.check import TO_BE_CONFIRMED
 from frames.checks.pendulum import FrictionPendulum
 from lir_element import LIRBearing
 from lir_element.door import require_non_negative, require_positive
@@ -58,8 +58,8 @@ class ProgrammeDemands:
     service : float, optional
         Displacement without an earthquake, of temperature for instance [m].
     slip : float, optional
-        Largest interface slip of time histories [m]. None: what the design displacement with
-        torsion is beyond the rims. A quarter of the slip that holds is tested at least.
+        Interface slip of time histories [m]. What the design displacement with torsion is beyond
+        the rims, and a quarter of the slip that holds, are tested at least.
     impact_speed : float, optional
         Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
         displacement with torsion; its largest, where that does not reach a rim.
@@ -213,6 +213,8 @@ def _asce7(d: _Design) -> Iterable[PlannedTest]:
             )  # fmt: skip
     yield PlannedTest("maximum displacement, D_M", moved, d.average, 3.0, d.speed_at(moved),
                       "stable at D_M", f"{clause} (3)")  # fmt: skip
+    yield PlannedTest("maximum displacement, D_TM", total, d.average, 3.0, d.speed_at(total),
+                      "stable at D_TM", f"{clause} (3)")  # fmt: skip
     count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
     yield PlannedTest(
         "many cycles, 0.75 D_M", 0.75 * moved, d.average, float(math.ceil(count - 1e-9)),
@@ -279,8 +281,7 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
     if not math.isfinite(rim):
         return
     holds = min(bearing.resolved()["slip_capacity"], max(bearing.slip_stability, 0.0))
-    slip = max(total - rim, 0.0) if d.demands.slip is None else d.demands.slip
-    slip = max(slip, _LEAST_SLIP * holds)
+    slip = max(total - rim, d.demands.slip or 0.0, _LEAST_SLIP * holds)
     speed = d.demands.impact_speed
     if speed is None:  # harmonic: at the rim, of the amplitude
         speed = d.speed_at(math.sqrt(total**2 - rim**2) if total > rim else total)
@@ -313,7 +314,7 @@ def _row(
         "vertical load [N]": test.load, "cycles": test.cycles, "period [s]": period,
         "peak speed [m/s]": test.speed, "least force [N]": least, "largest force [N]": most,
         "shows": test.shows, "clause": test.clause,
-        "standing": CONFIRMED if test.clause == PROPOSAL else TO_BE_CONFIRMED,
+        "standing": "a proposal" if test.clause == PROPOSAL else TO_BE_CONFIRMED,
     }  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pandas as pd
+import xarray as xr
 
 from frames.analysis.recording import Recording
 from frames.analysis.transient import time_history
@@ -21,12 +22,10 @@ from frames.checks.motions import motion_checks
 from frames.checks.programme import ProgrammeDemands, programme_of_tests
 from frames.project.groundwork import groundwork, inputs_of
 from frames.results.storage import as_packed
-from lir_element.errors import AnalysisWarning
+from lir_element.errors import AnalysisInterrupted, AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-
-    import xarray as xr
 
     from frames.analysis.cases import BatchProgress
     from frames.analysis.model_check import ModelCheck
@@ -138,7 +137,13 @@ def run_project(
     """
     known = groundwork(parts)
     runs = _histories(parts, known.frame, known.motions, progress)
-    governing, case = _governing(parts, known.frame, known.motions, runs)
+    try:
+        governing, case = _governing(parts, known.frame, known.motions, runs)
+    except AnalysisInterrupted as stop:  # all runs were complete
+        whole = xr.concat(
+            list(runs.values()), "run", data_vars="minimal", coords="minimal", compat="override"
+        )
+        raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
     found = Histories(runs=runs, governing=governing, governing_case=case)
     return judged_run(parts, known, found)
 
@@ -173,7 +178,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
         runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
     )
     demands = history_demands(runs, rules)
-    loads, slip = _asked(parts, known, demands["envelope"])
+    loads, slip = _asked(parts, known, demands)
     found += _of_the_bearing(parts, known, loads, slip)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
@@ -262,11 +267,12 @@ def _has_minima(parts: Parts) -> bool:
 
 
 def _asked(
-    parts: Parts, known: Groundwork, envelope: pd.Series[float]
+    parts: Parts, known: Groundwork, demands: pd.DataFrame
 ) -> tuple[tuple[float, float], float]:
-    # Least and largest axial load of all combinations and histories [N], and their slip [m].
-    loads = [load for load in _loads(known, envelope) if 0.0 < load < float("inf")]
-    slip = float(envelope["interface slip"])
+    # Least axial load that presses at all and the largest, of all combinations and of the histories
+    # at each bound [N], and the slip of these [m].
+    loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
+    slip = float(demands.loc["interface slip", "envelope"])
     if not math.isfinite(slip):  # runs failed: the most that it holds
         slip = parts.bearing().resolved()["slip_capacity"]
     return (min(loads), max(loads)), slip
@@ -301,9 +307,12 @@ def _programme(
     return programme_of_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
 
 
-def _loads(known: Groundwork, envelope: pd.Series[float]) -> list[float]:
-    # Axial loads of all combinations and of the histories [N].
+def _loads(known: Groundwork, demands: pd.DataFrame) -> list[float]:
+    # Axial loads of all combinations and of the histories at each bound [N].
     found = [*known.system.loads]
     for loads in known.system.combinations.values():
         found += loads
-    return found + [float(envelope[f"{which} axial force"]) for which in ("least", "largest")]
+    bounds = demands.drop(columns=["unit", "where"])
+    for which in ("least", "largest"):
+        found += [float(load) for load in bounds.loc[f"{which} axial force"]]
+    return found

@@ -12,7 +12,7 @@ import pandas as pd
 from markupsafe import Markup
 from pandas.api.types import is_string_dtype
 
-from frames.checks.check import CONFIRMED
+from frames.checks.check import TO_BE_CONFIRMED
 from frames.checks.rendering import quantity
 from frames.report.figures import pictures
 from frames.report.tables import in_mm_and_kn, rows_of
@@ -107,7 +107,7 @@ def _table(frame: pd.DataFrame, index: str) -> Table:
 
 def _programme(tests: pd.DataFrame) -> Table:
     # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
-    starred = tests["clause"].where(tests["standing"] == CONFIRMED, tests["clause"] + " *")
+    starred = tests["clause"].where(tests["standing"] != TO_BE_CONFIRMED, tests["clause"] + " *")
     named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
     shown = (
         tests.assign(clause=starred).drop(columns=["standing", "what", "shows"]).set_index(named)

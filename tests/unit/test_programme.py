@@ -89,6 +89,11 @@ def test_prototype_tests_of_asce7_by_hand() -> None:
     static = table[table["clause"] == "ASCE 7-22 17.8.2.5"]
     assert static["displacement [m]"].to_numpy() == pytest.approx(lower.total_displacement)
     assert list(static["vertical load [N]"]) == [880e3, 320e3]
+    largest = table[table["clause"] == "ASCE 7-22 17.8.2.2 (3)"]
+    assert largest["displacement [m]"].to_numpy() == pytest.approx(
+        [moved, lower.total_displacement]
+    )
+    assert (largest["cycles"] == 3.0).all()
     production = table[table["clause"] == "ASCE 7-22 17.8.5"].iloc[0]
     assert production["displacement [m]"] == pytest.approx(0.67 * moved)
     assert (table["standing"][table["clause"].str.startswith("ASCE")] != "").all()
@@ -120,6 +125,7 @@ def test_the_interface_and_impacts_of_an_lir() -> None:
         900e3 * math.tan(tilt + math.atan(1.2 * MU_H))
     )
     assert own["what"].iloc[-1] == "after the impacts"
+    assert set(own["standing"]) == {"a proposal"}
     _, told = asce7(loads=LOADS, slip=0.09, impact_speed=0.7)
     last = told[told["what"] == "impact and return, average load"].iloc[0]
     assert last["displacement [m]"] == pytest.approx(U_CAP + 0.09)

@@ -19,6 +19,7 @@ from typer.testing import CliRunner
 from frames import AnalysisInterrupted, ProjectError, bounded, load, save, time_history
 from frames.command import app as command
 from frames.command.app import app
+from frames.project import design_run
 from frames.project.groundwork import groundwork
 from frames.project.parts import Parts
 from frames.project.quantities import si
@@ -293,6 +294,22 @@ def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch
     again = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
     assert again.exit_code in {0, 1}
     assert not (folder / "out" / "interrupted.nc").exists()
+
+
+def test_ctrl_c_in_the_governing_run_keeps_the_others(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*_: object, **__: object) -> None:
+        raise AnalysisInterrupted(2.0, xr.Dataset())
+
+    monkeypatch.setattr(design_run, "time_history", stopped)
+    done = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "kept")])
+    assert done.exit_code == 130
+    data = load(folder / "kept" / "interrupted.nc")
+    models = [str(name) for name in data["model"].to_numpy()]
+    assert len(models) == 3 * len(set(models))
+    assert len(set(models)) > 1
+    assert np.isfinite(data["reached_displacement"].to_numpy()).all()
 
 
 def test_a_run_that_was_not_written_whole_is_none(

@@ -161,8 +161,8 @@ def page(found: Mapping[str, Any]) -> str:
         "slider meets the same rims; on larger ones it meets none.",
         device_table(asce),
         "![The three bearings side by side](figures/worked_building-devices.png)",
-        "The run that displaces a bearing most, at two levels of the model (ASCE 7-22, Northridge, "
-        "upper bound):",
+        "The run that displaces a bearing most, at two levels of the model (ASCE 7-22, "
+        f"{', '.join(asce['worst'])} bound):",
         table(
             ("level", "displacement [mm]", "largest slip [mm]", "time [s]"),
             [
