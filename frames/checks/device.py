@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._errors import CheckError
 from frames.checks.bearing_numbers import (
     NO_CODE,
     SURFACES,
     enter_bearing,
     enter_length,
+    ordered_loads,
 )
 from frames.checks.check import CONFIRMED, Check, Checks
 from frames.checks.equivalent import Judge
 from frames.checks.limits import DesignLimits
 from frames.checks.overlap import liner_pressure, pressure
-from lir_element.door import require_positive
 
 if TYPE_CHECKING:
     from frames.checks.bounds import PropertyBounds
@@ -85,7 +84,7 @@ def device_checks(
     slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
     """
     limits = DesignLimits() if limits is None else limits
-    t = enter_bearing(bearing, bounds, _ordered(loads))
+    t = enter_bearing(bearing, bounds, ordered_loads(loads))
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
     judge = Judge(t, "", CONFIRMED)
@@ -93,14 +92,6 @@ def device_checks(
         *_holds(judge, limits), _stable(judge), *_rims(judge, bearing, limits),
         _eccentricity(judge, limits), *_pressures(judge, limits), *_lateral(judge, limits),
     ])  # fmt: skip
-
-
-def _ordered(loads: tuple[float, float]) -> tuple[float, float]:
-    least, most = (require_positive("axial load", load, "N", error=CheckError) for load in loads)
-    if least > most:
-        msg = f"loads = {loads}: give the least first, then the largest [N]"
-        raise CheckError(msg)
-    return least, most
 
 
 def _holds(judge: Judge, limits: DesignLimits) -> list[Check]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -82,13 +83,13 @@ class LoopTest:
             raise CheckError(msg)
         for name, values in (("displacement", moved), ("force", force), ("load", load)):
             object.__setattr__(self, name, values)
-        object.__setattr__(self, "_cycles", tuple(_cycles_of(self, moved, force, load)))
+        _ = self.cycles  # what has none is refused here
 
-    @property
+    @cached_property
     def cycles(self) -> tuple[Cycle, ...]:
         """Full cycles, in order."""
-        found: tuple[Cycle, ...] = self.__dict__["_cycles"]
-        return found
+        moved, force, load = map(np.asarray, (self.displacement, self.force, self.load))
+        return tuple(_cycles_of(self, moved, force, load))
 
 
 class Cycle(NamedTuple):

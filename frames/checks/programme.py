@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import CheckError
+from frames.checks.bearing_numbers import ordered_loads
 from frames.checks.bounds import ENDS, bounded
 from frames.checks.check import TO_BE_CONFIRMED
 from frames.checks.pendulum import FrictionPendulum
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
-    from frames.checks.bounds import BoundName, PropertyBounds
+    from frames.checks.bounds import PropertyBounds
     from frames.checks.isolation import IsolationSystem
     from frames.checks.outcome import BoundResult, EquivalentLinear
 
@@ -87,11 +88,7 @@ class ProgrammeDemands:
             require_non_negative("slip", self.slip, "m", error=CheckError)
         require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
         if self.loads is not None:
-            least, most = (require_positive("axial load", n, "N", error=CheckError)
-                           for n in self.loads)  # fmt: skip
-            if least > most:
-                msg = f"loads = {self.loads}: give the least first, then the largest [N]"
-                raise CheckError(msg)
+            ordered_loads(self.loads)
 
 
 @dataclass(frozen=True)
@@ -99,6 +96,7 @@ class _Design:
     # What the tests of one kind of bearing are made of.
     result: BoundResult  # at the bound of the largest displacement
     bearing: LIRBearing | FrictionPendulum
+    ends: list[LIRBearing | FrictionPendulum]  # it at the lower and at the upper bound
     average: float  # N
     least: float  # N
     largest: float  # N
@@ -153,11 +151,13 @@ def programme_of_tests(
         msg = f"code of the analysis {equivalent.code!r}: there are tests of {', '.join(_TESTS)}"
         raise CheckError(msg)
     result = max(equivalent.bounds.values(), key=lambda each: each.total_displacement)
+    ends = [system if bounds is None else bounded(system, end, bounds) for end in ENDS]
     rows = []
     for title, bearing, places in _kinds(system):
-        design = _Design(result, bearing, *_loads(system, places, asked), asked)
+        at_ends = [end.bearings[places[0]] for end in ends]
+        design = _Design(result, bearing, at_ends, *_loads(system, places, asked), asked)
         own = _TESTS_OF[equivalent.code](design)
-        rows += [_row(title, test, design, bounds) for test in (*own, *_of_interface(design))]
+        rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
     return pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
 
 
@@ -165,18 +165,15 @@ def _kinds(
     system: IsolationSystem,
 ) -> list[tuple[str, LIRBearing | FrictionPendulum, list[int]]]:
     # Equal bearings: title, the bearing, where they are.
-    found: list[tuple[LIRBearing | FrictionPendulum, list[int]]] = []
-    for k, bearing in enumerate(system.bearings):
-        for known, places in found:
-            if known == bearing:
-                places.append(k)
-                break
-        else:
-            found.append((bearing, [k]))
-    return [
-        (f"kind {n}, {len(places)} of {len(system.bearings)}", bearing, places)
-        for n, (bearing, places) in enumerate(found, start=1)
-    ]
+    unlike: list[LIRBearing | FrictionPendulum] = []
+    for bearing in system.bearings:
+        if bearing not in unlike:
+            unlike.append(bearing)
+    found = []
+    for n, bearing in enumerate(unlike, start=1):
+        places = [k for k, other in enumerate(system.bearings) if other == bearing]
+        found.append((f"kind {n}, {len(places)} of {len(system.bearings)}", bearing, places))
+    return found
 
 
 def _loads(
@@ -195,34 +192,57 @@ def _loads(
     return average, least, max(every)
 
 
-def _asce7(d: _Design) -> Iterable[PlannedTest]:
-    clause, t = _TESTS["ASCE 7-22"], d.result.trace
-    moved, total, slow = d.result.displacement, d.result.total_displacement, d.demands.slow_speed
-    yield PlannedTest("production, each bearing", 0.67 * moved, d.average, 3.0, slow,
-                      "each bearing is as the prototypes", "ASCE 7-22 17.8.5")  # fmt: skip
-    wind = math.nan if d.demands.wind is None else d.demands.wind
-    yield PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind",
-                      f"{clause} (1)", wind)  # fmt: skip
-    named = (("average", d.average), ("largest", d.largest), ("least", d.least))
-    for words, load in named:
-        for share in _STEPS:
-            at = share * moved
-            yield PlannedTest(
-                f"increments, {words} load, {share:g} D_M", at, load, 3.0, d.speed_at(at),
-                "stiffness and energy at each displacement", f"{clause} (2)",
-            )  # fmt: skip
-    yield PlannedTest("maximum displacement, D_M", moved, d.average, 3.0, d.speed_at(moved),
-                      "stable at D_M", f"{clause} (3)")  # fmt: skip
-    yield PlannedTest("maximum displacement, D_TM", total, d.average, 3.0, d.speed_at(total),
-                      "stable at D_TM", f"{clause} (3)")  # fmt: skip
-    count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
-    yield PlannedTest(
-        "many cycles, 0.75 D_M", 0.75 * moved, d.average, float(math.ceil(count - 1e-9)),
-        d.speed_at(0.75 * moved), "heat and wear over an earthquake", f"{clause} (4)",
+def _wind(d: _Design, clause: str) -> PlannedTest:
+    force = math.nan if d.demands.wind is None else d.demands.wind
+    return PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause,
+                       force)  # fmt: skip
+
+
+def _increments(
+    d: _Design, steps: Iterable[tuple[str, float]], clause: str
+) -> Iterable[PlannedTest]:
+    # Steps of displacement [m] by name, at each of three loads.
+    for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
+        for name, at in steps:
+            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, d.speed_at(at),
+                              "stiffness and energy at each displacement", clause)  # fmt: skip
+
+
+def _stable(d: _Design, name: str, displacement: float, clause: str) -> PlannedTest:
+    return PlannedTest(
+        f"maximum displacement, {name}", displacement, d.average, 3.0, d.speed_at(displacement),
+        f"stable at {name}", clause,
     )  # fmt: skip
-    for words, load in named[1:]:
-        yield PlannedTest(f"static, {words} load, D_TM", total, load, 1.0, slow,
-                          "carries its load at D_TM", "ASCE 7-22 17.8.2.5")  # fmt: skip
+
+
+def _many(d: _Design, name: str, displacement: float, cycles: float, clause: str) -> PlannedTest:
+    return PlannedTest(
+        f"many cycles, {name}", displacement, d.average, cycles, d.speed_at(displacement),
+        "heat and wear over an earthquake", clause,
+    )  # fmt: skip
+
+
+def _static(d: _Design, clause: str) -> Iterable[PlannedTest]:
+    for words, load in (("largest", d.largest), ("least", d.least)):
+        yield PlannedTest(
+            f"static, {words} load, D_TM", d.result.total_displacement, load, 1.0,
+            d.demands.slow_speed, "carries its load at D_TM", clause,
+        )  # fmt: skip
+
+
+def _asce7(d: _Design) -> Iterable[PlannedTest]:
+    clause, t, moved = _TESTS["ASCE 7-22"], d.result.trace, d.result.displacement
+    yield PlannedTest("production, each bearing", 0.67 * moved, d.average, 3.0,
+                      d.demands.slow_speed, "each bearing is as the prototypes",
+                      "ASCE 7-22 17.8.5")  # fmt: skip
+    yield _wind(d, f"{clause} (1)")
+    steps = [(f"{share:g} D_M", share * moved) for share in _STEPS]
+    yield from _increments(d, steps, f"{clause} (2)")
+    yield _stable(d, "D_M", moved, f"{clause} (3)")
+    yield _stable(d, "D_TM", d.result.total_displacement, f"{clause} (3)")
+    count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
+    yield _many(d, "0.75 D_M", 0.75 * moved, float(math.ceil(count - 1e-9)), f"{clause} (4)")
+    yield from _static(d, "ASCE 7-22 17.8.2.5")
 
 
 def _en15129(d: _Design) -> Iterable[PlannedTest]:
@@ -245,24 +265,13 @@ def _en15129(d: _Design) -> Iterable[PlannedTest]:
 
 def _nch2745(d: _Design) -> Iterable[PlannedTest]:
     clause, t = _TESTS["NCh2745"], d.result.trace
-    design, most, total = t.value("D_D"), t.value("D_M"), t.value("D_TM")
-    wind = math.nan if d.demands.wind is None else d.demands.wind
-    yield PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause,
-                      wind)  # fmt: skip
-    named = (("average", d.average), ("largest", d.largest), ("least", d.least))
+    design, most = t.value("D_D"), t.value("D_M")
+    yield _wind(d, clause)
     steps = (("0.2 D_D", 0.2 * design), ("0.5 D_D", 0.5 * design), ("D_D", design), ("D_M", most))
-    for words, load in named:
-        for name, at in steps:
-            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, d.speed_at(at),
-                              "stiffness and energy at each displacement", clause)  # fmt: skip
-    yield PlannedTest("maximum displacement, D_TM", total, d.average, 3.0, d.speed_at(total),
-                      "stable at D_TM", clause)  # fmt: skip
-    at = t.value("D_TD")
-    yield PlannedTest("many cycles, D_TD", at, d.average, 10.0, d.speed_at(at),
-                      "heat and wear over an earthquake", clause)  # fmt: skip
-    for words, load in named[1:]:
-        yield PlannedTest(f"static, {words} load, D_TM", total, load, 1.0, d.demands.slow_speed,
-                          "carries its load at D_TM", clause)  # fmt: skip
+    yield from _increments(d, steps, clause)
+    yield _stable(d, "D_TM", d.result.total_displacement, clause)
+    yield _many(d, "D_TD", t.value("D_TD"), 10.0, clause)
+    yield from _static(d, clause)
 
 
 _TESTS_OF: dict[str, Callable[[_Design], Iterable[PlannedTest]]] = {
@@ -304,10 +313,8 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
                       "the interface holds again: loop as before", PROPOSAL)  # fmt: skip
 
 
-def _row(
-    kind: str, test: PlannedTest, design: _Design, bounds: PropertyBounds | None
-) -> dict[str, object]:
-    least, most = (_force(test, _at(design.bearing, end, bounds)) for end in ENDS)
+def _row(kind: str, test: PlannedTest, design: _Design) -> dict[str, object]:
+    least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {
         "bearings": kind, "what": test.name, "displacement [m]": test.displacement,
@@ -316,16 +323,6 @@ def _row(
         "shows": test.shows, "clause": test.clause,
         "standing": "a proposal" if test.clause == PROPOSAL else TO_BE_CONFIRMED,
     }  # fmt: skip
-
-
-def _at(
-    bearing: LIRBearing | FrictionPendulum, bound: BoundName, bounds: PropertyBounds | None
-) -> LIRBearing | FrictionPendulum:
-    if bounds is None:
-        return bearing
-    if isinstance(bearing, LIRBearing):
-        return bounded(bearing, bound, bounds)
-    return bounded(bearing, bound, bounds)
 
 
 def pressure_factor(bearing: LIRBearing | FrictionPendulum, load: float) -> float:
