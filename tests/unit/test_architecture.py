@@ -1,4 +1,4 @@
-"""How the packages are built: imports point one way, functions stay short, nothing is swallowed."""
+"""How the packages are built: imports point one way, functions stay short, kernels stay kernels."""
 
 import ast
 import functools
@@ -32,11 +32,8 @@ BUNDLES = {"lir_element.errors.RunStatus"} | {
     f"lir_element.bundles.contact_data.{name}" for name in ("BodyStep", "Contacts")
 }
 
-modules = pytest.mark.parametrize(
-    "path", MODULES, ids=[p.relative_to(ROOT).as_posix() for p in MODULES]
-)
 
-
+@functools.cache
 def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
@@ -81,11 +78,14 @@ def test_there_is_something_to_check() -> None:
     assert sum(is_kernel(f) for path in MODULES for f in functions(parse(path))) > 30
 
 
-@modules
-def test_imports_point_one_way(path: Path) -> None:
-    package = path.relative_to(ROOT).parts[0]
-    own = {name.split(".")[0] for name in imported(parse(path), package)} & set(PACKAGES)
-    assert own <= ALLOWED[package]
+def test_imports_point_one_way() -> None:
+    wrong = {}
+    for path in MODULES:
+        package = path.relative_to(ROOT).parts[0]
+        own = {name.split(".")[0] for name in imported(parse(path), package)} & set(PACKAGES)
+        if own - ALLOWED[package]:
+            wrong[path] = own - ALLOWED[package]
+    assert not wrong
 
 
 def dotted(path: Path) -> str:
@@ -156,11 +156,12 @@ def test_rooms_keep_their_direction() -> None:
 
 def at_runtime(path: Path) -> ast.Module:
     """Return the module without what only annotations need."""
-    tree = parse(path)
-    tree.body = [
-        n for n in tree.body if not (isinstance(n, ast.If) and "TYPE_CHECKING" in ast.dump(n.test))
+    body = [
+        n
+        for n in parse(path).body
+        if not (isinstance(n, ast.If) and "TYPE_CHECKING" in ast.dump(n.test))
     ]
-    return tree
+    return ast.Module(body, type_ignores=[])
 
 
 def needed_modules(path: Path) -> set[Path]:
@@ -207,63 +208,14 @@ def test_the_cache_depends_on_all_that_kernels_import() -> None:
     assert {*KERNELS, *needed} <= hashed
 
 
-@modules
-def test_functions_are_short(path: Path) -> None:
+def test_functions_are_short() -> None:
     """No function longer than 80 lines, its docstring aside."""
     lengths = {}
-    for f in functions(parse(path)):
-        first = f.body[1] if ast.get_docstring(f) and len(f.body) > 1 else f.body[0]
-        lengths[f.name] = (f.end_lineno or 0) - first.lineno + 1
+    for path in MODULES:
+        for f in functions(parse(path)):
+            first = f.body[1] if ast.get_docstring(f) and len(f.body) > 1 else f.body[0]
+            lengths[f"{dotted(path)}.{f.name}"] = (f.end_lineno or 0) - first.lineno + 1
     assert not {name: n for name, n in lengths.items() if n > LONGEST_FUNCTION}
-
-
-@modules
-def test_nothing_is_swallowed(path: Path) -> None:
-    """No bare except, none that catches everything, none whose body does nothing."""
-    for node in ast.walk(parse(path)):
-        if not isinstance(node, ast.ExceptHandler):
-            continue
-        where = f"line {node.lineno}"
-        assert node.type is not None, where
-        caught = {n.id for n in ast.walk(node.type) if isinstance(n, ast.Name)}
-        assert not caught & {"Exception", "BaseException"}, where
-        silent = all(
-            isinstance(n, (ast.Pass, ast.Continue))
-            or (isinstance(n, ast.Expr) and isinstance(n.value, ast.Constant))
-            for n in node.body
-        )
-        assert not silent, where
-
-
-@modules
-def test_no_mutable_defaults(path: Path) -> None:
-    for function in ast.walk(parse(path)):
-        if not isinstance(function, (ast.FunctionDef, ast.Lambda)):
-            continue
-        defaults = [*function.args.defaults, *function.args.kw_defaults]
-        mutable = (ast.List, ast.Dict, ast.Set, ast.ListComp, ast.DictComp, ast.SetComp, ast.Call)
-        assert not [d for d in defaults if isinstance(d, mutable)], function.lineno
-
-
-@modules
-def test_public_names_are_documented(path: Path) -> None:
-    tree = parse(path)
-    assert ast.get_docstring(tree), "the module"
-    scopes: list[ast.Module | ast.ClassDef] = [tree]
-    scopes += [n for n in tree.body if isinstance(n, ast.ClassDef) and not n.name.startswith("_")]
-    for scope in scopes:
-        for node in scope.body:
-            if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
-                assert ast.get_docstring(node), f"{node.name}, line {node.lineno}"
-
-
-@modules
-def test_everything_is_annotated(path: Path) -> None:
-    for function in functions(parse(path)):
-        arguments = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
-        bare = [a.arg for a in arguments if a.annotation is None and a.arg not in {"self", "cls"}]
-        assert not bare, f"{function.name}: {bare}"
-        assert function.returns is not None, function.name
 
 
 def test_all_public_names_come_from_the_package() -> None:
@@ -274,15 +226,15 @@ def test_all_public_names_come_from_the_package() -> None:
         assert getattr(lir_element, name).__doc__
 
 
-@modules
-def test_module_budget(path: Path) -> None:
+def test_module_budget() -> None:
     """A warning list, not a limit: a module far beyond the budget wants splitting."""
-    count = len(path.read_text(encoding="utf-8").splitlines())
-    if count > MODULE_BUDGET:
+    lines = {p: len(p.read_text(encoding="utf-8").splitlines()) for p in MODULES}
+    long = {dotted(path): count for path, count in lines.items() if count > MODULE_BUDGET}
+    if long:
         with warnings.catch_warnings():
             warnings.simplefilter("always")
-            warnings.warn(f"{path.name}: {count} lines, budget {MODULE_BUDGET}", stacklevel=1)
-    assert count <= 2 * MODULE_BUDGET
+            warnings.warn(f"modules over {MODULE_BUDGET} lines: {long}", stacklevel=1)
+    assert not {name: n for name, n in long.items() if n > 2 * MODULE_BUDGET}
 
 
 def test_equations_that_kernels_cite_are_in_the_theory() -> None:
