@@ -2,9 +2,10 @@
 
 numba's own cache does not notice an edit in a *callee* of another file, and where its folder cannot
 be written it takes another one, which the hash of the sources does not name. Here a kernel is kept
-under the hash of all sources that it may depend on, behind a checksum. Whatever goes wrong (no
-folder, no space, a damaged file, sources edited since) means compiling in memory, with one warning.
-What is not kept there may have come with the wheel (`_shipped`).
+under the hash of all sources that it may depend on (`_sources`), by its types with the names of
+their fields, behind a checksum. Whatever goes wrong (no folder, no space, a damaged file, sources
+edited since) means compiling in memory, with one warning. What is not kept there may have come with
+the wheel (`_shipped`).
 """
 
 from __future__ import annotations
@@ -24,15 +25,13 @@ import numba
 from numba.core.caching import NullCache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
+from numba.core.types.containers import BaseNamedTuple, BaseTuple
 
 from lir_element import _shipped
+from lir_element._sources import compiled_sources
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-COMPILED = ("**/kernels/**/*.py", "_jit.py", "_parts.py", "errors.py", "layout.py",
-            "kernel_data.py", "parts_layout.py", "bundles/*.py", "opensees/block/*.py")  # fmt: skip
-"""Patterns of the sources, in a package, that kernels consist of or import."""
 
 VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
 """What else the code depends on, beside the processor."""
@@ -48,11 +47,6 @@ taken: set[Path] = set()
 _parts: dict[Path, Any] = {}  # that this process took from files, so that each is there once
 
 
-def compiled_sources(folder: Path) -> list[Path]:
-    """Return the sources of the package in `folder` that compiled code depends on, sorted."""
-    return sorted({path for pattern in COMPILED for path in folder.glob(pattern)})
-
-
 def cache_folder() -> Path | None:
     """Return the folder of all caches: LIR_CACHE_DIR, or one at home; None without a home."""
     try:
@@ -61,6 +55,34 @@ def cache_folder() -> Path | None:
         return base.absolute()
     except (OSError, RuntimeError):  # no home, or a working directory that is gone
         return None
+
+
+def fields_of(signature: Any) -> tuple[tuple[str, ...], ...]:
+    """Return the names of the fields of all bundles in a signature, in the order of their places.
+
+    numba tells bundles apart by the name of their class and the types in it. A kernel has the
+    places of the fields in its code, and so is stale once two of one type change places. (Of a
+    record numba names fields and places itself.)
+
+    Parameters
+    ----------
+    signature : tuple of types, or Signature
+        Of a kernel.
+
+    Returns
+    -------
+    tuple of tuple of str
+        Names by bundle, those in bundles included.
+    """
+    found: list[tuple[str, ...]] = []
+    new = list(getattr(signature, "args", signature))[::-1]
+    while new:
+        kind = new.pop()
+        if isinstance(kind, BaseNamedTuple):
+            found.append((kind.instance_class.__qualname__, *kind.instance_class._fields))
+        if isinstance(kind, BaseTuple):
+            new += list(kind)[::-1]
+    return tuple(found)
 
 
 class Sources:
@@ -73,18 +95,18 @@ class Sources:
     """
 
     def __init__(self, *folders: Path) -> None:
-        self._paths = [(folder, path) for folder in folders for path in compiled_sources(folder)]
+        self.paths = compiled_sources(*folders)
         self._stamps = self._look()
         self.hash = self._digest()
         self._same = True
 
     def _look(self) -> list[tuple[int, int]]:
-        stats = [path.stat() for _, path in self._paths]
+        stats = [path.stat() for _, path in self.paths]
         return [(stat.st_mtime_ns, stat.st_size) for stat in stats]
 
     def _digest(self) -> str:
         digest = hashlib.sha256()
-        for folder, path in self._paths:
+        for folder, path in self.paths:
             digest.update(path.relative_to(folder).as_posix().encode())
             digest.update(path.read_bytes())
         return digest.hexdigest()[:16]
@@ -225,7 +247,7 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         return None if folder is None else str(folder)
 
     def _key(self, signature: Any, processor: Any) -> tuple[Any, ...]:
-        key = (self._name, signature, processor, VERSIONS)
+        key = (self._name, signature, fields_of(signature), processor, VERSIONS)
         return (*key, "part") if self.as_part else key
 
     def _path(self, key: tuple[Any, ...], folder: Path | None) -> Path | None:

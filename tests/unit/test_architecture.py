@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import lir_element
-from lir_element._cache import compiled_sources
+from lir_element._sources import compiled_sources
 
 ROOT = Path(lir_element.__file__).parents[1]
 PACKAGES = ("lir_element", "frames", "validation")
@@ -203,9 +203,36 @@ def test_every_kernel_is_in_a_room_of_kernels() -> None:
 
 
 def test_the_cache_depends_on_all_that_kernels_import() -> None:
-    hashed = {p for name in PACKAGES[:2] for p in compiled_sources(ROOT / name)}
-    needed = {needed for path in KERNELS for needed in needed_modules(path)}
-    assert {*KERNELS, *needed} <= hashed
+    hashed = {path for _, path in compiled_sources(*(ROOT / name for name in PACKAGES[:2]))}
+    named = {FILES[name] for path in KERNELS for name in targets(path)}  # by annotations, too
+    assert {*KERNELS, *named} <= hashed
+
+
+def at_import(tree: ast.AST) -> set[str]:
+    """Return the names that a module looks up while it is imported: not in bodies of functions."""
+    if isinstance(tree, ast.Name):
+        return {tree.id}
+    skipped = {"body"} if isinstance(tree, ast.FunctionDef | ast.Lambda) else set()
+    skipped |= {"annotation", "returns"}  # of which Python makes text
+    parts = [part for field, part in ast.iter_fields(tree) if field not in skipped]
+    each = [n for part in parts for n in (part if isinstance(part, list) else [part])]
+    return {name for n in each if isinstance(n, ast.AST) for name in at_import(n)}
+
+
+def test_the_cache_depends_on_what_constants_of_kernels_are_made_from() -> None:
+    hashed = {path for _, path in compiled_sources(*(ROOT / name for name in PACKAGES[:2]))}
+    makers = {ROOT / name / f"{part}.py" for name in PACKAGES[:2] for part in ("_jit", "_parts")}
+    for path in hashed - set(KERNELS) - makers:
+        tree = at_runtime(path)
+        used = at_import(tree)
+        names = {n for n in imported(tree, "") if n.rsplit(".", 1)[-1] in used}
+        needed = {FILES[m] for n in names for m in (n, n.rpartition(".")[0]) if m in FILES}
+        assert needed - {ROOT / name / "__init__.py" for name in PACKAGES} <= hashed, path
+
+
+def test_names_that_a_module_looks_up_while_it_is_imported_are_found() -> None:
+    text = "class A(B):\n    x: C = D\n@e\ndef f(g: H = I) -> J:\n    return K\nL = m(n.o)"
+    assert at_import(ast.parse(text)) == {"B", "D", "e", "I", "L", "m", "n", "x"}
 
 
 def test_functions_are_short() -> None:

@@ -2,19 +2,24 @@
 
 import importlib
 import os
+import shutil
 import subprocess  # what a new process does  # noqa: S404
 import sys
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 from numba.core.dispatcher import Dispatcher
 
 import lir_element
+from frames.kernel_data import ENERGY_TERMS
 from lir_element import _cache
 from lir_element._jit import kernels_of
+from lir_element._sources import compiled_sources
 
 pytestmark = pytest.mark.skipif(
     not isinstance(importlib.import_module("lir_element.kernels.rotation").rotate, Dispatcher),
@@ -87,6 +92,67 @@ def test_an_edit_during_the_process_is_not_mixed_in(package: Path) -> None:
     assert names["use"](1.0) == 5.0
     write(package, 2.0)
     assert start(package)(1.0) == 3.0  # what was compiled in between was not kept
+
+
+BUNDLE = "class Bundle(NamedTuple):\n    {}: float\n    {}: float\n"
+HELD = "class Held(NamedTuple):\n    inner: Bundle\n"
+INNER = "@kernel\ndef inner(held):\n    return held.inner.right - held.inner.left\n"
+OUTER = "@kernel\ndef outer(held):\n    return 2.0 * inner(held)\n"
+ORDERS = ((("left", "right"), 1), (("left", "right"), 0), (("right", "left"), 1),
+          (("left", "right"), 0))  # fmt: skip
+
+
+@pytest.mark.parametrize(("called", "factor"), [("inner", 1.0), ("outer", 2.0)])
+def test_fields_that_change_places_compile_a_kernel_anew(
+    package: Path, monkeypatch: pytest.MonkeyPatch, called: str, factor: float
+) -> None:
+    for fields, compiled in ORDERS:
+        module = ModuleType("package")  # whose classes are in no source that is hashed
+        monkeypatch.setitem(sys.modules, "package", module)
+        monkeypatch.setattr(_cache, "_parts", {})
+        names = vars(module)
+        names |= {"kernel": kernels_of(_cache.Sources(package)), "NamedTuple": NamedTuple}
+        for text in (INNER, OUTER, BUNDLE.format(*fields), HELD):
+            exec(text, names)  # noqa: S102
+        bundle = names["Bundle"](**{"left": 1.0, "right": 4.0})
+        assert names[called](names["Held"](bundle)) == 3.0 * factor
+        assert compilations(names[called]) == compiled
+
+
+def test_fields_of_a_record_that_change_places_compile_a_kernel_anew(package: Path) -> None:
+    for fields, compiled in ORDERS:
+        names: dict[str, Any] = {"kernel": kernels_of(_cache.Sources(package)), "__name__": "p"}
+        exec("@kernel\ndef of(r):\n    return r[0].right - r[0].left\n", names)  # noqa: S102
+        records = np.zeros(1, dtype=[(name, np.float64) for name in fields])
+        records["left"], records["right"] = 1.0, 4.0
+        assert names["of"](records) == 3.0
+        assert compilations(names["of"]) == compiled
+
+
+LINES = {
+    "kernels/law.py": (
+        "from package.a import f as g, h", "from other.x import X", "import package.e",
+        "if TYPE_CHECKING:", "    from package.bundle import (", "        Bundle,  # of", "    )",
+    ),
+    "a.py": ("from package.b import LEAST", "from package.c import make", "from .room import d"),
+    "b.py": ("from package import room",),
+    "bundle.py": ("if TYPE_CHECKING:", "    from package.f import F", "", "from .room.g import G"),
+}  # fmt: skip
+
+
+def test_sources_are_found_by_what_kernels_import(tmp_path: Path) -> None:
+    names = "_jit.py c.py e.py f.py h.py room/__init__.py room/d.py room/g.py"
+    empty = dict.fromkeys(names.split(), "")
+    texts = empty | {name: "\n".join(lines) for name, lines in LINES.items()}
+    folder = tmp_path / "package"
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    found = [path.relative_to(folder).as_posix() for _, path in compiled_sources(folder)]
+    assert found == [
+        "_jit.py", "a.py", "b.py", "bundle.py", "e.py", "kernels/law.py",
+        "room/__init__.py", "room/d.py", "room/g.py",
+    ]  # fmt: skip
 
 
 def as_a_file(cache: Path, _: pytest.MonkeyPatch) -> None:
@@ -184,10 +250,12 @@ def test_a_missing_file_is_compiled_without_a_word(package: Path) -> None:
     assert len(kept(package)) == 1
 
 
-def run(code: str, **environment: str) -> "subprocess.CompletedProcess[str]":
-    env = {**os.environ, "PYTHONPATH": str(ROOT), **environment}
+def run(code: str, root: Path = ROOT, **environment: str) -> "subprocess.CompletedProcess[str]":
+    env = {**os.environ, "PYTHONPATH": str(root), **environment}
     command = [sys.executable, "-c", code]
-    return subprocess.run(command, env=env, capture_output=True, text=True, check=True)  # noqa: S603
+    return subprocess.run(  # noqa: S603
+        command, env=env, cwd=root, capture_output=True, text=True, check=True
+    )
 
 
 KERNEL = "from lir_element.kernels.rotation import coefficients; print(coefficients(1.0)[0])"
@@ -201,6 +269,38 @@ def test_a_limit_on_files_ends_nothing(tmp_path: Path) -> None:
     assert "File too large" in done.stderr
     assert done.stderr.count("Set LIR_CACHE_DIR to a folder") == 1
     assert not [p for p in tmp_path.rglob("*") if p.is_file()]
+
+
+PEAKS = """
+import numpy as np
+from frames.kernels.peaking import peak_energy
+from frames.peak_data import Reached
+flat = {"storey", "shear", "line", "total", "last", "axis", "whole"}
+names = [name.removesuffix("_at") for name in Reached._fields]
+sizes = [5 if name in flat else (1, 5) for name in names]
+reached = Reached(*map(np.zeros, sizes))
+peak_energy(reached, 2.0 ** np.arange(TERMS), 0.5)
+print(*reached.whole, *reached.total, sum(peak_energy.stats.cache_misses.values()))
+"""
+
+
+def test_swapped_fields_of_the_peaks_bundle_are_noticed_with_a_warm_cache(tmp_path: Path) -> None:
+    for name in ("lir_element", "frames"):
+        skipped = shutil.ignore_patterns("__pycache__", "_kernels")
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=skipped)
+    code = PEAKS.replace("TERMS", str(len(ENERGY_TERMS)))
+    cache = str(tmp_path / "cache")
+    *right, first = run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split()
+    assert float(right[1]) > 0.0
+    assert first == "1"
+    assert run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split() == [*right, "0"]
+    source = tmp_path / "frames" / "peak_data.py"
+    text = source.read_text(encoding="utf-8")
+    whole, total = "    whole: Array ", "    total: Array "
+    swapped = text.replace(whole, "    ?").replace(total, whole).replace("    ?", total)
+    assert swapped != text
+    source.write_text(swapped, encoding="utf-8")
+    assert run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split() == [*right, "1"]
 
 
 def test_importing_needs_no_cache(tmp_path: Path) -> None:

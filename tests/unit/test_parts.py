@@ -148,6 +148,28 @@ def test_with_a_numba_that_is_not_known_kernels_compile_the_ordinary_way(tmp_pat
     assert run(usual, tmp_path) == [bits, "1"]
 
 
+RIG = """
+import numba
+numba.__version__ = {version}
+from lir_element import CoulombFriction, LIRBearing, _jit, cyclic_test
+assert _jit.WITH_PARTS == {parts}
+bearing = LIRBearing(radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+                     friction=CoulombFriction(0.05), interface_friction=0.12)
+data = cyclic_test(bearing, [0.05, -0.22], 1e5)
+print(*(data[name].to_numpy().tobytes().hex() for name in ("bearing_force", "interface_slip")))
+print(float(data["interface_slip_size"].max()))
+"""
+
+
+@PARTS
+@pytest.mark.slow
+def test_a_rig_gives_the_same_with_and_without_parts(tmp_path: Path) -> None:
+    kept = _cache.cache_folder()
+    usual = run(RIG.format(version="numba.__version__", parts=True), kept or tmp_path)
+    assert float(usual[-1]) > 1e-3  # rims and interface are met on the way
+    assert run(RIG.format(version='"0.67.0"', parts=False), tmp_path / "ordinary") == usual
+
+
 FIRST = """
 from frames.ahead import USUAL
 import warnings
