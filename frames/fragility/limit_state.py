@@ -111,12 +111,12 @@ class LimitState:
 
     @staticmethod
     def drift(limit: float) -> LimitState:
-        """Return a storey drift ratio above `limit` [-]."""
+        """Return a storey drift ratio above `limit` [-]: mean of the storey, size in plan."""
         return LimitState(f"storey drift {100 * limit:g} %", "storey drift, mean", _above_0(limit))
 
     @staticmethod
     def floor_acceleration(limit: float) -> LimitState:
-        """Return a floor acceleration in plan above `limit` [m/s2]."""
+        """Return a floor acceleration above `limit` [m/s2]: mean of the level, size in plan."""
         name = f"floor acceleration {limit / STANDARD_GRAVITY:.3g} g"
         return LimitState(name, "floor acceleration in plan, mean", _above_0(limit))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -10,20 +11,18 @@ from matplotlib.patches import Patch
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.results.measures import (
-    drift_by_line,
-    floor_acceleration,
-    spectra_of,
-    storey_drift,
-)
+from frames.results.measures import floor_acceleration, spectra_of
+from frames.results.reached import QUANTITIES, extreme_of, largest, storeys_of_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from frames._types import FloatArray
 
 ENERGY_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "low friction, bottom": (("low_friction_bottom",), "#0072B2", ""),
@@ -71,9 +70,10 @@ def storey_profiles(
     Returns
     -------
     Figure
-        Left the drift of each storey, the larger of x and y [%]; right the total horizontal
-        acceleration of each level, its largest size in plan [m/s2]: lines are those of the mean
-        of a level's nodes, rings those of its worst corner.
+        Left the drift of each storey [%], right the total horizontal acceleration of each level
+        [m/s2]: both the largest size of the vector in plan, as in `peaks`. Lines are those of the
+        mean of a level's nodes, rings those of its worst line or corner. Without a window of
+        time: of all steps of the run, also of those that its recording leaves out.
 
     Raises
     ------
@@ -86,18 +86,17 @@ def storey_profiles(
     for k, data in enumerate(found.values()):
         pick.need(data, ("node_displacement", "level_height"), "profiles need a frame's levels")
         z = data["level_height"].to_numpy()
-        drift = 100.0 * np.abs(storey_drift(data).to_numpy()).max(axis=(0, 2))
-        left.stairs(drift, z, orientation="horizontal", baseline=None, **ps.line_of(k, 0.6))
-        floors = floor_acceleration(data).sel(axis=list(ps.PLANE)).to_numpy()
-        peaks = np.linalg.norm(floors, axis=-1).max(axis=0)
-        right.plot(peaks, z, marker="os^Dvp"[k], markersize=6.0 - 1.5 * k if k < 3 else 2.0,
-                   **ps.line_of(k))  # fmt: skip
-        _corners(left, right, data, k)
+        of = partial(_peaks, data, whole=start is None and end is None)
+        left.stairs(100.0 * of("drift"), z, orientation="horizontal", baseline=None,
+                    **ps.line_of(k, 0.6))  # fmt: skip
+        right.plot(of("floor_plan"), z, marker="os^Dvp"[k],
+                   markersize=6.0 - 1.5 * k if k < 3 else 2.0, **ps.line_of(k))  # fmt: skip
+        _corners(left, right, data, k, of)
     first = next(iter(found.values()))
     names = [str(name) for name in first["level"].to_numpy()]
     left.set_yticks(first["level_height"].to_numpy(), names)
-    ps.caption(left, x="peak storey drift [%]", title="Storey drift")
-    ps.caption(right, x="peak total acceleration in plan [m/s²]", title="Floor acceleration")
+    ps.caption(left, x="peak drift, resultant in plan [%]", title="Storey drift")
+    ps.caption(right, x="peak total, resultant in plan [m/s²]", title="Floor acceleration")
     left.set_xlim(0.0, 1.06 * left.dataLim.x1)
     right.set_xlim(0.0, 1.06 * right.dataLim.x1)
     ring = Line2D([], [], color=ps.GREY, linestyle="", label="worst corner", **_RING)
@@ -166,20 +165,27 @@ def floor_spectra(
     return figure
 
 
-def _corners(left: Axes, right: Axes, data: xr.Dataset, place: int) -> None:
+def _peaks(data: xr.Dataset, name: str, *, whole: bool) -> FloatArray:
+    # What was reached of a quantity in the whole run, or in the window that `data` is.
+    if whole:
+        return largest(data, name).values
+    return extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy()).values
+
+
+def _corners(
+    left: Axes, right: Axes, data: xr.Dataset, place: int, of: Callable[[str], FloatArray]
+) -> None:
     # The worst line of nodes in each storey, the worst node of each level.
     if "node_position" not in data:
         return  # a file of an earlier version
     z, levels = data["level_height"].to_numpy(), data["level"].to_numpy()
-    lines = drift_by_line(data)
-    each = 100.0 * np.abs(lines.to_numpy()).max(axis=(0, 2), initial=0.0)
-    own = [each[lines["storey"].to_numpy() == name] for name in levels[1:]]
+    storeys = np.array(storeys_of_lines(data)[1])
+    each = 100.0 * of("line_drift") if len(storeys) else np.zeros(0)
+    own = [each[storeys == name] for name in levels[1:]]
     style: dict[str, Any] = {"color": ps.line_of(place)["color"], "linestyle": "", **_RING}
     drifts = [sizes.max() if len(sizes) else np.nan for sizes in own]
     left.plot(drifts, 0.5 * (z[1:] + z[:-1]), **style)
-    on = data["level_node"].to_numpy()
-    moves = data["node_acceleration"].sel(dof=["ux", "uy"]).to_numpy()
-    peaks = np.linalg.norm(moves, axis=-1).max(axis=0)
+    on, peaks = data["level_node"].to_numpy(), of("node_plan")
     right.plot([peaks[on == k].max() for k in range(len(levels))], z, **style)
 
 

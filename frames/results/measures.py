@@ -65,7 +65,8 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     -------
     xarray.DataArray
         Drift ratio (time, storey, axis x and y) [-]: the mean displacement of a level's nodes
-        against that of the level below, over the storey height.
+        against that of the level below, over the storey height. These are components; "storey
+        drift" of `peaks`, of checks and of figures is the size of the vector of both.
 
     Raises
     ------

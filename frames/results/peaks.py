@@ -52,8 +52,9 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a quantity with the columns value, unit (SI), time [s] and where. Displacements,
-        drifts, forces and accelerations in plan are sizes of vectors. What a run that stopped
-        before its end would have left is NaN.
+        drifts, forces and accelerations in plan are sizes of vectors, of both horizontal
+        components at one instant: at most sqrt(2) times the larger of both peaks. What a run that
+        stopped before its end would have left is NaN.
     """
     return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
 

@@ -105,7 +105,8 @@ def left(data: xr.Dataset, name: str) -> FloatArray:
 
 def remaining(data: xr.Dataset, name: str) -> FloatArray:
     """Return the same of a run that went to its end; NaN of one that stopped before."""
-    return left(data, name) * (math.nan if "failed_at" in data.attrs else 1.0)
+    ended = data.attrs["status"] == "ok"  # one that was interrupted has no time of failure
+    return left(data, name) * (1.0 if ended else math.nan)
 
 
 def computed_until(data: xr.Dataset) -> float:

@@ -8,11 +8,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from frames.results.auditing import doubts_of
-from frames.results.kept import require_steps
-from frames.results.measures import energy_error, floor_acceleration, storey_drift
+from frames.results.peaks import peaks_of
 from frames.results.storage import save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY
 
@@ -25,53 +22,46 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the summary: its text, the factor from SI, the format, and the SI name."""
+    """One line: its text, the factor from SI, the format, the SI name, the quantity of `peaks`."""
 
     text: str
     factor: float
     form: str
     name: str
+    quantity: str
 
 
+_FLOORS = "floor acceleration in plan, mean"
 ROWS = (
-    Row("peak bearing displacement [mm]", 1e3, ".0f", "peak_bearing_displacement_m"),
-    Row("peak base shear / weight [-]", 1.0, ".3f", "peak_base_shear_over_weight"),
-    Row("peak storey drift [%]", 1e2, ".3f", "peak_storey_drift"),
-    Row("peak floor acceleration in plan [m/s2]", 1.0, ".2f", "peak_floor_acceleration_m_s2"),
-    Row("peak floor acceleration in plan [g]", 1.0 / STANDARD_GRAVITY, ".2f", ""),
-    Row("largest interface slip [mm]", 1e3, ".1f", "largest_interface_slip_m"),
-    Row("largest rim force [kN]", 1e-3, ".0f", "largest_rim_force_N"),
-    Row("largest axial force [kN]", 1e-3, ".0f", "largest_axial_force_N"),
-    Row("smallest axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N"),
-    Row("residual displacement [mm]", 1e3, ".1f", "residual_displacement_m"),
-    Row("residual interface slip [mm]", 1e3, ".1f", "residual_interface_slip_m"),
-    Row("energy ledger: error / input [-]", 1.0, ".1e", "energy_error"),
-    Row("run time, time loop [s]", 1.0, ".2f", "run_time_s"),
-)
+    Row("peak bearing displacement in plan [mm]", 1e3, ".0f", "peak_bearing_displacement_m",
+        "bearing displacement"),
+    Row("peak base shear in plan / weight [-]", 1.0, ".3f", "peak_base_shear_over_weight",
+        "base shear over weight"),
+    Row("peak storey drift in plan, mean [%]", 1e2, ".3f", "peak_storey_drift",
+        "storey drift, mean"),
+    Row("peak floor acceleration in plan, mean [m/s2]", 1.0, ".2f", "peak_floor_acceleration_m_s2",
+        _FLOORS),
+    Row("peak floor acceleration in plan, mean [g]", 1.0 / STANDARD_GRAVITY, ".2f", "", _FLOORS),
+    Row("largest interface slip [mm]", 1e3, ".1f", "largest_interface_slip_m", "interface slip"),
+    Row("largest rim force [kN]", 1e-3, ".0f", "largest_rim_force_N", "rim force"),
+    Row("largest axial force [kN]", 1e-3, ".0f", "largest_axial_force_N", "axial force"),
+    Row("smallest axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N", "least axial force"),
+    Row("residual displacement in plan [mm]", 1e3, ".1f", "residual_displacement_m",
+        "bearing displacement left"),
+    Row("residual interface slip [mm]", 1e3, ".1f", "residual_interface_slip_m",
+        "interface slip left"),
+    Row("energy ledger: error / input [-]", 1.0, ".1e", "energy_error",
+        "energy ledger: error over input"),
+    Row("run time, time loop [s]", 1.0, ".2f", "run_time_s", "seconds of the time loop"),
+)  # fmt: skip
+"""In plan: the size of the vector of both horizontal components, at one instant. Mean: of the nodes
+of a level."""
 
 
 def summary_of(data: xr.Dataset) -> dict[str, float]:
-    """Return the numbers of the summary by SI name (`ROWS`), from one result."""
-    require_steps(data, "the summary")
-    u = np.linalg.norm(data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
-    shear = np.linalg.norm(data["base_shear"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
-    floors = np.linalg.norm(floor_acceleration(data).sel(axis=["x", "y"]).to_numpy(), axis=-1)
-    slip = data["interface_slip_size"]
-    has_ended = 1.0 if data.attrs["status"] == "ok" else math.nan  # a run that stopped has no rest
-    return {
-        "peak_bearing_displacement_m": float(u.max()),
-        "peak_base_shear_over_weight": float(shear.max()) / float(data["weight"]),
-        "peak_storey_drift": float(np.abs(storey_drift(data)).max()),
-        "peak_floor_acceleration_m_s2": float(floors.max()),
-        "largest_interface_slip_m": float(slip.max()),
-        "largest_rim_force_N": float(data["rim_force"].max()),
-        "largest_axial_force_N": float(data["axial_force"].max()),
-        "smallest_axial_force_N": float(data["axial_force"].min()),
-        "residual_displacement_m": has_ended * float(u[-1].max()),
-        "residual_interface_slip_m": has_ended * float(slip.isel(time=-1).max()),
-        "energy_error": energy_error(data),
-        "run_time_s": float(data.attrs["seconds_loop"]),
-    }
+    """Return the numbers of the summary by SI name (`ROWS`), from one result: those of `peaks`."""
+    found = {peak.quantity: peak.value for peak in peaks_of(data)}
+    return {row.name: found.get(row.quantity, math.nan) for row in ROWS if row.name}
 
 
 def table_of(results: Mapping[str, xr.Dataset]) -> str:
