@@ -106,6 +106,11 @@ ATTRIBUTES = {
     "lir_dcfp_version": 'installed version; "unknown" where the packages are not installed',
     "message": '"completed", or what happened, when, where, and what to try',
     "failed_at": "time of the failure [s]; only of a run that failed",
+    "exceeded": "`slip` or `rim_force` where a bearing passed its limit at the step that ended the "
+    "run, which is in no history; only of such a run",
+    "exceeded_value": "what it reached at that step [m, N]: `peaks` count it",
+    "exceeded_at": "time of that step [s]",
+    "exceeded_bearing": "name of that bearing",
     "failed_where": "bearing or degree of freedom concerned; only of a run that failed",
 }
 

@@ -112,7 +112,9 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of the run. Gets the attribute `audit` and those of `judged`.
+        What the audit reads of the run. Gets the attribute `audit`, those of `judged`, and, where
+        a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
+        ``exceeded_at`` and ``exceeded_bearing``.
     state : GravityState
         The state it left.
     end : tuple
@@ -124,12 +126,31 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
         How it ended, and where it failed if it did.
     """
     status, detail = end
+    data.attrs |= _exceeded(state, status)
     data.attrs["audit"] = audit_report(data)
     name = state.system.bearings[int(state.run.counts["bearing"][0])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = judged(data)
     return Outcome(status, float(state.run.clock["time"][0]), where, detail)
+
+
+def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
+    # What a bearing reached at the step that its limit ended: that step is in no history.
+    k, run = int(state.run.counts["bearing"][0]), state.run
+    if int(run.new["status"][k]) != status:
+        return {}  # found otherwise, and not by a step in equilibrium
+    values = {
+        RunStatus.SLIP_EXCEEDED: ("slip", np.hypot(*run.new["slip"][k])),
+        RunStatus.RIM_OVERRUN: ("rim_force", run.new["rim_force"][k].max()),
+    }
+    if status not in values:
+        return {}
+    name, value = values[status]
+    return {
+        "exceeded": name, "exceeded_value": float(value),
+        "exceeded_at": float(run.clock["time"][0]), "exceeded_bearing": state.system.bearings[k][0],
+    }  # fmt: skip
 
 
 def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:

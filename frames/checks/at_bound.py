@@ -37,6 +37,10 @@ if TYPE_CHECKING:
     from frames.checks.suite import Suite
     from frames.frame import Frame
 
+_DRIFTS = {
+    "drift": "mean of the storey, size in plan",
+    "line_drift": "line of nodes over one another, size in plan",
+}
 _LEAST = "least one, of the equivalent-linear analysis"
 
 
@@ -137,8 +141,8 @@ class AtBound:
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
-        if self.rules.engagement is None or not moved or not math.isfinite(moved[0].demand):
-            return []
+        if self.rules.engagement is None or not moved or moved[0].void:
+            return []  # the check of the displacement tells why
         bearing = self.frame.bearings[moved[0].subject].bearing
         least, of = self.rules.engagement, {self.bound: moved[0].demand}
         found = engagement_checks(bearing, of, least=least)
@@ -147,17 +151,19 @@ class AtBound:
     def _uplift(self) -> list[Check]:
         found = []
         if not self.rules.uplift_allowed:
-            t = Trace()
+            t, gap = Trace(), f"{1e3 * self.rules.least_gap:g} mm"
             lasts = np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf)
             open_ = parted(self.data, self.rules.least_gap) | np.isinf(lasts)
             longest = float(np.where(open_, lasts, 0.0).max())
-            note = f"longest of a bearing in a run, of gaps above {1e3 * self.rules.least_gap:g} mm"
-            t.given("t_up", longest, "s", note=note)
+            t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
-            judge = Judge(t, self.bound)
-            clause = self._clause(self.rules.force_clause)
-            said = self._small_gaps
-            found.append(judge(clause, "time lifted off", "t_up", "<=", "t_allowed", note=said))
+            stopped = bool((self.data["status"].to_numpy() != "ok").any())
+            judge = Judge(t, self.bound, void=self._suite.void if stopped else "")
+            clause, title = self._clause(self.rules.force_clause), f"time lifted off by over {gap}"
+            said = "; ".join(
+                part for part in (self._suite.void if stopped else "", self._small_gaps) if part
+            )
+            found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=said))
         if self.limits.uplift_gap is not None:
             found += self._worst(
                 "", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap, shown="mm"
@@ -174,7 +180,7 @@ class AtBound:
             self._suite.enter(t, "V", values, "N")
             if least > 0.0:
                 t.given("V_least", least, "N", note=_LEAST)
-                self._suite.form(t, "V_d", "max(V, V_least)", "N")
+                self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
             return t
 
         clause, symbol = self.rules.force_clause, "V_d" if least > 0.0 else "V"
@@ -188,18 +194,15 @@ class AtBound:
             msg = "runs have no storey shears (reached_storey_shear): compute them anew"
             raise CheckError(msg)
         known, t = self.equivalent.bounds[self.bound].trace, Trace()
-        if self._suite.is_usable:
-            self._suite.enter(t, "V_st", reached(self.data, "storey_shear")[:, 0], "N")
-            t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
-            t("V_run", "V_st / R_I", "N")
-        else:  # no value: none is above the least one
-            t.given("V_run", 0.0, "N", note=self._suite.reason)
+        self._suite.enter(t, "V_st", reached(self.data, "storey_shear")[:, 0], "N")
+        t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
+        self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
         t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
         t.given("a_dyn", known.value("a_dyn"), source="ASCE 7-22 17.6.4")
         t("V_least", "a_dyn * V_s", "N")
         more = "where it fails, forces above the isolation count times the ratio"
         return [
-            Judge(t, self.bound).worst(
+            Judge(t, self.bound, void=self._suite.void).worst(
                 self._clause(self.rules.force_clause), "storey shear of time histories", "V_run",
                 ">=", "V_least", subjects=(self.frame.levels[1].name,),
                 note="; ".join(part for part in (self._note, more) if part),
@@ -218,16 +221,18 @@ class AtBound:
             if least > 0.0:
                 self._suite.enter(t, "V", shear, "N")
                 t.given("V_least", least, "N", note=_LEAST)
-                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%")
+                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%", of="theta")
             return t
 
         clause, title = self.rules.drift_clause, "storey drift ratio"
         symbol = "theta_d" if least > 0.0 else "theta"
         found: list[Check] = []
-        for name in ("drift", "line_drift"):
+        for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:
-                found += self._worst(clause, title, name, symbol, "-", limit, shown="%", fill=fill)
-        return [max(found, key=lambda check: check.ratio)] if found else []
+                found += self._worst(
+                    clause, title, name, symbol, "-", limit, shown="%", fill=fill, of=of
+                )
+        return [max(found, key=lambda check: check.compared)] if found else []
 
     def _acceleration(self) -> list[Check]:
         limit = self.limits.floor_acceleration
@@ -247,8 +252,10 @@ class AtBound:
         *,
         shown: str = "",
         fill: Callable[[FloatArray], Trace] | None = None,
+        of: str = "",
     ) -> list[Check]:
-        # The worst of what a quantity is reached by.
+        # The worst of what a quantity is reached by; `of`: which of several it is, in words.
+        note = "; ".join(part for part in (of, self._note) if part)
         values = reached(self.data, name)
         values = values.reshape(len(values), -1)
         each = {}
@@ -260,7 +267,7 @@ class AtBound:
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else "no code: limit as given"
         standing = TO_BE_CONFIRMED if clause else CONFIRMED
-        return WorstOf(self.bound, standing, self._note)(where, title, each)
+        return WorstOf(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:
         # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.

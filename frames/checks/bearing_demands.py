@@ -132,7 +132,7 @@ class BearingDemands:
                 formula = f"max({formula}, D_least)"
             if formula == "D":
                 return Calculation(t, "D", "U_max")
-            self.suite.form(t, "D_d", formula, "m", "mm")
+            self.suite.form(t, "D_d", formula, "m", "mm", of="D")
             return Calculation(t, "D_d", "U_max")
 
         places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
@@ -261,7 +261,7 @@ class BearingDemands:
     ) -> list[Check]:
         words = "; ".join(part for part in (note, self.note) if part)
         places_of = {self._names[k]: k for k in places}
-        judge = WorstOf(self.bound, standing, words)
+        judge = WorstOf(self.bound, standing, words, self.suite.void)
         return judge(clause, title, {name: fill(k) for name, k in places_of.items()})
 
     def _at(self, k: int) -> LIRBearing:

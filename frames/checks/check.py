@@ -54,6 +54,9 @@ class Check:
         What else a reader should know.
     shown : str
         Unit to show it in; kN for forces, otherwise `unit`.
+    void : str
+        Why the demand is no value for design, as after runs that failed: the check then fails,
+        whatever demand and limit are. The demand is what was reached.
     scope : {"any", "demand", "procedure"}
         What it holds for: any analysis; a demand that a time history finds anew; or the
         equivalent-linear procedure, which does not hold where it fails. Not in tables.
@@ -84,6 +87,7 @@ class Check:
     subject: str = ""
     note: str = ""
     shown: str = ""
+    void: str = ""
     scope: Scope = "any"
 
     def __post_init__(self) -> None:
@@ -115,8 +119,14 @@ class Check:
         """Utilisation [-]: at most 1 where the check passes, whichever the relation.
 
         Of the two sides, the one that must be smaller over the other; 0 where a side that must
-        be at least 0 or less is beyond that, infinite where no factor would help.
+        be at least 0 or less is beyond that, infinite where no factor would help, and of a check
+        that is `void`.
         """
+        return math.inf if self.void else self.compared
+
+    @property
+    def compared(self) -> float:
+        """The ratio of demand and limit alone, also of a check that is `void` [-]."""
         below, above = self.demand, self.limit
         if self.relation == ">=":
             below, above = above, below
@@ -137,15 +147,23 @@ class Check:
         return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
 
     @property
+    def said(self) -> tuple[str, str, str]:
+        """Demand, limit and ratio as tables show them."""
+        demand = quantity(self.demand, self.unit, self.shown)
+        limit = quantity(self.limit, self.unit, self.shown)
+        if self.void:
+            return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
+        return demand, limit, f"{self.ratio:.3f}"
+
+    @property
     def statement(self) -> str:
         """What is checked, with its numbers, on one line."""
         where = ", ".join(part for part in (self.subject, self.bound) if part)
-        demand = quantity(self.demand, self.unit, self.shown)
-        limit = quantity(self.limit, self.unit, self.shown)
-        return (
-            f"{self.title}{f' ({where})' if where else ''}: {demand} {self.relation} {limit}, "
-            f"ratio {self.ratio:.3g}"
-        )
+        demand, limit, _ = self.said
+        title = f"{self.title}{f' ({where})' if where else ''}"
+        if self.void:
+            return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
+        return f"{title}: {demand} {self.relation} {limit}, ratio {self.ratio:.3g}"
 
     def __str__(self) -> str:
         """Return the check on one line."""
@@ -245,10 +263,9 @@ class Checks(Sequence[Check]):
                 c.title,
                 c.subject,
                 c.bound,
-                quantity(c.demand, c.unit, c.shown),
-                c.relation,
-                quantity(c.limit, c.unit, c.shown),
-                f"{c.ratio:.3f}",
+                c.said[0],
+                "" if c.void else c.relation,
+                *c.said[1:],
                 "ok" if c.passed else "FAILS",
                 c.cited,
             )

@@ -119,12 +119,15 @@ class Judge:
         Of its checks.
     scope : {"any", "demand", "procedure"}
         Of its checks.
+    void : str
+        Why its demands are no values for design.
     """
 
     t: Trace
     bound: Bound
     standing: str = TO_BE_CONFIRMED
     scope: Scope = "any"
+    void: str = ""
 
     def of(self, scope: Scope) -> Judge:
         """Return one that makes checks of this scope."""
@@ -181,5 +184,5 @@ class Judge:
             clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
             unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
             trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
-            note=note, scope=self.scope,
+            note=note, scope=self.scope, void=self.void,
         )  # fmt: skip

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -16,9 +14,9 @@ from frames.analysis.cases import named_motions
 from frames.checks.at_bound import AtBound
 from frames.checks.bounds import BoundName, PropertyBounds, bounded
 from frames.checks.check import Bound, Check, Checks
+from frames.checks.demand_table import demand_table
 from frames.checks.history_rules import HISTORY_RULES, HistoryRules
 from frames.checks.limits import DesignLimits
-from frames.checks.suite import names_of, reached, suite_of
 from lir_element.door import require_choice
 
 if TYPE_CHECKING:
@@ -31,24 +29,6 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 _BOUNDS: tuple[BoundName, ...] = ("lower", "nominal", "upper")
-_COUNTED = frozenset({"uplifts", "time_lifted", "gap"})  # the largest counts, never a mean
-_TABLE = (
-    ("isolator displacement", "displacement", "m", 1.0),
-    ("displacement left", "displacement_left", "m", 1.0),
-    ("interface slip", "slip", "m", 1.0),
-    ("interface slip left", "slip_left", "m", 1.0),
-    ("rim force", "rim_force", "N", 1.0),
-    ("largest axial force", "axial_force", "N", 1.0),
-    ("least axial force", "axial_tension", "N", -1.0),
-    ("uplifts, all bearings", "uplifts", "-", 1.0),
-    ("time lifted", "time_lifted", "s", 1.0),
-    ("gap of uplift", "gap", "m", 1.0),
-    ("base shear", "base_shear", "N", 1.0),
-    ("storey shear", "storey_shear", "N", 1.0),
-    ("storey drift ratio", "drift", "-", 1.0),
-    ("storey drift ratio, worst line", "line_drift", "-", 1.0),
-    ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
-)
 
 
 def bounded_histories(
@@ -137,7 +117,8 @@ def history_checks(
         At each bound: number of motions, runs that failed, displacement, slip, rims and forces of
         the worst bearing, drift of the worst storey, and what `limits` asks for. Where more runs
         failed than the rules allow, no value is formed of the others: each check that needs it
-        fails, and its note names the runs. Notes also tell what the runs' audits mark.
+        fails (`Check.void`), its demand is what the runs reached, and its note names those that
+        failed. Notes also tell what the runs' audits mark.
 
     Raises
     ------
@@ -169,8 +150,19 @@ def history_demands(
     Returns
     -------
     pandas.DataFrame
-        A row a quantity with its unit (SI), a column each bound, the envelope and where that is.
-        The worst bearing, storey or level; infinite where more runs failed than the rules allow.
+        A row a quantity with its unit (SI); the worst bearing, storey or level. Columns:
+
+        - each bound ("value" of runs at none): mean or largest of the runs, as the code counts
+          them; of the least axial force the mean or the smallest of the runs' smallest;
+          ``attrs["statistics"]`` says which, and of how many;
+        - envelope: the largest of these, and where it is;
+        - worst: the largest of all single runs (of the least axial force the smallest), and its
+          run;
+        - note: what the row is of, and which gaps do not count;
+        - void: where more runs failed than the rules allow, which and why. The numbers of that
+          bound are then those that its runs reached, failed ones included, up to where they
+          stopped: no values for design. What was left of runs that stopped is NaN.
+
         Minima and factors of codes are not in it.
 
     Raises
@@ -178,27 +170,7 @@ def history_demands(
     CheckError
         If runs are missing, or a motion is there at two scales.
     """
-    import pandas as pd
-
-    rules, rows = _rules(code), []
-    for title, name, unit, sign in _TABLE:
-        row: dict[str, Any] = {"quantity": title, "unit": unit}
-        worst, where = -math.inf, ""
-        for bound, data in _by_bound(runs).items():
-            if f"reached_{name}" not in data:
-                continue
-            suite, values = suite_of(data, rules), reached(data, name)
-            if name in _COUNTED:
-                suite = replace(suite, statistic="largest")
-            columns = values.reshape(len(values), -1).T
-            each = [suite.value(column) for column in columns]
-            k = int(np.argmax(each))
-            row[bound or "value"] = sign * each[k] + 0.0  # no -0
-            if each[k] > worst:
-                worst, where = each[k], names_of(data, name)[k] if suite.is_usable else ""
-        if len(row) > 2:
-            rows.append(row | {"envelope": sign * worst + 0.0, "where": where})
-    return pd.DataFrame(rows).set_index("quantity")
+    return demand_table(_by_bound(runs), _rules(code))
 
 
 def _rules(code: str | HistoryRules) -> HistoryRules:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames._errors import CheckError
@@ -58,7 +59,7 @@ def impact_checks(
     -------
     Checks
         Each of the bearing, level or storey that is worst. A run that failed gives no values: all
-        checks of bearings fail, their notes say why.
+        checks fail (`Check.void` says why), their demands are what it reached until it stopped.
 
     Raises
     ------
@@ -89,7 +90,7 @@ def impact_checks(
     if total_displacement is not None:
         require_positive("total_displacement", total_displacement, "m", error=CheckError)
         found += _engagement(data, total_displacement, least_engagement, bound)
-    return Checks(found)
+    return Checks(replace(check, void=check.void or suite.void) for check in found)
 
 
 def event_checks(
@@ -119,7 +120,7 @@ def event_checks(
     -------
     Checks
         That the run is complete; for each event the worst bearing's slip over the smaller of
-        overlap and s*, and its slip left.
+        overlap and s*, and its slip left. Of a run that failed all fail.
 
     Raises
     ------
@@ -127,6 +128,7 @@ def event_checks(
         If run and frame do not belong together, times do not rise, or slips were not recorded.
     """
     limits = DesignLimits() if limits is None else limits
+    void = "" if str(data.attrs["status"]) == "ok" else str(data.attrs["message"])
     found, devices = [_complete(data, bound)], devices_of(data, frame)
     for event, rows in slips_of_events(data, ends).groupby("event"):
         left = "s_star" if limits.slip_left is None else "s_allowed"
@@ -138,7 +140,7 @@ def event_checks(
             }
             title = f"{column.replace('_', ' ')}, event {event}"
             found += WorstOf(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
-    return Checks(found)
+    return Checks(replace(check, void=void) for check in found)
 
 
 def _complete(data: xr.Dataset, bound: Bound) -> Check:

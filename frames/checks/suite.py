@@ -1,4 +1,4 @@
-"""What a suite of runs gives for design: mean or largest, and nothing where runs failed."""
+"""What a suite of runs gives for design: mean or largest; where runs failed, what was reached."""
 
 from __future__ import annotations
 
@@ -57,10 +57,30 @@ class Suite:
             return failures == 0
         return failures <= self.allowed and 2 * failures < len(self.failed)
 
+    @property
+    def void(self) -> str:
+        """Why there is no value for design; empty where there is one."""
+        return "" if self.is_usable else self.reason or "a run failed"
+
     def value(self, values: FloatArray) -> float:
-        """Return the value for design of those of the runs (n_runs,); infinite without one."""
+        """Return the value for design of those of the runs.
+
+        Parameters
+        ----------
+        values : ndarray, (n_runs,)
+            Largest value of each run.
+
+        Returns
+        -------
+        float
+            The value. Without one (`void`): the same statistic of what all runs reached, failed
+            ones included, until they stopped; NaN where nothing is known.
+        """
         if not self.is_usable:
-            return math.inf
+            known = values[np.isfinite(values)]
+            if not len(known):
+                return math.nan
+            return float(known.mean() if self.statistic == "mean" else known.max())
         good = values[~np.array(self.failed)]
         if self.statistic != "mean":
             return float(good.max())
@@ -84,10 +104,14 @@ class Suite:
         Returns
         -------
         float
-            The value, infinite where runs failed that must not.
+            The value; where runs failed that must not, what was reached, infinite if nothing is
+            known of it.
         """
         if not self.is_usable:
-            return t.given(symbol, math.inf, unit, shown=shown, note=self.reason)
+            value = self.value(values)
+            if math.isnan(value):
+                return t.given(symbol, math.inf, unit, shown=shown, note=self.void)
+            return t.given(symbol, value, unit, shown=shown, note=f"reached only: {self.void}")
         if self.statistic == "single":
             return t.given(symbol, float(values[0]), unit, shown=shown, note="largest of the run")
         good = values[~np.array(self.failed)]
@@ -106,12 +130,14 @@ class Suite:
             formula = f"max({formula}, f_{symbol} * {symbol}_50)"
         return t(symbol, formula, unit, shown=shown, source=self.source)
 
-    def form(self, t: Trace, symbol: str, formula: str, unit: str, shown: str = "") -> None:
-        """Enter what follows from values of `enter`: infinite where they are."""
-        if self.is_usable:
+    def form(
+        self, t: Trace, symbol: str, formula: str, unit: str, shown: str = "", *, of: str
+    ) -> None:
+        """Enter what follows from the value `of`, of `enter`: infinite where that is."""
+        if math.isfinite(t.value(of)):
             t(symbol, formula, unit, shown=shown)
         else:
-            t.given(symbol, math.inf, unit, shown=shown, note=self.reason)
+            t.given(symbol, math.inf, unit, shown=shown, note=self.void)
 
     def _median(self, values: FloatArray) -> float:
         return float(np.median(np.where(self.failed, math.inf, values)))

@@ -34,11 +34,14 @@ class WorstOf:
         Of its checks.
     note : str
         Goes with its checks.
+    void : str
+        Why its demands are no values for design.
     """
 
     bound: Bound
     standing: str = TO_BE_CONFIRMED
     note: str = ""
+    void: str = ""
 
     def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
         """Return the check of the largest ratio.
@@ -58,10 +61,10 @@ class WorstOf:
         # where no value is finite none is the worst
         known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
         found = [
-            Judge(c.trace, self.bound, self.standing).worst(
+            Judge(c.trace, self.bound, self.standing, void=self.void).worst(
                 clause, title, c.demand, "<=", c.limit, subjects=(name if known else "",),
                 note=self.note,
             )
             for name, c in each.items()
         ]  # fmt: skip
-        return [max(found, key=lambda check: check.ratio)] if found else []
+        return [max(found, key=lambda check: check.compared)] if found else []

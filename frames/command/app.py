@@ -13,6 +13,7 @@ from rich.markup import escape
 
 from frames._errors import ProjectError
 from frames.checks.check import CONFIRMED, Checks
+from frames.checks.demand_table import headed
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.telling import FAILED_CHECKS, err, out, say, told
 from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
@@ -128,7 +129,9 @@ def report(
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
-    _frame_table("Demands", found.demands)
+    _frame_table("Demands", headed(found.demands))
+    if void := found.demands["void"].iloc[0]:
+        say(f"no values for design, only what runs reached: {void}")
     _checks("Checks", found.checks)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from frames.analysis.transient import time_history
 from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
+from frames.checks.demand_table import bounds_of, envelope_said
 from frames.checks.device import device_checks
 from frames.checks.histories import bounded_histories, history_checks, history_demands
 from frames.checks.impacts import rim_engagement
@@ -205,7 +205,7 @@ def compare_devices(
     -------
     pandas.DataFrame
         What time histories give for design, the envelope over the bounds: a column "unit" and one
-        for each device, in SI units.
+        for each device, in SI units; its head names the statistic, and runs that failed.
 
     Raises
     ------
@@ -221,7 +221,9 @@ def compare_devices(
         device: history_demands(_histories(parts, frame, known.motions, progress), parts.rules())
         for device, frame in frames.items()
     }
-    columns = {device: table["envelope"] for device, table in tables.items()}
+    columns = {
+        f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
+    }
     return pd.DataFrame({"unit": tables["LIR-DCFP"]["unit"]} | columns)
 
 
@@ -273,7 +275,7 @@ def _asked(
     # at each bound [N], and the slip of these [m].
     loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
     slip = float(demands.loc["interface slip", "envelope"])
-    if not math.isfinite(slip):  # runs failed: the most that it holds
+    if demands["void"].any():  # runs failed: the most that it holds
         slip = parts.bearing().resolved()["slip_capacity"]
     return (min(loads), max(loads)), slip
 
@@ -312,7 +314,7 @@ def _loads(known: Groundwork, demands: pd.DataFrame) -> list[float]:
     found = [*known.system.loads]
     for loads in known.system.combinations.values():
         found += loads
-    bounds = demands.drop(columns=["unit", "where"])
+    bounds = demands[bounds_of(demands)]
     for which in ("least", "largest"):
         found += [float(load) for load in bounds.loc[f"{which} axial force"]]
     return found

@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from frames._errors import ProjectError
+from frames.checks.demand_table import headed
 from frames.project.design_run import Histories
 from frames.report.numbers import run_tables
 from frames.report.writing import report_html
@@ -63,7 +64,7 @@ def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         "project.toml": source,
         **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
-        "demands.csv": run.demands.to_csv(),
+        "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
         "report.html": report_html(run, source, tables),

@@ -13,7 +13,7 @@ from markupsafe import Markup
 from pandas.api.types import is_string_dtype
 
 from frames.checks.check import TO_BE_CONFIRMED
-from frames.checks.rendering import quantity
+from frames.checks.demand_table import headed
 from frames.report.figures import pictures
 from frames.report.tables import in_mm_and_kn, rows_of
 from lir_element.results.dataset import package_version
@@ -82,7 +82,8 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         programme=_programme(tables["programme"]),
         motions=_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
-        demands=_table(run.demands, "quantity"),
+        demands=_table(headed(run.demands), "quantity"),
+        void=str(run.demands["void"].iloc[0]),
         audit=run.governing.attrs["audit"].splitlines(),
         pictures=pictures(run),
         source=source,
@@ -93,9 +94,9 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
 def _judged(check: Check) -> Judged:
     return Judged(
         check=check,
-        demand=quantity(check.demand, check.unit, check.shown),
-        limit=quantity(check.limit, check.unit, check.shown),
-        ratio=f"{check.ratio:.3f}",
+        demand=check.said[0],
+        limit=check.said[1],
+        ratio=check.said[2],
         steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
     )
 

@@ -69,12 +69,25 @@ def largest(data: xr.Dataset, name: str) -> Extreme:
     -------
     Extreme
         Largest values over the quantity's dimensions, and their times [s]: of all base steps where
-        the recording kept them, else of the steps that `data` holds.
+        the recording kept them, else of the steps that `data` holds; and of the step at which a
+        bearing passed its limit, which is in no history.
     """
     kept = largest_kept(data, name)
-    if kept is not None:
-        return Extreme(*kept)
-    return extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy())
+    if kept is None:
+        kept = extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy())
+    return _with_exceeded(data, name, Extreme(*kept))
+
+
+def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
+    # With what ended the run, unless `data` is a part of it that ends before.
+    attrs = data.attrs
+    if attrs.get("exceeded") != name:
+        return found
+    at = float(attrs["exceeded_at"])
+    where = data.variables["bearing"].to_numpy() == attrs["exceeded_bearing"]
+    ends = computed_until(data) + 1.5 * float(attrs.get("dt", math.inf)) >= at
+    beyond = np.where(where & ends, float(attrs["exceeded_value"]), -math.inf)
+    return later(found, Extreme(beyond, np.full(len(beyond), at)))
 
 
 def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:

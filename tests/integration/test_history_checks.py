@@ -35,6 +35,7 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames.checks.demand_table import headed
 from lir_element import AnalysisWarning, LIRBearing, PressureDependence, VelocityFriction
 
 BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
@@ -133,18 +134,30 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
                           interface_pressure=1e12)  # fmt: skip
     for code in ("ASCE 7-22", "EN 1998-1", "NCh2745"):
         checks = history_checks(with_failure, frame, code, limits=limits)
-        assert [c.title for c in checks if c.passed and c.title != "time lifted off"] == [
-            "number of motions"
-        ]
+        assert [c.title for c in checks if c.passed] == ["number of motions"]
         failed = one(checks, "runs that failed")
         assert "pulse 4: slip_exceeded at" in failed.note
         assert "audit of pulse" in failed.note
+        reason = "1 of 7 runs failed (pulse 4: slip_exceeded"
         for check in checks.failed[1:]:
-            assert check.demand == math.inf
-            assert "1 of 7 runs failed (pulse 4: slip_exceeded" in check.note
-        assert history_demands(with_failure, code).loc["isolator displacement", "envelope"] == (
-            math.inf
-        )
+            assert math.isfinite(check.demand)
+            assert check.ratio == math.inf
+            assert reason in check.note
+            assert f"no value for design: {reason}" in check.statement
+            assert "reached" in check.said[0]
+        moved = with_failure["reached_displacement"].to_numpy()[:, 0]
+        gamma = HISTORY_RULES[code].displacement_factor
+        demand = one(checks, "isolator displacement").demand
+        assert demand == pytest.approx(gamma * moved.mean(), rel=1e-12)
+        table = history_demands(with_failure, code)
+        row = table.loc["isolator displacement"]
+        assert row["value"] == row["envelope"] == pytest.approx(moved.mean(), rel=1e-12)
+        assert (row["worst"], row["run"]) == (pytest.approx(moved.max()), "pulse 4")
+        assert row["void"].startswith(reason)
+        assert table.attrs["statistics"] == {"value": "mean of what 7 runs reached, 1 failed"}
+        assert np.isnan(table.loc["interface slip left", "value"])
+        left = with_failure["reached_slip_left"].to_numpy()[:6, 0]
+        assert table.loc["interface slip left", "worst"] == pytest.approx(left.max())
 
 
 def test_one_unacceptable_run_may_be_allowed_at_a_price(
@@ -155,7 +168,10 @@ def test_one_unacceptable_run_may_be_allowed_at_a_price(
     check = one(history_checks(with_failure, frame, rules), "isolator displacement")
     moved = np.sort(with_failure["reached_displacement"].to_numpy()[:6, 0])
     assert check.demand == pytest.approx(max(moved.mean(), 1.2 * moved[3]), rel=1e-12)
-    row = history_demands(with_failure, rules).loc["isolator displacement"]
+    table = history_demands(with_failure, rules)
+    row = table.loc["isolator displacement"]
+    assert table.attrs["statistics"]["value"] == "mean of 6 of 7 runs, at least 1.2 medians of all"
+    assert not table["void"].any()
     assert row["value"] == row["envelope"] == pytest.approx(check.demand, rel=1e-12)
     few = with_failure.isel(run=[0, 1, 6])
     assert not one(history_checks(few, frame, rules), "isolator displacement").passed
@@ -173,22 +189,32 @@ def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(
     )
     checks = history_checks(gone, frame, "EN 1998-1")
     assert "pulse 1.1: a bearing lifted off" in one(checks, "runs that failed").note
-    assert one(checks, "time lifted off").demand == pytest.approx(0.02)
-    assert one(checks, "isolator displacement").demand == math.inf
+    assert one(checks, "time lifted off by over 1 mm").demand == pytest.approx(0.02)
+    moved = gone["reached_displacement"].to_numpy()[:, 0]
+    check = one(checks, "isolator displacement")
+    assert check.demand == pytest.approx(1.2 * moved.mean(), rel=1e-12)
+    assert not check.passed
     note = one(checks, "runs that failed").note
     assert note.startswith("1 of 7 runs failed (pulse 1.1: a bearing lifted off)")
     assert "gaps up to 1 mm count as contact (pulse 0.8: 0.4 mm, 0.02 s; pulse 1: 0.4" in note
     assert note.count("0.4 mm") == 6
     small = gone.isel(run=[0, 1, 3])
-    assert one(history_checks(small, frame, "EN 1998-1"), "time lifted off").passed
+    assert one(history_checks(small, frame, "EN 1998-1"), "time lifted off by over 1 mm").passed
     any_gap = replace(HISTORY_RULES["EN 1998-1"], least_gap=0.0)
     assert (
         "3 of 3 runs failed" in one(history_checks(small, frame, any_gap), "runs that failed").note
     )
     unknown = small.assign(reached_gap=small["reached_gap"] * math.nan)
-    assert not one(history_checks(unknown, frame, "EN 1998-1"), "time lifted off").passed
+    assert not one(
+        history_checks(unknown, frame, "EN 1998-1"), "time lifted off by over 1 mm"
+    ).passed
     assert history_checks(gone, frame, "ASCE 7-22").passed
-    assert history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings", "envelope"] == 3.0
+    row = history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings"]
+    assert (row["value"], row["worst"], row["run"]) == (pytest.approx(3.0 / 7.0), 3.0, "pulse 1.1")
+    assert row["note"] == ""
+    table = history_demands(small, "EN 1998-1")
+    assert table.loc["time lifted", "worst"] == pytest.approx(0.02)
+    assert table.loc["time lifted", "note"] == "of any gap; a run fails above 1 mm (EN 1998-1)"
 
 
 def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
@@ -209,6 +235,11 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
     table = history_demands(runs, "NCh2745")
     each = [float(data["reached_displacement"].max()) for data in runs.values()]
     row = table.loc["isolator displacement"]
+    assert table.attrs["statistics"] == dict.fromkeys(runs, "largest of 2 runs")
+    heads = [f"{bound}, largest of 2 runs" for bound in runs]
+    assert list(headed(table).columns) == [
+        "unit", *heads, "envelope of these", "where", "worst of all 6 runs", "in run", "note",
+    ]  # fmt: skip
     assert row[["lower", "nominal", "upper"]].tolist() == pytest.approx(each)
     assert (row["envelope"], row["where"]) == (pytest.approx(max(each)), "bearing")
     with pytest.raises(CheckError, match=r"no factor for the motion 'pulse 1\.4'"):

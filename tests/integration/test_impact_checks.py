@@ -1,6 +1,7 @@
 """What impacts and landings ask of bearings and structure, against the runs' own histories."""
 
 import math
+import re
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -38,6 +39,7 @@ from frames import (
     time_history,
     uplift_events,
 )
+from frames.results.summary import summary_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 
 
@@ -147,7 +149,28 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert checks[0].title == "run is complete"
     assert "slipped further" in checks[0].note
     assert len(checks.failed) == len(checks) > 3
-    assert all(c.demand == math.inf and "slipped further" in c.note for c in checks[1:])
+    assert all(math.isfinite(c.demand) and "slipped further" in c.void for c in checks[1:])
+    check = one(checks, "slip over the overlap")
+    assert "no value for design: " in check.statement
+    # the step that failed is in no history, but in the message and in what was reached
+    said = re.search(r"slip (\S+) m, slip_capacity (\S+) m", data.attrs["message"])
+    assert said is not None
+    slip, overlap = float(said[1]), float(said[2])
+    assert slip > overlap > float(data["interface_slip_size"].max())
+    assert check.demand == pytest.approx(slip, rel=1e-3)
+    assert check.compared > 1.0
+    row = peaks(data).loc["interface slip over overlap"]
+    assert row["value"] == pytest.approx(slip / overlap, rel=1e-3)
+    assert row["time"] == pytest.approx(data.attrs["failed_at"], rel=1e-12)
+    assert summary_of(data)["largest_interface_slip_m"] == check.demand
+    batch = quietly(time_histories, frame, {"a": pulse(4.0), "b": pulse(1.0)}, workers=1)
+    found = batch["reached_slip"].max("bearing").to_numpy()
+    assert found[0] == pytest.approx(check.demand, rel=1e-12)
+    assert found[1] < overlap  # of another run
+    least = quietly(time_history, frame, pulse(4.0), recording=Recording.peaks())
+    assert peaks(least).loc["interface slip", "value"] == pytest.approx(check.demand, rel=1e-12)
+    early = data.sel(time=slice(0.0, 0.8 * data.attrs["failed_at"]))
+    assert peaks(early).loc["interface slip over overlap", "value"] < 1.0
 
 
 def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Frame) -> None:

@@ -1,6 +1,7 @@
 """The report of a run: its numbers are those of the results, and a browser shows it whole."""
 
 import base64
+import math
 import re
 import shutil
 import subprocess  # noqa: S404
@@ -82,11 +83,19 @@ def cells(page: str, first: str) -> list[str]:
 def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
     demands = pd.read_csv(results / "demands.csv", index_col=0)
     factors = {"m": 1e3, "N": 1e-3}
+    heads = list(demands.columns)
+    assert [head.partition(",")[0] for head in heads[1:3]] == ["lower", "upper"]
+    assert all(" of " in head for head in (*heads[1:4], heads[5]))  # the statistic
+    head = page[page.index("<th>quantity</th>") :].partition("</tr>")[0]
+    assert re.findall(r"<th[^>]*>(.*?)</th>", head)[1:] == heads[:-1]
     for name, row in demands.iterrows():
         shown = cells(page, name)
         factor = factors.get(row["unit"], 1.0)
-        for text, column in zip(shown[2:], ("lower", "upper", "envelope"), strict=False):
-            assert float(text) == pytest.approx(factor * row[column], rel=1e-3, abs=1e-12)
+        for text, column in zip((*shown[2:5], shown[6]), (*heads[1:4], heads[5]), strict=True):
+            if text == "-":
+                assert math.isnan(row[column])
+            else:
+                assert float(text) == pytest.approx(factor * row[column], rel=1e-3, abs=1e-12)
     linear = pd.read_csv(results / "equivalent-linear.csv", index_col=0)
     for bound in ("lower", "upper"):
         shown = cells(page, bound)
@@ -107,7 +116,7 @@ def test_the_programme_of_tests_is_there(results: Path, page: str) -> None:
             if text != "-":
                 assert float(text) == pytest.approx(factor * row[name], rel=1e-3)
     alone = table[table["what"].str.startswith("interface alone")]
-    slip = demands.loc["interface slip", "envelope"]
+    slip = demands.loc["interface slip", "envelope of these"]
     assert (alone["displacement [m]"] >= slip - 1e-12).all()
 
 

@@ -1,0 +1,164 @@
+"""One quantity is one number: in peaks, the summary, demands, the report and figures."""
+
+import math
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from frames import (
+    HISTORY_RULES,
+    AuditWarning,
+    Frame,
+    GroundMotion,
+    Recording,
+    history_demands,
+    peaks,
+    shear_building,
+    storey_drift,
+    time_histories,
+    time_history,
+)
+from frames.checks.suite import names_of, reached
+from frames.plots import storey_profiles
+from frames.report.numbers import bearing_table
+from frames.results.summary import ROWS, summary_of, table_of
+from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+
+TIME = np.arange(0.0, 4.0, 0.01)
+ROWS_OF_PEAKS = {
+    "isolator displacement": "bearing displacement",
+    "displacement left": "bearing displacement left",
+    "interface slip": "interface slip",
+    "interface slip left": "interface slip left",
+    "rim force": "rim force",
+    "largest axial force": "axial force",
+    "least axial force": "least axial force",
+    "uplifts, all bearings": "uplifts, all bearings",
+    "time lifted": "time lifted",
+    "gap of uplift": "gap of uplift",
+    "base shear": "base shear",
+    "storey shear": "storey shear",
+    "storey drift ratio": "storey drift, mean",
+    "storey drift ratio, worst line": "storey drift, worst line",
+    "floor acceleration in plan": "floor acceleration in plan, mean",
+}
+
+
+def motion() -> GroundMotion:
+    """Along x and y together: the size in plan is well above both components."""
+    wave = 1.8 * np.exp(-0.5 * TIME) * np.sin(2.0 * math.pi * TIME / 1.5)
+    return GroundMotion(x=wave, y=0.8 * wave, dt=0.01, name="both")
+
+
+@pytest.fixture(scope="module")
+def frame() -> Frame:
+    bearing = LIRBearing(
+        radius=1.2, slider_height=0.12, slider_radius=0.15, capacity=0.15,
+        friction=CoulombFriction(0.05), interface_friction=0.11,
+    )  # fmt: skip
+    return shear_building(bearing, [80e3, 60e3], 60e6, base_mass=60e3, plan=(1, 6.0))
+
+
+@pytest.fixture(scope="module")
+def data(frame: Frame) -> xr.Dataset:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AuditWarning)
+        found = time_history(frame, motion())
+    assert found.attrs["status"] == "ok"
+    return found
+
+
+@pytest.fixture(scope="module")
+def batch(frame: Frame) -> xr.Dataset:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", (AuditWarning, AnalysisWarning))
+        return time_histories(frame, [motion()], workers=1)
+
+
+def test_drift_is_the_vector_of_both_components(data: xr.Dataset) -> None:
+    along = float(np.abs(storey_drift(data)).max())
+    whole = float(np.linalg.norm(storey_drift(data).to_numpy(), axis=-1).max())
+    assert whole > 1.05 * along  # else this test tells nothing
+    assert peaks(data).loc["storey drift, mean", "value"] == pytest.approx(whole, rel=1e-12)
+
+
+def test_the_summary_is_the_table_of_peaks(data: xr.Dataset) -> None:
+    table = peaks(data)["value"]
+    found = summary_of(data)
+    assert found == {row.name: table[row.quantity] for row in ROWS if row.name}
+    text = table_of({"A": data}).splitlines()
+    drift = next(line for line in text if line.startswith("peak storey drift in plan"))
+    assert float(drift.split()[-1]) == pytest.approx(100.0 * table["storey drift, mean"], abs=6e-4)
+
+
+def test_what_a_run_that_was_interrupted_left_is_not_known(data: xr.Dataset) -> None:
+    cut = data.assign_attrs(status="interrupted")
+    assert math.isnan(peaks(cut).loc["bearing displacement left", "value"])
+    assert math.isnan(summary_of(cut)["residual_displacement_m"])
+
+
+@pytest.mark.parametrize("code", HISTORY_RULES)
+def test_demands_of_one_run_are_its_peaks(data: xr.Dataset, batch: xr.Dataset, code: str) -> None:
+    demands, table = history_demands(batch, code), peaks(data)["value"]
+    assert demands.attrs["statistics"] == {"value": "1 run"}
+    assert set(demands.index) == set(ROWS_OF_PEAKS)
+    for row, quantity in ROWS_OF_PEAKS.items():
+        for column in ("value", "envelope", "worst"):
+            value = demands.loc[row, column]
+            assert value == pytest.approx(table[quantity], rel=1e-9, abs=1e-12), (row, column)
+
+
+def test_the_report_s_bearings_have_the_peaks(
+    frame: Frame, data: xr.Dataset, batch: xr.Dataset
+) -> None:
+    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs={"nominal": batch})
+    table: pd.DataFrame = bearing_table(run)  # type: ignore[arg-type]
+    known = peaks(data)["value"]
+    assert table["displacement [m]"].max() == pytest.approx(known["bearing displacement"])
+    assert table["slip [m]"].max() == pytest.approx(known["interface slip"])
+    assert table["rim force [N]"].max() == pytest.approx(known["rim force"])
+    assert table["largest load [N]"].max() == pytest.approx(known["axial force"])
+    assert table["least load [N]"].min() == pytest.approx(known["least axial force"])
+
+
+def test_the_figure_of_storeys_has_the_peaks(data: xr.Dataset) -> None:
+    left, right = storey_profiles(data).axes
+    known = peaks(data)["value"]
+    assert "resultant in plan" in left.get_xlabel()
+    assert "resultant in plan" in right.get_xlabel()
+    [stairs] = [patch for patch in left.patches if hasattr(patch, "get_data")]
+    drift = np.asarray(stairs.get_data().values)
+    assert drift.max() == pytest.approx(100.0 * known["storey drift, mean"], rel=1e-12)
+    mean, rings = right.lines
+    floors = known["floor acceleration in plan, mean"]
+    assert max(mean.get_xdata()) == pytest.approx(floors, rel=1e-12)
+    nodes = known["acceleration in plan, worst node"]
+    assert max(rings.get_xdata()) == pytest.approx(nodes, rel=1e-12)
+    [corners] = left.lines
+    lines = 100.0 * known["storey drift, worst line"]
+    assert max(corners.get_xdata()) == pytest.approx(lines, rel=1e-12)
+
+
+def test_the_figure_of_storeys_has_them_where_steps_were_left_out(
+    frame: Frame, data: xr.Dataset
+) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AuditWarning)
+        few = time_history(frame, motion(), recording=Recording(every=40))
+    full, thin = (storey_profiles(each).axes for each in (data, few))
+    for k, panel in enumerate(full):
+        for line, other in zip(panel.lines, thin[k].lines, strict=True):
+            assert other.get_xdata() == pytest.approx(line.get_xdata(), rel=1e-9)
+
+
+def test_what_a_batch_reached_has_the_names_of_the_single_run(
+    data: xr.Dataset, batch: xr.Dataset
+) -> None:
+    for name in ("displacement", "slip", "drift", "line_drift", "floor_plan", "storey_shear"):
+        one, many = reached(data, name), reached(batch, name)
+        assert many == pytest.approx(one, rel=1e-9, abs=1e-12), name
+        assert names_of(data, name) == names_of(batch, name)
