@@ -25,7 +25,7 @@ from frames.analysis.size import (
 from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.parts_data import part_sizes
-from frames.results.reached import largest
+from frames.results.reached import largest, with_exceeded
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -209,7 +209,7 @@ class Recorder:
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""
-        return judged if self._is_whole else self._reduction.recorded(judged)
+        return judged if self._is_whole else with_exceeded(self._reduction.recorded(judged))
 
     def _dataset(self, count: int, *, kept: bool = False) -> xr.Dataset:
         peak = peak_velocity(self._motion, float(self.out.time[count - 1]))

@@ -10,7 +10,7 @@ import xarray as xr
 
 from frames.kernel_data import ENERGY_TERMS
 from frames.results.kept import REACHED
-from frames.results.reached import largest
+from frames.results.reached import with_exceeded
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -82,11 +82,8 @@ def layout_of(judged: xr.Dataset) -> Layout:
 
 def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     """Return what a run reached as a row of numbers."""
-    values = {name: judged.variables[name].to_numpy() for name in layout.names}
-    if "exceeded" in judged.attrs:
-        name = str(judged.attrs["exceeded"])
-        values[REACHED + name], values[f"{REACHED}{name}_at"] = largest(judged, name)
-    return np.concatenate([np.ravel(value) for value in values.values()])
+    found = with_exceeded(judged).variables
+    return np.concatenate([np.ravel(found[name].to_numpy()) for name in layout.names])
 
 
 def stack(rows: Sequence[Row], cases: Sequence[Case]) -> xr.Dataset:

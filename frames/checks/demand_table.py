@@ -92,9 +92,9 @@ def _numbers(
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
     for bound, data in runs.items():
         columns = _reached(data, name)
-        suite, m = suites[bound], columns.shape[1]
-        is_known = not (suite.void and name.endswith("_left"))  # of runs that stopped
-        each = [suite.value(c) for c in columns.T] if is_known else [math.nan] * m
+        each = [suites[bound].value(column) for column in columns.T]
+        if suites[bound].void and name.endswith("_left") and np.isnan(columns).any():
+            each = [math.nan] * len(each)  # runs that stopped left nothing that counts
         k = int(np.argmax(np.nan_to_num(each, nan=-math.inf)))  # what is not known is not worst
         cells[bound or "value"] = sign * each[k] + 0.0  # no -0
         if each[k] > envelope:

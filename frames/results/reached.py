@@ -90,6 +90,16 @@ def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
     return later(found, Extreme(beyond, np.full(len(beyond), at)))
 
 
+def with_exceeded(data: xr.Dataset) -> xr.Dataset:
+    """Return a result whose variables ``reached_...`` count the step that a limit ended, too."""
+    name = str(data.attrs.get("exceeded", ""))
+    kept = largest_kept(data, name) if name else None
+    if kept is None:
+        return data
+    found = zip((REACHED + name, f"{REACHED}{name}_at"), largest(data, name), strict=True)
+    return data.assign({key: data[key].copy(data=values) for key, values in found})
+
+
 def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:
     """Return the largest of a history (time, ...) and when; NaN where it has one."""
     at = np.argmax(history, axis=0)

@@ -34,6 +34,7 @@ from frames import (
 )
 from frames.analysis.modes import modes
 from frames.analysis.recording import Recording
+from frames.checks.demand_table import COUNTED, bounds_of
 from frames.project.design_run import Histories, judged_run, run_project
 from frames.project.groundwork import groundwork
 from frames.project.parts import Parts
@@ -144,9 +145,11 @@ def settled(motions: MotionSet, length: float, friction: float) -> float:
 
 
 def demands_by_bound(table: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """Return what histories ask for in SI units, by bound."""
-    columns = [c for c in table.columns if c not in ("unit", "where")]
-    return {c: {row: float(table[c][row]) for row in ROWS if row in table.index} for c in columns}
+    """Return what histories ask for in SI units, by bound; in the envelope the largest uplift."""
+    rows = [row for row in ROWS if row in table.index]
+    found = {c: {row: float(table[c][row]) for row in rows} for c in bounds_of(table)}
+    worst = {row: float(table["worst"][row]) for row in rows if row in COUNTED}
+    return found | {"envelope": {row: float(table["envelope"][row]) for row in rows} | worst}
 
 
 def lenient_parts(source: Path, folder: Path) -> Parts:

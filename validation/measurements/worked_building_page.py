@@ -6,6 +6,7 @@ import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from frames.checks.demand_table import COUNTED
 from frames.plots.plot_style import PALETTE, SMALL, caption, grid_of, new_figure
 from validation.page import table
 
@@ -101,7 +102,11 @@ def device_rows(columns: Iterable[Mapping[str, Any]]) -> list[list[str]]:
     """Return what histories ask for, a column for each of several tables by bound."""
     kept = list(columns)
     return [
-        [name, unit, *(number(each.get(name), factor) for each in kept)]
+        [
+            f"{name}, worst run" if name in COUNTED else name,
+            unit,
+            *(number(each.get(name), factor) for each in kept),
+        ]
         for name, (unit, factor) in UNITS.items()
     ]
 
