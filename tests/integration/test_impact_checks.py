@@ -173,6 +173,20 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert peaks(early).loc["interface slip over overlap", "value"] < 1.0
 
 
+def test_the_force_at_which_a_rim_broke_is_in_the_peaks() -> None:
+    bearing = device(capacity=0.1, rim_overrun=0.005).as_dcfp()
+    plain = lumped_mass(bearing, 1e5)
+    data = quietly(time_history, plain, pulse(8.0))
+    assert data.attrs["status"] == "rim_overrun"
+    row, before = peaks(data).loc["rim force"], float(data["rim_force"].max())
+    known = plain.bearings[row["where"]].bearing.resolved()
+    assert row["value"] > max(before, known["rim_stiffness"] * known["rim_overrun"])
+    assert row["time"] == data.attrs["failed_at"]
+    check = one(impact_checks(data, plain, limits=DesignLimits(rim_strength=1e12)), "rim force")
+    assert check.demand == row["value"]
+    assert not check.passed
+
+
 def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Frame) -> None:
     title = "runs in which what was left out mattered"
     for size, passed in ((0.5, True), (1.5, False)):

@@ -335,7 +335,7 @@ def test_scope_of_checks_and_their_table() -> None:
     }  # fmt: skip
     assert list(asce.to_dataframe()) == [
         "clause", "title", "demand", "limit", "symbol", "unit", "relation", "standing", "bound",
-        "subject", "note", "ratio", "passed",
+        "subject", "note", "void", "ratio", "passed",
     ]  # fmt: skip
     with pytest.raises(CheckError, match="scope"):
         replace(asce[0], scope="all")
