@@ -9,6 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from frames.analysis.springs import spring_matrix
+from frames.assembly.assemble import assemble
 from frames.assembly.basis import bearing_rows
 from frames.assembly.sparse_solver import Factors
 from frames.assembly.supports import above_bearings
@@ -17,6 +18,7 @@ from frames.model.parts import bearing_axial_stiffness, bearing_rocking_stiffnes
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import System
+    from frames.model.contents import FrameContents
 
 FOLLOWS = 0.9
 """Share of an overturning moment from which on axial forces count as following it [-]."""
@@ -119,6 +121,27 @@ def overturning_share(system: System) -> Overturning:
         ]
         shares.append(min((share for share in found if math.isfinite(share)), default=1.0))
     return Overturning(shares[0], shares[1], len(tops))
+
+
+def unknown_axial_forces(frame: FrameContents) -> str:
+    """Return why the axial forces of a frame's bearings are not known; empty where they are.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+
+    Returns
+    -------
+    str
+        The sentence of its `Overturning`.
+
+    Raises
+    ------
+    ModelError
+        If the model cannot work.
+    """
+    return overturning_share(assemble(frame, None, tuple(frame.bearings))).sentence()
 
 
 def mass_centre(system: System) -> tuple[float, float]:
