@@ -94,9 +94,10 @@ def shear_building(
         forces are not evaluated; for comparisons with models that have no overturning.
     base_stiffness : float or tuple of two floats, optional
         Bending stiffness E I of the beams on one grid line along x and y, those of all levels
-        together [N m2], > 0: what resists that one bearing rises above the plane of the others.
-        Default so that a span, held at both ends, vibrates with a period of 0.05 s under its share
-        of all masses.
+        together [N m2], > 0: what resists that one bearing rises above the plane of the others,
+        besides the columns of the first storey, which hold the beams' ends as columns of its
+        stiffness that are fixed in the floors do. Default so that a span, held at both ends,
+        vibrates with a period of 0.05 s under its share of all masses.
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float
@@ -156,13 +157,12 @@ def shear_building(
         law = laws[k - 1] if laws else None
         _add_storey(stick, k, level + k * height, values, law)
     if grid is not None and tilts:
+        first = chains[1][0] if not laws else laws[0].stiffness
         add_tilting_base(
-            frame,
-            grid,
-            base_stiffness,
-            base,
+            frame, grid, base_stiffness, base,
+            column=first * height**2 / (3.0 * len(grid.nodes)),  # 12 E I / h^3 each of the storey
             floors=[f"floor-{k + 1}" for k in range(len(chains[0]))],
-        )
+        )  # fmt: skip
     frame.set_damping(damping)
     return frame
 

@@ -80,14 +80,16 @@ def add_tilting_base(
     bending: float | tuple[float, float] | None,
     base_mass: float,
     *,
+    column: float,
     floors: list[str],
 ) -> None:
     """Let base and floors of a stick tilt together on a base that bends between its bearings.
 
     The foot of the stick follows the plane that fits the nodes over the bearings best, which
     distributes its force and moments to them as a rigid base does, M x_i / sum(x^2). What lies off
-    the plane is resisted by the beams on the grid lines. Floors tilt as the foot does: the stick
-    does not bend, and shears times heights reach the base.
+    the plane is resisted by the beams on the grid lines, whose ends the columns of the first storey
+    hold against turning. Floors tilt as the foot does: the stick does not bend, and shears times
+    heights reach the base.
 
     Parameters
     ----------
@@ -99,6 +101,9 @@ def add_tilting_base(
         EI of one grid line along x and y [N m2]; None as `default_bending`.
     base_mass : float
         Mass of the base [kg], for the inertia of the nodes over the bearings.
+    column : float
+        Moment about x and y that a column puts on its foot for a unit of turn against the plane of
+        the base, 4 E I / h [N m].
     floors : list of str
         Nodes of the floors. Masses beside base or floor stand on nodes "<floor>-mass".
 
@@ -133,7 +138,13 @@ def add_tilting_base(
     mass = np.zeros((size, size))
     off = np.eye(count) - fit @ foot
     mass[np.ix_(over, over)] = total / count * off.T @ off
-    frame.add_superelement("base-beams", nodes, _beams(plan, rigidity, size), mass, equations=rows)
+    stiffness = _beams(plan, rigidity, size)
+    for turn in (_RX, _RY):
+        held = np.zeros((count, size))
+        held[np.arange(count), over - _UZ + turn] = 1.0
+        held[:, turn] = -1.0
+        stiffness += column * held.T @ held
+    frame.add_superelement("base-beams", nodes, stiffness, mass, equations=rows)
     turning = base_mass / count * DEFAULT_BASE_DEPTH**2 / 12.0
     for node in plan.nodes.values():
         frame.add_mass(node, 0.0, (turning, turning, 0.0))
