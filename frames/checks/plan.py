@@ -64,9 +64,8 @@ def _of_masses(system: IsolationSystem, k: int) -> str:
     if abs(centre - given) <= _SAME_CENTRE * system.plan[k]:
         return "centre of mass, of the model's masses"
     why = "the model holds its tilt" if system.unknown_loads else "loads that are not masses"
-    return (
-        f"centre of mass, of the model's masses; that of the bearings' loads: {centre:.4g} m, {why}"
-    )
+    own = f"{round(centre, 3) + 0.0:.3f} m"
+    return f"centre of mass, of the model's masses; that of the bearings' loads: {own}, {why}"
 
 
 def enter_storeys(t: Trace, above: Superstructure) -> None:
