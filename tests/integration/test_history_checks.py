@@ -130,11 +130,12 @@ def test_displacement_is_held_against_rims_and_the_slip_that_holds(
 
 
 def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr.Dataset) -> None:
+    frame = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
     limits = DesignLimits(base_shear=1e9, floor_acceleration=1e9, rim_strength=1e12,
                           interface_pressure=1e12)  # fmt: skip
     for code in ("ASCE 7-22", "EN 1998-1", "NCh2745"):
         checks = history_checks(with_failure, frame, code, limits=limits)
-        assert [c.title for c in checks if c.passed and "time lifted off" not in c.title] == [
+        assert [c.title for c in checks if c.passed and c.title != "time lifted off"] == [
             "number of motions"
         ]
         failed = one(checks, "runs that failed")

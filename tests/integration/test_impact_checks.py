@@ -141,7 +141,7 @@ def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None
     part = quietly(time_history, frame, pulse(1.5), recording=Recording.peaks())
     some = DesignLimits(rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6,
                         lateral_force=1e6)  # fmt: skip
-    again = {c.title: c.demand for c in impact_checks(part, frame, limits=some)}
+    again = {c.title: c.demand for c in impact_checks(part, alone, limits=some)}
     assert again.items() <= {c.title: c.demand for c in checks}.items()
     with pytest.raises(ValueError, match="first and last step only"):
         impact_checks(part, frame, limits=limits)
