@@ -285,7 +285,8 @@ def _add_mass(stick: _Stick, floor: str, mass: float, tied: tuple[str, ...] = ()
         frame.add_diaphragm(floor, [floor, *tied])
     a, b = (0.0, 0.0) if stick.grid is None else stick.grid.side
     about = (mass * b**2 / 12.0, mass * a**2 / 12.0) if stick.tilts else (0.0, 0.0)
-    frame.add_mass(node, mass, (*about, mass * (a**2 + b**2) / 12.0))
+    gyration = (a**2 + b**2) / 12.0
+    frame.add_mass(node, mass, (*about, mass * gyration))
 
 
 def _one_bearing(frame: Frame, bearing: Bearings) -> float:
