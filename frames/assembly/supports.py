@@ -77,7 +77,7 @@ def load_path(
     LoadPath
         Sums over the parts of the structure that stand on a bearing.
     """
-    above = _above_bearings(system)
+    above = above_bearings(system)
     held = np.diff(system.transform.indptr)[2::6] == 0
     moves = np.asarray(system.transform @ displacement)
     forces = np.asarray((system.node_stiffness + geometric) @ moves) - system.node_load
@@ -91,8 +91,19 @@ def load_path(
     )
 
 
-def _above_bearings(system: System) -> BoolArray:
-    # Nodes that members, springs, superelements, ties or diaphragms join to the top of a bearing.
+def above_bearings(system: System) -> BoolArray:
+    """Return whether members, springs, superelements, ties or diaphragms join a node to a bearing.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+
+    Returns
+    -------
+    ndarray of bool, (n_nodes,)
+        True where the node hangs together with the top of a bearing.
+    """
     count = len(system.node_names)
     of_node = sparse.csr_array(
         (np.ones(6 * count), (np.arange(6 * count) // 6, np.arange(6 * count))),

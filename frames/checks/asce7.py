@@ -62,7 +62,7 @@ class ASCE7:
 
     Notes
     -----
-    The centre of mass is that of the bearings' loads unless the system has an eccentricity.
+    The centre of mass is the system's, else that of its loads, unless it has an eccentricity.
     V_s is at least the force that starts sliding, not reduced by weight or R_I, which is on the
     safe side.
     """

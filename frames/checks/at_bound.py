@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import CheckError
+from frames.analysis.overturning import unknown_axial_forces
 from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
@@ -25,6 +26,7 @@ from frames.checks.suite import (
     suite_of,
 )
 from frames.checks.trace import Trace
+from frames.checks.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.checks.worst import Calculation, WorstOf
 
 if TYPE_CHECKING:
@@ -89,13 +91,14 @@ class AtBound:
         moved = bearings.displacement(
             clause, rules.displacement_factor, self._least("D_TM_dyn"), TO_BE_CONFIRMED
         )
-        return [
+        found = [
             self._motions(), self._failed(),
             *left_out_checks(self.data, list(map(str, self.data["doubts"].to_numpy())), self.bound),
             *moved, *self._engagement(moved), *bearings.slips(),
             *bearings.forces(), *self._uplift(), *self._base_shear(), *self._storey_shear(),
             *self._drift(), *self._acceleration(),
         ]  # fmt: skip
+        return [*not_evaluated(found, unknown_axial_forces(self.frame), OF_AXIAL_FORCES)]
 
     @cached_property
     def _suite(self) -> Suite:

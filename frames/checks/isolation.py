@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, final
 import numpy as np
 
 from frames._errors import CheckError
+from frames.analysis.overturning import mass_centre, overturning_share
 from frames.analysis.static import gravity
 from frames.checks.pendulum import FrictionPendulum
 from frames.checks.rendering import quantity
@@ -43,10 +44,15 @@ class IsolationSystem:
         Seismic weight W above the isolation interface [N]; the sum of the loads if None.
     eccentricity : (float, float), optional
         Distance of the centre of mass from that of stiffness along x and y [m], without the
-        accidental one; from loads and positions if None.
+        accidental one; from `centre_of_mass` if None.
+    centre_of_mass : (float, float), optional
+        Of all that rests on the bearings, x and y [m]; that of the loads if None.
     combinations : mapping of str to tuple of float
         Axial loads of the bearings in other combinations of vertical loads, without the
         horizontal earthquake [N].
+    unknown_loads : str
+        Why the loads of single bearings are not known, although their sum is: checks and tests
+        that need them are then not evaluated. Empty where they are known.
     names : tuple of str, optional
         Names of the bearings; `labels` are "1" to "n" if left out.
     gravity : float
@@ -72,7 +78,9 @@ class IsolationSystem:
     plan: tuple[float, float]
     weight: float | None = None
     eccentricity: tuple[float, float] | None = None
+    centre_of_mass: tuple[float, float] | None = None
     combinations: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    unknown_loads: str = ""
     names: tuple[str, ...] = ()
     gravity: float = STANDARD_GRAVITY
 
@@ -100,8 +108,9 @@ class IsolationSystem:
         for side in require_vector("plan [m]", self.plan, 2, error=CheckError):
             remedy = "give plan=(b, d), the sides of the structure in plan"
             require_positive("side of the plan", side, "m", remedy=remedy, error=CheckError)
-        if self.eccentricity is not None:
-            require_vector("eccentricity [m]", self.eccentricity, 2, error=CheckError)
+        for name in ("eccentricity", "centre_of_mass"):
+            if getattr(self, name) is not None:
+                require_vector(f"{name} [m]", getattr(self, name), 2, error=CheckError)
         if self.weight is not None:
             require_positive("weight", self.weight, "N", error=CheckError)
         require_positive("gravity", self.gravity, "m/s2", error=CheckError)
@@ -118,6 +127,9 @@ class IsolationSystem:
         eccentricity: tuple[float, float] | None = None,
     ) -> IsolationSystem:
         """Return the bearings of a frame, loaded as in its equilibrium under permanent loads.
+
+        The centre of mass is that of the frame's masses above the bearings. Whether their loads
+        are known is found from the model, by what they carry of an overturning moment.
 
         Parameters
         ----------
@@ -156,10 +168,9 @@ class IsolationSystem:
         if AVERAGE not in chosen:
             msg = f'combinations {", ".join(chosen)}: give "average" as well, it has the friction'
             raise CheckError(msg)
-        found = {
-            name: tuple(map(float, gravity(frame.combined(factors)).axial_forces))
-            for name, factors in chosen.items()
-        }
+        states = {name: gravity(frame.combined(factors)) for name, factors in chosen.items()}
+        found = {name: tuple(map(float, state.axial_forces)) for name, state in states.items()}
+        system = states[AVERAGE].system
         places = np.array([node.position[:2] for node in frame.nodes.values()])
         nodes = [frame.nodes[link.j] for link in frame.bearings.values()]
         sides = np.ptp(places, axis=0) if plan is None else plan
@@ -170,7 +181,9 @@ class IsolationSystem:
             plan=(float(sides[0]), float(sides[1])),
             weight=weight,
             eccentricity=eccentricity,
+            centre_of_mass=mass_centre(system),
             combinations=found,
+            unknown_loads=overturning_share(system).sentence(),
             names=tuple(frame.bearings),
             gravity=frame.gravity,
         )

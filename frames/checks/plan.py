@@ -8,7 +8,11 @@ from typing import TYPE_CHECKING
 from frames._errors import CheckError
 from frames.checks.check import Check, Checks
 from frames.checks.equivalent import Judge
+from frames.checks.unevaluated import not_evaluated
 from lir_element.device.bearing import LIRBearing
+
+_SAME_CENTRE = 1e-3
+"""Distance of two centres over the side of the plan, below which they are one."""
 
 if TYPE_CHECKING:
     from frames.checks.isolation import IsolationSystem
@@ -40,14 +44,28 @@ def eccentricities(
     for k, axis in enumerate("xy"):
         t.given_each(axis, [place[k] for place in system.positions], "m")
         t(f"{axis}_R", f"sum(F * {axis}) / sum(F)", "m", note="centre of stiffness")
-        if system.eccentricity is None:
-            t(f"{axis}_M", f"sum(P * {axis}) / sum(P)", "m", note="centre of mass")
-        else:
+        if system.eccentricity is not None:
             t.given(f"e_{axis}0", system.eccentricity[k], "m", note="as given")
             t(f"{axis}_M", f"{axis}_R + e_{axis}0", "m", note="centre of mass")
+        elif system.centre_of_mass is not None:
+            t.given(f"{axis}_M", system.centre_of_mass[k], "m", note=_of_masses(system, k))
+        else:
+            t(f"{axis}_M", f"sum(P * {axis}) / sum(P)", "m", note="centre of mass, by the loads")
     sides = {"x": "b", "y": "d"} if by_direction else dict.fromkeys("xy", "max(b, d)")
     for axis, side in sides.items():
         t(f"e_{axis}", f"abs({axis}_M - {axis}_R) + {accidental} * {side}", "m", source=source)
+
+
+def _of_masses(system: IsolationSystem, k: int) -> str:
+    # Where the centre of mass is from, and why that of the loads is another.
+    pairs = zip(system.loads, system.positions, strict=True)
+    centre = sum(load * place[k] for load, place in pairs) / sum(system.loads)
+    given = 0.0 if system.centre_of_mass is None else system.centre_of_mass[k]
+    if abs(centre - given) <= _SAME_CENTRE * system.plan[k]:
+        return "centre of mass, of the model's masses"
+    why = "the model holds its tilt" if system.unknown_loads else "loads that are not masses"
+    own = f"{round(centre, 3) + 0.0:.3f} m"
+    return f"centre of mass, of the model's masses; that of the bearings' loads: {own}, {why}"
 
 
 def enter_storeys(t: Trace, above: Superstructure) -> None:
@@ -124,7 +142,8 @@ def vertical_checks(
     Returns
     -------
     Checks
-        For each combination the bearing that is worst.
+        For each combination the bearing that is worst; not evaluated where the loads of single
+        bearings are not known.
 
     Raises
     ------
@@ -159,7 +178,10 @@ def vertical_checks(
                     subjects=system.labels,
                 )
             )  # fmt: skip
-    return Checks(found)
+    why = system.unknown_loads
+    if not why and len(system.loads) == 1 and t.value("M_o") > 0.0:
+        why = "one bearing has no lever against the overturning moment M_o"
+    return not_evaluated(found, why)
 
 
 def capacity_check(

@@ -11,6 +11,7 @@ from frames.checks.bearing_numbers import ordered_loads
 from frames.checks.bounds import ENDS, bounded
 from frames.checks.check import TO_BE_CONFIRMED
 from frames.checks.pendulum import FrictionPendulum
+from frames.checks.unevaluated import NOT_EVALUATED
 from lir_element import LIRBearing
 from lir_element.door import require_non_negative, require_positive
 
@@ -136,7 +137,9 @@ def programme_of_tests(
         fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
         largest lateral force to expect with friction of high speed at its bounds [N], what the
         test shows, clause and its standing. NaN: not given, or without meaning. Of an LIR-DCFP
-        there are tests besides that no code has: the interface alone, and impacts.
+        there are tests besides that no code has: the interface alone, and impacts. Where the
+        system's loads are not known (`IsolationSystem.unknown_loads`) and `demands` gives none,
+        tests at the largest and the least load have NaN for it, and say why in their standing.
 
     Raises
     ------
@@ -158,7 +161,17 @@ def programme_of_tests(
         design = _Design(result, bearing, at_ends, *_loads(system, places, asked), asked)
         own = _TESTS_OF[equivalent.code](design)
         rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
-    return pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
+    table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
+    return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
+
+
+def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
+    # Tests at the largest or the least load have none where it is not known.
+    if why:
+        of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
+        table.loc[of_load, ["vertical load [N]", "least force [N]", "largest force [N]"]] = math.nan
+        table.loc[of_load, "standing"] = f"{NOT_EVALUATED}: {why}"
+    return table
 
 
 def _kinds(

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames._errors import CheckError
+from frames.analysis.overturning import unknown_axial_forces
 from frames.checks.bearing_demands import BearingDemands, devices_of
 from frames.checks.bearing_numbers import NO_CODE, enter_bearing
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
@@ -14,6 +15,7 @@ from frames.checks.impacts import impact_demand, rim_engagement, slips_of_events
 from frames.checks.limits import DesignLimits
 from frames.checks.suite import Suite, left_out_checks
 from frames.checks.trace import Trace
+from frames.checks.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.checks.worst import Calculation, WorstOf
 from frames.results.auditing import doubts_of
 from lir_element.door import require_positive
@@ -90,7 +92,8 @@ def impact_checks(
     if total_displacement is not None:
         require_positive("total_displacement", total_displacement, "m", error=CheckError)
         found += _engagement(data, total_displacement, least_engagement, bound)
-    return Checks(replace(check, void=check.void or suite.void) for check in found)
+    found = [replace(check, void=check.void or suite.void) for check in found]
+    return not_evaluated(found, unknown_axial_forces(frame), OF_AXIAL_FORCES)
 
 
 def event_checks(

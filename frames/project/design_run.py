@@ -20,6 +20,7 @@ from frames.checks.histories import bounded_histories, history_checks, history_d
 from frames.checks.impacts import rim_engagement
 from frames.checks.motions import motion_checks
 from frames.checks.programme import ProgrammeDemands, programme_of_tests
+from frames.checks.unevaluated import not_evaluated
 from frames.project.groundwork import groundwork, inputs_of
 from frames.results.storage import as_packed
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning
@@ -286,6 +287,7 @@ def _of_the_bearing(
     # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
     bearing, bounds = parts.bearing(), parts.bounds()
     checks = device_checks(bearing, loads, slip=slip, bounds=bounds, limits=parts.limits())
+    checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
     totals: dict[Bound, float] = {
         each.bound: each.total_displacement for each in known.equivalent.bounds.values()
     }
@@ -303,7 +305,7 @@ def _programme(
     above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
     wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
     demands = ProgrammeDemands(
-        loads=loads, slip=slip, wind=wind or None,
+        loads=None if known.system.unknown_loads else loads, slip=slip, wind=wind or None,
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )  # fmt: skip
     return programme_of_tests(known.equivalent, known.system, demands, bounds=parts.bounds())

@@ -50,7 +50,7 @@ class MomentFrame(Section):
 
 
 class ShearBuilding(Section):
-    """``[structure]`` of kind "shear building": rigid floors on storey springs."""
+    """``[structure]`` of kind "shear building": rigid floors on storey springs, which tilt."""
 
     kind: Literal["shear building"]
     bays: tuple[int, int]

@@ -224,7 +224,8 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
 def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
     for line, is_void in said.items():
-        (folder / "uplift.toml").write_text(f"{SMALL}\n[analysis]\n{line}\n")
+        tall = SMALL.replace('storey_height = "3 m"', 'storey_height = "8 m"')
+        (folder / "uplift.toml").write_text(f"{tall}\n[analysis]\n{line}\n")
         done = run(app, ["run", str(folder / "uplift.toml"), "--results", str(folder / "up")])
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)

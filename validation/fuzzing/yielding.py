@@ -106,7 +106,7 @@ def _stick(rng: np.random.Generator) -> tuple[Frame, str]:
     plan = ((2, 1), 6.0) if rng.random() < 0.4 else None
     frame = shear_building(
         _bearing(rng, weight / (6 if plan else 1)), mass, stiffness, storeys=storeys, plan=plan,
-        storey_law=law, damping=ModalDamping(0.02),
+        storey_law=law, damping=ModalDamping(0.02), overturning=False,
         eccentricity=(0.05, 0.0) if plan and rng.random() < 0.5 else (0.0, 0.0),
     )  # fmt: skip
     return frame, f"stick of {storeys}, yields at {share:.2g} of the weight"
