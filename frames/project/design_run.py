@@ -288,9 +288,7 @@ def _asked(
         slip = parts.bearing().resolved()["slip_capacity"]
     bearing, factor = parts.bearing(), parts.rules().displacement_factor
     moved = float(demands.loc["isolator displacement", "envelope"])
-    if (
-        factor > 1.0 and not demands["void"].any()
-    ):  # what the code's displacement leaves to the slip
+    if factor > 1.0 and not demands["void"].any():  # what is beyond the rims by the code
         slip = max(slip, factor * moved - bearing.lateral_capacity)
     return (min(loads), max(loads)), slip
 
