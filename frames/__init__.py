@@ -54,6 +54,7 @@ from frames.checks.impacts import rim_engagement as rim_engagement
 from frames.checks.impacts import slips_of_events as slips_of_events
 from frames.checks.impacts import uplift_events as uplift_events
 from frames.checks.isolation import IsolationSystem as IsolationSystem
+from frames.checks.levels import ActionLevel as ActionLevel
 from frames.checks.limits import DesignLimits as DesignLimits
 from frames.checks.loops import LoopTest as LoopTest
 from frames.checks.loops import loop_properties as loop_properties
@@ -151,6 +152,7 @@ __all__ = [
     "HISTORY_RULES",
     "IDA",
     "AcceptanceLimits",
+    "ActionLevel",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",

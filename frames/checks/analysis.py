@@ -76,7 +76,7 @@ def equivalent_linear(
     >>> print(result["lower"].trace["V_b"].text())
     V_b = k_M D_M = 3502 kN/m · 250.1 mm = 875.7 kN
     >>> print(result.checks.governing)
-    effective damping (upper): 36.29 % <= 30 %, ratio 1.21, FAILED [ASCE 7-22 17.4.1]
+    effective damping (upper, MCE_R): 36.29 % <= 30 %, ratio 1.21, does not apply [ASCE 7-22 17.4.1]
     """
     require_type("system", system, IsolationSystem, "an IsolationSystem")
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")

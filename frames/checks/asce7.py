@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from frames._errors import CheckError
 from frames.checks.check import Bound, Check, Checks
 from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.levels import MCE_R
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
     capacity_check,
@@ -41,7 +42,8 @@ class ASCE7:
     restoring : float
         Force that the second half of D_M must add, over W (17.2.4.4).
     exponent : float
-        Of damping in (17.5-7): 2.5; 3.5 where sliding sets in abruptly.
+        Of damping in (17.5-7): 3.5 where sliding sets in abruptly, as on the concave surfaces of
+        all bearings here; 2.5 where the transition is gradual.
     response_share, largest_reduction : float
         R_I = 3/8 R, between 1 and 2 (17.5.4.2).
     activation : float
@@ -51,8 +53,11 @@ class ASCE7:
     longest_period, most_damping, period_ratio, stiffness_ratio, storeys, height : float
         Limits of the procedure (17.4.1): T_M [s], beta_M, T_M over T_fb, k(D_M) over k(0.2 D_M);
         storeys and height [m] count unless `no_tension`.
+    history_share : float
+        Of V_s that time histories keep at least (17.6.4): 1 until the edition's wording is read,
+        which is on the safe side; ASCE 7-10 had 0.6, and 0.8 of irregular structures.
     irregular : bool
-        Whether the structure is irregular: time histories then keep 80 % of V_s, not 60 (17.6.4).
+        Whether the structure is irregular: the procedure does not apply then (17.4.1).
     no_tension : bool
         Whether analysis shows that no bearing is pulled or lifts, so that height is free.
     orthogonal : float
@@ -70,7 +75,7 @@ class ASCE7:
     accidental_eccentricity: float = 0.05
     least_torsion: float = 1.15
     restoring: float = 0.025
-    exponent: float = 2.5
+    exponent: float = 3.5
     response_share: float = 3.0 / 8.0
     largest_reduction: float = 2.0
     activation: float = 1.5
@@ -81,6 +86,7 @@ class ASCE7:
     stiffness_ratio: float = 1.0 / 3.0
     storeys: float = 4.0
     height: float = 19.8
+    history_share: float = 1.0
     irregular: bool = False
     no_tension: bool = False
     orthogonal: float = 0.3
@@ -145,7 +151,7 @@ class ASCE7:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)
         t("V_b", "k_M * D_M", "N", source="ASCE 7-22 (17.5-5)")
-        judge = Judge(t, bound)
+        judge = Judge(t, bound, level=MCE_R)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
@@ -235,7 +241,7 @@ class ASCE7:
 
     def _dynamic_minima(self, t: Trace) -> None:
         source = "ASCE 7-22 17.6.4"
-        t.given("a_dyn", 0.8 if self.irregular else 0.6, source=source)
+        t.given("a_dyn", self.history_share, source=source)
         t("D_prime_M", "D_M / sqrt(1 + (T_fb / T_M)**2)", "m", source="ASCE 7-22 (17.6-1)",
           shown="mm")  # fmt: skip
         note = "least of a time history"
@@ -249,6 +255,10 @@ class ASCE7:
         t.given("a_fb", self.period_ratio)
         t("T_least", "a_fb * T_fb", "s")
         found: list[Check] = [limit(limits, "period over fixed base", "T_M", ">=", "T_least")]
+        if self.irregular:
+            t.given("n_irr", 1.0, note="irregular, as given")
+            t.given("n_irr_lim", 0.0)
+            found.append(limit(limits, "irregular structure", "n_irr", "<=", "n_irr_lim"))
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
             t.given("n_lim", self.storeys)

@@ -13,9 +13,11 @@ import numpy as np
 from frames._errors import CheckError
 from frames.analysis.overturning import unknown_axial_forces
 from frames.checks.bearing_demands import BearingDemands, devices_of
-from frames.checks.capacity import engagement_checks
+from frames.checks.capacity import RIM_RULES, engagement_checks
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
 from frames.checks.equivalent import Judge
+from frames.checks.history_rules import HISTORY_RULES
+from frames.checks.limits import PROJECT_LIMIT
 from frames.checks.suite import (
     audit_notes,
     contact_notes,
@@ -27,6 +29,7 @@ from frames.checks.suite import (
 )
 from frames.checks.trace import Trace
 from frames.checks.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.checks.uplift import Uplift
 from frames.checks.worst import Calculation, WorstOf
 
 if TYPE_CHECKING:
@@ -34,6 +37,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.checks.history_rules import HistoryRules
+    from frames.checks.levels import ActionLevel
     from frames.checks.limits import DesignLimits
     from frames.checks.outcome import EquivalentLinear
     from frames.checks.suite import Suite
@@ -64,6 +68,8 @@ class AtBound:
         What bearings and structure may be asked for.
     equivalent : EquivalentLinear, optional
         Analysis that has least values.
+    level : ActionLevel
+        Of the seismic action, and what is judged at it.
     """
 
     data: xr.Dataset
@@ -72,6 +78,7 @@ class AtBound:
     bound: Bound
     limits: DesignLimits
     equivalent: EquivalentLinear | None
+    level: ActionLevel
 
     def checks(self) -> list[Check]:
         """Return all of them.
@@ -86,17 +93,22 @@ class AtBound:
         CheckError
             If runs and frame do not belong together, or there are no minima.
         """
+        doubts = list(map(str, self.data["doubts"].to_numpy()))
+        found = [self._motions(), self._failed(), *left_out_checks(self.data, doubts, self.bound)]
+        if self.level.judges_bearings:
+            found += self._of_bearings()
+        if self.level.judges_structure:
+            found += [*self._base_shear(), *self._storey_shear()]
+            found += [*self._drift(), *self._acceleration()]
+        return [replace(check, level=self.level.name) for check in found]
+
+    def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(
-            clause, rules.displacement_factor, self._least("D_TM_dyn"), TO_BE_CONFIRMED
-        )
+        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
         found = [
-            self._motions(), self._failed(),
-            *left_out_checks(self.data, list(map(str, self.data["doubts"].to_numpy())), self.bound),
-            *moved, *self._engagement(moved), *bearings.slips(),
-            *bearings.forces(), *self._uplift(), *self._base_shear(), *self._storey_shear(),
-            *self._drift(), *self._acceleration(),
+            *moved, *self._engagement(moved), *bearings.slips(), *bearings.forces(),
+            *self._uplift(),
         ]  # fmt: skip
         return [*not_evaluated(found, unknown_axial_forces(self.frame), OF_AXIAL_FORCES)]
 
@@ -123,7 +135,10 @@ class AtBound:
     @property
     def _bearings(self) -> BearingDemands:
         devices = devices_of(self.data, self.frame)
-        return BearingDemands(self.data, self._suite, devices, self.limits, self.bound, self._note)
+        return BearingDemands(
+            self.data, self._suite, devices, self.limits, self.bound, self._note,
+            self.rules.displacement_factor,
+        )  # fmt: skip
 
     def _motions(self) -> Check:
         t = Trace()
@@ -144,12 +159,18 @@ class AtBound:
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
-        if self.rules.engagement is None or not moved or moved[0].void:
+        # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
+        code, least = self.rules.code, self.rules.engagement
+        if code not in RIM_RULES or not moved or moved[0].void:
             return []  # the check of the displacement tells why
         bearing = self.frame.bearings[moved[0].subject].bearing
-        least, of = self.rules.engagement, {self.bound: moved[0].demand}
-        found = engagement_checks(bearing, of, least=least)
-        return [replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found]
+        found = engagement_checks(
+            bearing, {self.bound: moved[0].demand}, least=least,
+            code=code,  # type: ignore[arg-type]  # one of them
+            agreed=self.limits.rim_engagement,
+        )  # fmt: skip
+        named = (replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found)
+        return [replace(c, title=f"{c.title} of histories") for c in named]
 
     def _uplift(self) -> list[Check]:
         found = []
@@ -167,11 +188,20 @@ class AtBound:
                 part for part in (self._suite.void if stopped else "", self._small_gaps) if part
             )
             found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=said))
-        if self.limits.uplift_gap is not None:
-            found += self._worst(
-                "", "gap of uplift", "gap", "g", "m", self.limits.uplift_gap, shown="mm"
-            )
-        return found
+        rules = self.rules
+        clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
+        devices = devices_of(self.data, self.frame)
+        more = "" if clause else self._uplift_by_the_project
+        reason = self._suite.reason
+        made = Uplift(self.data, devices, self.limits, self.bound, clause, more, reason)
+        return found + made.checks()
+
+    @property
+    def _uplift_by_the_project(self) -> str:
+        code = HISTORY_RULES.get(self.rules.code)
+        if code is None or code.uplift_allowed or not self.rules.uplift_allowed:
+            return ""
+        return f"runs with uplift count by the project, not by {code.code}: to be agreed"
 
     def _base_shear(self) -> list[Check]:
         limit, least = self.limits.base_shear, self._least("V_b_dyn")
@@ -186,8 +216,8 @@ class AtBound:
                 self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
             return t
 
-        clause, symbol = self.rules.force_clause, "V_d" if least > 0.0 else "V"
-        return self._worst(clause, "base shear", "base_shear", symbol, "N", limit, fill=fill)
+        symbol = "V_d" if least > 0.0 else "V"
+        return self._worst("", "base shear", "base_shear", symbol, "N", limit, fill=fill)
 
     def _storey_shear(self) -> list[Check]:
         # On the storey over the lowest level: less is not a failure of the run, but of the demand.
@@ -213,9 +243,28 @@ class AtBound:
         ]  # fmt: skip
 
     def _drift(self) -> list[Check]:
-        limit = self.rules.drift if self.limits.drift is None else self.limits.drift
-        if limit is None or len(self.frame.levels) < 2:
-            return []
+        # That of the code, and that of the project beside it.
+        own, found = self.limits.drift, list[Check]()
+        if len(self.frame.levels) < 2:
+            return found
+        if self.rules.drift is not None:
+            found += self._drift_within(self.rules.drift, self.rules.drift_clause)
+        if own is not None:
+            for check in self._drift_within(own, ""):
+                note = "; ".join(part for part in (check.note, self._beside()) if part)
+                found.append(replace(check, note=note))
+        return found
+
+    def _beside(self) -> str:
+        # How the project's limit of drifts is to that of the code.
+        own, code = self.limits.drift, self.rules.drift
+        if own is None or code is None:
+            return ""
+        word = "laxer" if own > code else "not laxer"
+        clause = self._clause(self.rules.drift_clause)
+        return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
+
+    def _drift_within(self, limit: float, clause: str) -> list[Check]:
         shear, least = reached(self.data, "base_shear"), self._least("V_b_dyn")
 
         def fill(values: FloatArray) -> Trace:
@@ -227,8 +276,7 @@ class AtBound:
                 self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%", of="theta")
             return t
 
-        clause, title = self.rules.drift_clause, "storey drift ratio"
-        symbol = "theta_d" if least > 0.0 else "theta"
+        symbol, title = "theta_d" if least > 0.0 else "theta", "storey drift ratio"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:
@@ -268,7 +316,7 @@ class AtBound:
                 self._suite.enter(t, symbol, values[:, k], unit, shown)
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
-        where = self._clause(clause) if clause else "no code: limit as given"
+        where = self._clause(clause) if clause else PROJECT_LIMIT
         standing = TO_BE_CONFIRMED if clause else CONFIRMED
         return WorstOf(self.bound, standing, note, self._suite.void)(where, title, each)
 

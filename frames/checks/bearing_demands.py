@@ -82,6 +82,8 @@ class BearingDemands:
         Bound of their properties.
     note : str
         Goes with each check.
+    factor : float
+        On the displacement [-]: where that is beyond the rims, the slip is at least the rest.
     """
 
     data: xr.Dataset
@@ -90,9 +92,10 @@ class BearingDemands:
     limits: DesignLimits
     bound: Bound
     note: str = ""
+    factor: float = 1.0
 
     def displacement(
-        self, clause: str, factor: float = 1.0, least: float = 0.0, standing: str = CONFIRMED
+        self, clause: str, least: float = 0.0, standing: str = CONFIRMED
     ) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow.
 
@@ -100,8 +103,6 @@ class BearingDemands:
         ----------
         clause : str
             Clause.
-        factor : float
-            On the displacement [-].
         least : float
             Displacement that is taken at least [m].
         standing : str
@@ -123,8 +124,8 @@ class BearingDemands:
                 t("U_max", "U_cap + s_lim", "m", shown="mm")
             self.suite.enter(t, "D", values[:, k], "m", "mm")
             formula = "D"
-            if factor > 1.0:
-                t.given("gamma_x", factor)
+            if self.factor > 1.0:
+                t.given("gamma_x", self.factor)
                 formula = "gamma_x * D"
             if least > 0.0:
                 note = "least one, of the equivalent-linear analysis"
@@ -145,7 +146,10 @@ class BearingDemands:
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
             def fill(k: int) -> Calculation:
                 t = self._entered(k)
-                self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                if symbol == "s":
+                    self._enter_slip(t, k)
+                else:
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
                 return Calculation(t, symbol, limit)
@@ -161,24 +165,30 @@ class BearingDemands:
             *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
         ]  # fmt: skip
 
+    def _enter_slip(self, t: Trace, k: int) -> None:
+        # The largest slip; with a factor on the displacement at least what that is beyond the rims.
+        slip = reached(self.data, "slip")[:, k]
+        if not self.factor > 1.0:
+            self.suite.enter(t, "s", slip, "m", "mm")
+            return
+        self.suite.enter(t, "s_run", slip, "m", "mm")
+        self.suite.enter(t, "D", reached(self.data, "displacement")[:, k], "m", "mm")
+        t.given("gamma_x", self.factor)
+        self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
+
     def forces(self) -> list[Check]:
         """Return the checks of rim force, eccentricity and pressures, where they have limits."""
-        found, limits = [], self.limits
-        if limits.rim_strength is not None:
-            found += self._against("rim force", "rim_force", "P", limits.rim_strength, "N")
+        found, limits = list[Check](), self.limits
+        found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
         title = "resultant between the sliders, over their radius"
         found += self._against(
-            title, "eccentricity", "epsilon", limits.eccentricity, "-", note=self._of_resultants
+            title, "eccentricity", "epsilon", "eccentricity", "-", note=self._of_resultants
         )
-        if limits.lateral_force is not None:
-            title = "lateral force of a bearing"
-            found += self._against(title, "force", "H", limits.lateral_force, "N")
-        if limits.displacement_left is not None:
-            name, limit = "displacement_left", limits.displacement_left
-            found += self._against("displacement left", name, "D_left", limit, "m", "mm")
-        if limits.axial_force is not None:
-            title = "largest axial force"
-            found += self._against(title, "axial_force", "N", limits.axial_force, "N")
+        title = "lateral force of a bearing"
+        found += self._against(title, "force", "H", "lateral_force", "N")
+        name = "displacement_left"
+        found += self._against("displacement left", name, "D_left", name, "m", "mm")
+        found += self._against("largest axial force", "axial_force", "N", "axial_force", "N")
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
@@ -198,13 +208,13 @@ class BearingDemands:
     ) -> list[Check]:
         if limit is None:
             return []
-        load, slip = reached(self.data, "axial_force"), reached(self.data, "slip")
+        load = reached(self.data, "axial_force")
 
         def fill(k: int) -> Calculation:
             t = self._entered(k)
             t.given("p_lim", limit, "Pa", note="as given")
             self.suite.enter(t, "N", load[:, k], "N")
-            self.suite.enter(t, "s", slip[:, k], "m", "mm")
+            self._enter_slip(t, k)
             of(t)
             return Calculation(t, "p", "p_lim")
 
@@ -227,11 +237,15 @@ class BearingDemands:
         title: str,
         name: str,
         symbol: str,
-        limit: float,
+        given: str,
         unit: str,
         shown: str = "",
         note: str = "",
     ) -> list[Check]:
+        # Against a limit of the project by its name; none where it is not given.
+        limit = getattr(self.limits, given)
+        if limit is None:
+            return []
         values = reached(self.data, name)
 
         def fill(k: int) -> Calculation:
@@ -240,7 +254,8 @@ class BearingDemands:
             t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
             return Calculation(t, symbol, f"{symbol}_lim")
 
-        return self._worst("no code: limit as given", title, fill, self._all, note=note)
+        clause = self.limits.clause_of(given)
+        return self._worst(clause, title, fill, self._all, note=note)
 
     @property
     def _of_resultants(self) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from frames._errors import CheckError
 from frames.checks.bearing_numbers import (
@@ -15,9 +15,10 @@ from frames.checks.bearing_numbers import (
     enter_length,
     require_rims,
 )
-from frames.checks.check import CONFIRMED, Bound, Checks
+from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
 from frames.checks.equivalent import Judge
-from lir_element.door import require_positive
+from frames.checks.limits import PROJECT_LIMIT
+from lir_element.door import require_choice, require_positive
 
 if TYPE_CHECKING:
     from frames.checks.bounds import PropertyBounds
@@ -85,59 +86,126 @@ def capacity_checks(
     return Checks(found)
 
 
+class RimRule(NamedTuple):
+    """What a code asks of the displacement at which rims are met.
+
+    Attributes
+    ----------
+    clause : str
+        Clause.
+    symbol : str
+        How the code calls the displacement that bearings must allow.
+    least : float
+        Share of it below which rims must not be met [-].
+    note : str
+        What rims that are met below it mean under the code.
+    """
+
+    clause: str
+    symbol: str
+    least: float
+    note: str
+
+
+RIM_RULES: dict[str, RimRule] = {
+    "ASCE 7-22": RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
+    "EN 1998-1": RimRule(
+        "EN 1998-1 10.3(2), EN 15129", "gamma_x d_bd", 1.0,
+        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
+        "implements them, wants end stops that leave this displacement free. Needs the agreement "
+        "of the authority, time histories with the rims, and tests of impact and return",
+    ),
+    "NCh2745": RimRule(
+        "NCh2745 7.3", "D_TM", 1.0,
+        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
+        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
+        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+    ),
+}  # fmt: skip
+"""Rules by code; clauses and shares to be confirmed against the standards."""
+
+
 def engagement_checks(
     bearing: LIRBearing,
     displacement: float | Mapping[Bound, float],
     *,
-    least: float = 0.60,
+    least: float | None = None,
+    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] = "ASCE 7-22",
+    agreed: float | None = None,
 ) -> Checks:
-    """Check at which share of the maximum displacement each rim is met, for ASCE 7-22 17.2.4.5.
+    """Check at which share of the displacement that bearings must allow each rim is met.
 
     Parameters
     ----------
     bearing : LIRBearing
         The bearing.
     displacement : float or mapping
-        Total maximum displacement D_TM [m], one or one for each bound.
-    least : float
-        Share of D_TM below which a restraint must not engage [-]; the edition's wording has to be
-        read.
+        Displacement that bearings must allow [m], one or one for each bound: D_TM of ASCE 7-22, and
+        of NCh2745 at its maximum level; gamma_x d_bd of EN 1998-1.
+    least : float, optional
+        Share of it below which a rim must not be met [-]; that of the code if None: 0.60 of
+        ASCE 7-22, whose wording has to be read, 1 of the others, which have no rule for rims that
+        are met by intent.
+    code : {"ASCE 7-22", "EN 1998-1", "NCh2745"}
+        The code.
+    agreed : float, optional
+        Share that the authority agreed to, or that tests prove [-]: checked beside that of the
+        code.
 
     Returns
     -------
     Checks
-        A check for each rim and bound, where a rim is met below D_TM at all.
+        A check for each rim and bound; of a code without a rule for rims met by intent that of the
+        rim and bound that are worst. With an agreed share as many again.
 
     Raises
     ------
     CheckError
-        If the bearing has no rims, or a number is out of bounds.
+        If the bearing has no rims, the code is not known, or a number is out of bounds.
 
     Notes
     -----
     A rim is met at ``U = L d / R``, plates parallel, no slip left.
     """
     require_rims(bearing)
-    require_positive("least", least, "-", error=CheckError)
+    require_choice("code", code, tuple(RIM_RULES), error=CheckError)
+    rule = RIM_RULES[code]
+    share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
+    asked = [(rule.clause, share, rule.note)]
+    if agreed is not None:
+        require_positive("agreed", agreed, "-", error=CheckError)
+        asked.append((PROJECT_LIMIT, agreed, "as agreed; the code's own is checked beside it"))
     of: Mapping[Bound, float] = (
         displacement if isinstance(displacement, Mapping) else {"": displacement}
     )
-    found = []
     for bound, value in of.items():
         require_positive(f"displacement {bound}".strip(), value, "m", error=CheckError)
-        for k, name in enumerate(SURFACES, start=1):
-            if not math.isfinite(bearing.rim_displacement[k - 1]):
-                continue
-            t = enter_geometry(bearing)
-            t.given("D_TM", value, "m", shown="mm")
-            t.given("eta_least", least)
-            t("U_rim", f"L * d_rim_{k} / R_{k}", "m", shown="mm", note=f"{name} rim is met")
-            share = t("eta", "U_rim / D_TM")
-            note = "not met below D_TM" if share >= 1.0 else "needs time histories with the rims"
-            found.append(
-                Judge(t, bound).worst(
-                    "ASCE 7-22 17.2.4.5", "displacement where a rim engages, over D_TM",
-                    "eta", ">=", "eta_least", subjects=(f"{name} rim",), note=note,
-                )
-            )  # fmt: skip
+    rims = [k for k in range(len(SURFACES)) if math.isfinite(bearing.rim_displacement[k])]
+    found: list[Check] = []
+    for each in asked:
+        made = [_met(bearing, k, at, rule.symbol, *each) for at in of.items() for k in rims]
+        found += made if rule.least < 1.0 else [max(made, key=lambda check: check.ratio)]
     return Checks(found)
+
+
+def _met(
+    bearing: LIRBearing,
+    k: int,
+    at: tuple[Bound, float],
+    symbol: str,
+    clause: str,
+    least: float,
+    said: str,
+) -> Check:
+    # Where a rim is met, over the displacement that a bearing must allow.
+    t = enter_geometry(bearing)
+    t.given("D_allowed", at[1], "m", shown="mm", note=symbol)
+    t.given("eta_least", least)
+    name = SURFACES[k]
+    t("U_rim", f"L * d_rim_{k + 1} / R_{k + 1}", "m", shown="mm", note=f"{name} rim is met")
+    share = t("eta", "U_rim / D_allowed")
+    standing = CONFIRMED if clause == PROJECT_LIMIT else TO_BE_CONFIRMED
+    return Judge(t, at[0], standing).worst(
+        clause, f"displacement where a rim engages, over {symbol}", "eta", ">=", "eta_least",
+        subjects=(f"{name} rim",), note=f"not met below {symbol}" if share >= 1.0 else said,
+    )  # fmt: skip

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 Bound = Literal["lower", "nominal", "upper", ""]
 Scope = Literal["any", "demand", "procedure"]
+Verdict = Literal["ok", "FAILS", "does not apply"]
 CONFIRMED = "confirmed"
 TO_BE_CONFIRMED = "to be confirmed against the standard"
 _ROUND_OFF = 1e-9
@@ -58,8 +59,12 @@ class Check:
         Why the demand is no value for design, as after runs that failed: the check then fails,
         whatever demand and limit are. The demand is what was reached.
     scope : {"any", "demand", "procedure"}
-        What it holds for: any analysis; a demand that a time history finds anew; or the
-        equivalent-linear procedure, which does not hold where it fails. Not in tables.
+        What it holds for: any analysis; a demand that a time history finds anew; or a limit of
+        the equivalent-linear procedure. Where such a limit is exceeded the procedure does not
+        apply: that is no failure of the structure. Not in tables, which show the `verdict`.
+    level : str
+        Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
+        empty where none enters.
 
     Raises
     ------
@@ -89,6 +94,7 @@ class Check:
     shown: str = ""
     void: str = ""
     scope: Scope = "any"
+    level: str = ""
 
     def __post_init__(self) -> None:
         for name in ("demand", "limit"):
@@ -142,6 +148,18 @@ class Check:
         return self.ratio <= 1.0 + _ROUND_OFF
 
     @property
+    def verdict(self) -> Verdict:
+        """Outcome: "ok", "FAILS", or "does not apply" where a limit of a procedure is exceeded."""
+        if self.passed:
+            return "ok"
+        return "does not apply" if self.scope == "procedure" else "FAILS"
+
+    @property
+    def concerns(self) -> str:
+        """Subject, bound of the properties and level of the action, on one line."""
+        return ", ".join(part for part in (self.subject, self.bound, self.level) if part)
+
+    @property
     def cited(self) -> str:
         """The clause, with a star where it is to be confirmed."""
         return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
@@ -158,7 +176,7 @@ class Check:
     @property
     def statement(self) -> str:
         """What is checked, with its numbers, on one line."""
-        where = ", ".join(part for part in (self.subject, self.bound) if part)
+        where = self.concerns
         demand, limit, _ = self.said
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
@@ -167,10 +185,11 @@ class Check:
 
     def __str__(self) -> str:
         """Return the check on one line."""
-        return f"{self.statement}, {'passed' if self.passed else 'FAILED'} [{self.clause}]"
+        word = {"ok": "passed", "FAILS": "FAILED"}.get(self.verdict, self.verdict)
+        return f"{self.statement}, {word} [{self.clause}]"
 
 
-_HEAD = ("check", "concerns", "bound", "demand", "", "limit", "ratio", "", "clause")
+_HEAD = ("check", "concerns", "bound", "level", "demand", "", "limit", "ratio", "", "clause")
 
 
 class Checks(Sequence[Check]):
@@ -202,13 +221,25 @@ class Checks(Sequence[Check]):
 
     @property
     def passed(self) -> bool:
-        """Whether there are checks and all of them pass."""
+        """Whether there are checks and none fails; limits of a procedure do not count."""
         return bool(self._checks) and not self.failed
 
     @property
     def failed(self) -> Checks:
-        """Those that do not pass."""
-        return Checks(check for check in self if not check.passed)
+        """Those that fail; limits of a procedure are not among them."""
+        return Checks(check for check in self if check.verdict == "FAILS")
+
+    @property
+    def inapplicable(self) -> Checks:
+        """Limits of a procedure that are exceeded, so that it does not apply."""
+        return Checks(check for check in self if check.verdict == "does not apply")
+
+    @property
+    def tally(self) -> str:
+        """How many there are, how many fail, and how many limits of a procedure are exceeded."""
+        beyond = len(self.inapplicable)
+        more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
+        return f"{len(self)} checks, {len(self.failed)} failed{more}"
 
     @property
     def governing(self) -> Check:
@@ -238,24 +269,23 @@ class Checks(Sequence[Check]):
 
         names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
         rows = [
-            {**{name: getattr(c, name) for name in names}, "ratio": c.ratio, "passed": c.passed}
+            {name: getattr(c, name) for name in (*names, "ratio", "passed", "verdict")}
             for c in self
         ]
-        return pd.DataFrame(rows, columns=[*names, "ratio", "passed"])
+        return pd.DataFrame(rows, columns=[*names, "ratio", "passed", "verdict"])
 
     def __str__(self) -> str:
         """Return a table for people."""
-        return text_table(self._rows(), _HEAD, left=3) if self._checks else "no checks"
+        return text_table(self._rows(), _HEAD, left=4) if self._checks else "no checks"
 
     def __repr__(self) -> str:
         """Return how many there are, and which governs."""
         if not self._checks:
             return "Checks: none"
-        worst = self.governing
-        return f"Checks: {len(self)}, {len(self.failed)} failed; governing: {worst}"
+        return f"Checks: {self.tally}; governing: {self.governing}"
 
     def _repr_html_(self) -> str:
-        return html_table(f"{len(self)} checks, {len(self.failed)} failed", self._rows(), _HEAD)
+        return html_table(self.tally, self._rows(), _HEAD)
 
     def _rows(self) -> list[tuple[str, ...]]:
         return [
@@ -263,10 +293,11 @@ class Checks(Sequence[Check]):
                 c.title,
                 c.subject,
                 c.bound,
+                c.level,
                 c.said[0],
                 "" if c.void else c.relation,
                 *c.said[1:],
-                "ok" if c.passed else "FAILS",
+                c.verdict,
                 c.cited,
             )
             for c in self

@@ -47,7 +47,7 @@ _NOTES = {
     "storey drift ratio, worst line": "in plan",
     "floor acceleration in plan": "mean of the level",
 }
-_ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void")
+_ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
 
 
 def demand_table(runs: Mapping[Bound, xr.Dataset], rules: HistoryRules) -> pd.DataFrame:
@@ -133,6 +133,43 @@ def said(suite: Suite) -> str:
     if failed:
         return f"{what}{n - failed} of {n} runs, at least {suite.median_factor:g} medians of all"
     return f"{what}{n} runs" if n > 1 else "1 run"
+
+
+def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """Return tables of demands of several levels of the seismic action, one under the other.
+
+    Parameters
+    ----------
+    tables : mapping of str to pandas.DataFrame
+        Of `demand_table`, by level.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The last column is the level; statistics that differ between levels name them.
+    """
+    import pandas as pd
+
+    several = len(tables) > 1
+    parts = []
+    for name, table in tables.items():
+        void = table["void"].map(lambda why, at=name: f"level {at}, {why}" if why else "")
+        parts.append(table.assign(void=void if several else table["void"], level=name))
+    found = pd.concat(parts)
+    statistics: dict[str, str] = {}
+    for bound in next(iter(tables.values())).attrs["statistics"]:
+        words = {name: table.attrs["statistics"][bound] for name, table in tables.items()}
+        same = len(set(words.values())) == 1
+        each = (f"{name}: {text}" for name, text in words.items())
+        statistics[bound] = next(iter(words.values())) if same else "; ".join(each)
+    runs = sum(table.attrs["runs"] for table in tables.values())
+    found.attrs = {"statistics": statistics, "runs": runs // len(tables)}
+    return found
+
+
+def void_said(table: pd.DataFrame) -> str:
+    """Return why a table of demands has no values for design, of each level; empty if it has."""
+    return "; ".join(why for why in dict.fromkeys(map(str, table["void"])) if why)
 
 
 def headed(table: pd.DataFrame) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from frames.checks.bearing_numbers import (
 )
 from frames.checks.check import CONFIRMED, Check, Checks
 from frames.checks.equivalent import Judge
-from frames.checks.limits import DesignLimits
+from frames.checks.limits import PROJECT_LIMIT, DesignLimits
 from frames.checks.overlap import liner_pressure, pressure
 
 if TYPE_CHECKING:
@@ -97,7 +97,8 @@ def device_checks(
 def _holds(judge: Judge, limits: DesignLimits) -> list[Check]:
     # Below the rims L F_h = N s + mu_1 N R_1 + mu_2 N R_2.
     t, found = judge.t, []
-    t.given("gamma", limits.margin, note="margin; a proposal")
+    own = limits.clause_of("margin") == PROJECT_LIMIT
+    t.given("gamma", limits.margin, note=f"margin; {'of the project' if own else 'a proposal'}")
     for name in ("min", "max"):
         t(f"F_{name}", f"N_{name} * (mu_e + s_left / L)", "N",
           source="docs/theory.md (2.1)", note="interface, before a rim is met")  # fmt: skip
@@ -146,7 +147,8 @@ def _eccentricity(judge: Judge, limits: DesignLimits) -> Check:
     free, alone = "abs(e_1), abs(e_1 - s)", "abs(e_2 - s), abs(e_3 - s)"
     left = "abs(e_2) + s_left, abs(e_3) + s_left"
     t("epsilon", f"max({free}, {alone}, {left}) / a", source="docs/theory.md (10.2)")
-    t.given("epsilon_lim", limits.eccentricity, note="a proposal")
+    own = limits.clause_of("eccentricity") == PROJECT_LIMIT
+    t.given("epsilon_lim", limits.eccentricity, note="of the project" if own else "a proposal")
     title, note = "resultant between the sliders", "over their radius; tips at 1"
     return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
 

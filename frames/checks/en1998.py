@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from frames._errors import CheckError
 from frames.checks.check import Bound, Checks
 from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.levels import DESIGN
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
     capacity_check,
@@ -124,7 +125,7 @@ class EN1998:
             pendulum.require_sliding(t.value("d_dc"))
         self._torsion(t, system)
         t("V_b", "K_eff * d_dc", "N", source="EN 1998-1 10.9.3")
-        judge = Judge(t, bound)
+        judge = Judge(t, bound, level=DESIGN)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure)

@@ -121,6 +121,8 @@ class Judge:
         Of its checks.
     void : str
         Why its demands are no values for design.
+    level : str
+        Level of the seismic action of its checks.
     """
 
     t: Trace
@@ -128,10 +130,15 @@ class Judge:
     standing: str = TO_BE_CONFIRMED
     scope: Scope = "any"
     void: str = ""
+    level: str = ""
 
     def of(self, scope: Scope) -> Judge:
         """Return one that makes checks of this scope."""
         return replace(self, scope=scope)
+
+    def at(self, level: str) -> Judge:
+        """Return one that makes checks at this level of the seismic action."""
+        return replace(self, level=level)
 
     def __call__(
         self,
@@ -184,5 +191,5 @@ class Judge:
             clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
             unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
             trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
-            note=note, scope=self.scope, void=self.void,
+            note=note, scope=self.scope, void=self.void, level=self.level,
         )  # fmt: skip

@@ -91,6 +91,7 @@ def history_checks(
     bounds: PropertyBounds | None = None,
     limits: DesignLimits | None = None,
     equivalent: EquivalentLinear | None = None,
+    action_level: str = "",
 ) -> Checks:
     """Check time history analyses as a code counts them, at each bound of properties.
 
@@ -105,32 +106,37 @@ def history_checks(
     bounds : PropertyBounds, optional
         Factors that the runs at a bound were made with: the slip that holds goes by them.
     limits : DesignLimits, optional
-        What bearings and structure may be asked for; its drift takes the place of the code's.
+        What bearings and structure may be asked for; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional
         Of ASCE 7-22 with a superstructure: at the bounds that it has, its minima are put under
         displacement and base shear, drifts grow as the base shear does, and the shear of the
         storey over the lowest level is held against its least value.
+    action_level : str
+        Which level of the seismic action the runs are of, where the code has several: NCh2745
+        judges what stands on the bearings at "design", the bearings at "maximum".
 
     Returns
     -------
     Checks
-        At each bound: number of motions, runs that failed, displacement, slip, rims and forces of
-        the worst bearing, drift of the worst storey, and what `limits` asks for. Where more runs
-        failed than the rules allow, no value is formed of the others: each check that needs it
-        fails (`Check.void`), its demand is what the runs reached, and its note names those that
-        failed. Notes also tell what the runs' audits mark.
+        At each bound, as far as the level is for it: number of motions, runs that failed,
+        displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and
+        what `limits` asks for. Where more runs failed than the rules allow, no value is formed of
+        the others: each check that needs it fails (`Check.void`), its demand is what the runs
+        reached, and its note names those that failed. Notes also tell what the runs' audits mark.
 
     Raises
     ------
     CheckError
         If runs and frame do not belong together, runs are missing, a motion is there at two
-        scales, or the code has no minima.
+        scales, the code has no minima, or the level is not one of the code's.
     """
     rules = _rules(code)
+    level = rules.level(action_level)
     found: list[Check] = []
     for bound, data in _by_bound(runs).items():
         model = frame if bounds is None or bound == "" else bounded(frame, bound, bounds)
-        found += AtBound(data, model, rules, bound, limits or DesignLimits(), equivalent).checks()
+        chosen = limits or DesignLimits()
+        found += AtBound(data, model, rules, bound, chosen, equivalent, level).checks()
     return Checks(found)
 
 

@@ -6,7 +6,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from frames._errors import CheckError
-from lir_element.door import require_between, require_non_negative, require_positive
+from frames.checks.levels import DESIGN, MAXIMUM, MCE_R, NCH_MAXIMUM, ActionLevel
+from lir_element.door import (
+    require_between,
+    require_choice,
+    require_non_negative,
+    require_positive,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,11 +46,14 @@ class HistoryRules:
     median_factor : float
         That factor [-].
     engagement : float, optional
-        Share of the displacement below which rims must not engage [-]; not checked if None.
+        Share of the displacement below which rims must not engage [-]; that of the code,
+        `RIM_RULES`, if None.
     has_minima : bool
         Whether an equivalent-linear analysis gives least values.
-    statistic_clause, displacement_clause, drift_clause, force_clause : str
-        Clauses.
+    levels : tuple of ActionLevel
+        Levels of the seismic action at which histories are run, and what is judged at each.
+    statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
+        Clauses; `uplift_clause` that of what bearings must keep where they lift off.
     """
 
     code: str
@@ -58,10 +67,12 @@ class HistoryRules:
     median_factor: float = 1.2
     engagement: float | None = None
     has_minima: bool = False
+    levels: tuple[ActionLevel, ...] = (ActionLevel(DESIGN),)
     statistic_clause: str = ""
     displacement_clause: str = ""
     drift_clause: str = ""
     force_clause: str = ""
+    uplift_clause: str = ""
 
     def __post_init__(self) -> None:
         require_between("least", self.least, 1, 1000, "-", error=CheckError)
@@ -73,6 +84,41 @@ class HistoryRules:
         for name in ("drift", "engagement"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name), "-", error=CheckError)
+        if not self.levels:
+            msg = "levels is empty: give one level of the seismic action at least"
+            raise CheckError(msg)
+
+    def level(self, name: str = "") -> ActionLevel:
+        """Return a level by its name, the only one if "".
+
+        Parameters
+        ----------
+        name : str
+            Of one of `levels`.
+
+        Returns
+        -------
+        ActionLevel
+            That one.
+
+        Raises
+        ------
+        CheckError
+            If there is none of that name, or none is named of several.
+        """
+        names = [each.name for each in self.levels]
+        if not name and len(names) > 1:
+            factors = ", ".join(
+                f"{each.name!r} (motions times {each.factor:g}: {each.judges})"
+                for each in self.levels
+            )
+            msg = (
+                f"{self.code} judges at {len(names)} levels, {factors}: say of which the runs are, "
+                f"action_level={names[0]!r}"
+            )
+            raise CheckError(msg)
+        require_choice("action_level", name or names[0], tuple(names), error=CheckError)
+        return self.levels[names.index(name or names[0])]
 
 
 RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
@@ -84,9 +130,10 @@ RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
 
 HISTORY_RULES = {
     "ASCE 7-22": HistoryRules(
-        code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True, engagement=0.60,
-        has_minima=True, statistic_clause="17.3.3", displacement_clause="17.6.4",
-        drift_clause="17.6.4.4", force_clause="17.6.4",
+        code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True,
+        has_minima=True, levels=(ActionLevel(MCE_R),), statistic_clause="17.3.3",
+        displacement_clause="17.6.4", drift_clause="17.6.4.4", force_clause="17.6.4",
+        uplift_clause="17.2.4.7",
     ),
     "EN 1998-1": HistoryRules(
         code="EN 1998-1", least=3, mean_from=7, displacement_factor=1.2,
@@ -96,6 +143,10 @@ HISTORY_RULES = {
     "NCh2745": HistoryRules(
         code="NCh2745", least=3, mean_from=7, drift=0.003, statistic_clause="8.4",
         displacement_clause="8", drift_clause="8.8", force_clause="8",
+        levels=(
+            ActionLevel(DESIGN, judges="superstructure"),
+            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
+        ),
     ),
 }  # fmt: skip
 """Rules by code."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames.checks.check import Bound, Checks
 from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.levels import DESIGN, MAXIMUM, NCH_MAXIMUM
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
     capacity_check,
@@ -61,7 +62,7 @@ class NCh2745:
     The base shear goes by the largest stiffness at the displacement, that of the upper bound.
     """
 
-    maximum: float = 1.2
+    maximum: float = NCH_MAXIMUM
     accidental_eccentricity: float = 0.05
     least_torsion: float = 1.1
     largest_reduction: float = 2.0
@@ -103,14 +104,16 @@ class NCh2745:
         t.given_each("mu_up", friction, note="effective friction, upper properties")
         t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
         t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
-        judge = Judge(t, bound)
+        t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
+        judge = Judge(t, bound, level=DESIGN)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, extremes)
             clause, limit = "NCh2745 7.6", self.drift
             checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
-            checks += vertical_checks(t, system, judge, "NCh2745 6.2", self.pressure_limit)
+            at = judge.at(MAXIMUM)
+            checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
 
@@ -142,7 +145,7 @@ class NCh2745:
         note = "else the capacity must be 3 D_TM"
         return Checks(
             [
-                capacity_check(t, system, judge, "NCh2745 7.3", "D_TM_i"),
+                capacity_check(t, system, judge.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
                 judge("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
             ]
         )
@@ -159,5 +162,7 @@ class NCh2745:
         t("V_s", "max(V_b / R_1, V_wind, Q_up, a_Q * Q_nom)", "N", source="NCh2745 7.4")
         t.each("F_x", "V_s * w_x * h_x / sum(w_x * h_x)", "N", source="NCh2745 7.5")
         t("F_1", "V_b / R_1 * (1 - sum(w_x) / W)", "N", note="at the base level")
-        t("M_o", "sum(w_x * h_x**2) / sum(w_x * h_x) * V_b", "N m", note="overturning, unreduced")
+        t("V_M", "k_Mmax * D_M", "N", note="at the maximum level, for axial loads at D_TM")
+        t("M_o", "sum(w_x * h_x**2) / sum(w_x * h_x) * V_M", "N m", source="NCh2745 6.2",
+          note="overturning, unreduced, at the maximum level")  # fmt: skip
         t.given("o", self.orthogonal, note="share of the other direction")

@@ -103,9 +103,9 @@ class _Design:
     largest: float  # N
     demands: ProgrammeDemands
 
-    def speed_at(self, displacement: float) -> float:
-        """Peak speed of harmonic motion with the effective period."""
-        return 2.0 * math.pi * displacement / self.result.period
+    def speed_at(self, displacement: float, period: float | None = None) -> float:
+        """Peak speed of harmonic motion, with the effective period unless another is given."""
+        return 2.0 * math.pi * displacement / (period or self.result.period)
 
 
 def programme_of_tests(
@@ -212,12 +212,12 @@ def _wind(d: _Design, clause: str) -> PlannedTest:
 
 
 def _increments(
-    d: _Design, steps: Iterable[tuple[str, float]], clause: str
+    d: _Design, steps: Iterable[tuple[str, float, float]], clause: str
 ) -> Iterable[PlannedTest]:
-    # Steps of displacement [m] by name, at each of three loads.
+    # Steps of displacement [m] by name with their speed [m/s], at each of three loads.
     for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
-        for name, at in steps:
-            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, d.speed_at(at),
+        for name, at, speed in steps:
+            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, speed,
                               "stiffness and energy at each displacement", clause)  # fmt: skip
 
 
@@ -228,9 +228,10 @@ def _stable(d: _Design, name: str, displacement: float, clause: str) -> PlannedT
     )  # fmt: skip
 
 
-def _many(d: _Design, name: str, displacement: float, cycles: float, clause: str) -> PlannedTest:
+def _many(d: _Design, at: tuple[str, float, float], cycles: float, clause: str) -> PlannedTest:
+    name, displacement, speed = at
     return PlannedTest(
-        f"many cycles, {name}", displacement, d.average, cycles, d.speed_at(displacement),
+        f"many cycles, {name}", displacement, d.average, cycles, speed,
         "heat and wear over an earthquake", clause,
     )  # fmt: skip
 
@@ -249,12 +250,13 @@ def _asce7(d: _Design) -> Iterable[PlannedTest]:
                       d.demands.slow_speed, "each bearing is as the prototypes",
                       "ASCE 7-22 17.8.5")  # fmt: skip
     yield _wind(d, f"{clause} (1)")
-    steps = [(f"{share:g} D_M", share * moved) for share in _STEPS]
+    steps = [(f"{share:g} D_M", share * moved, d.speed_at(share * moved)) for share in _STEPS]
     yield from _increments(d, steps, f"{clause} (2)")
     yield _stable(d, "D_M", moved, f"{clause} (3)")
     yield _stable(d, "D_TM", d.result.total_displacement, f"{clause} (3)")
     count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
-    yield _many(d, "0.75 D_M", 0.75 * moved, float(math.ceil(count - 1e-9)), f"{clause} (4)")
+    at = "0.75 D_M", 0.75 * moved, d.speed_at(0.75 * moved)
+    yield _many(d, at, float(math.ceil(count - 1e-9)), f"{clause} (4)")
     yield from _static(d, "ASCE 7-22 17.8.2.5")
 
 
@@ -277,13 +279,21 @@ def _en15129(d: _Design) -> Iterable[PlannedTest]:
 
 
 def _nch2745(d: _Design) -> Iterable[PlannedTest]:
+    # Each displacement with the period of its level: D_D with T_D, D_M with T_M.
     clause, t = _TESTS["NCh2745"], d.result.trace
+
+    def at_design(name: str, displacement: float) -> tuple[str, float, float]:
+        return name, displacement, d.speed_at(displacement, t.value("T_D"))
+
     design, most = t.value("D_D"), t.value("D_M")
     yield _wind(d, clause)
-    steps = (("0.2 D_D", 0.2 * design), ("0.5 D_D", 0.5 * design), ("D_D", design), ("D_M", most))
+    steps = (
+        at_design("0.2 D_D", 0.2 * design), at_design("0.5 D_D", 0.5 * design),
+        at_design("D_D", design), ("D_M", most, d.speed_at(most)),
+    )  # fmt: skip
     yield from _increments(d, steps, clause)
     yield _stable(d, "D_TM", d.result.total_displacement, clause)
-    yield _many(d, "D_TD", t.value("D_TD"), 10.0, clause)
+    yield _many(d, at_design("D_TD", t.value("D_TD")), 10.0, clause)
     yield from _static(d, clause)
 
 

@@ -12,10 +12,11 @@ from frames.checks.bearing_numbers import NO_CODE, enter_bearing
 from frames.checks.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
 from frames.checks.equivalent import Judge
 from frames.checks.impacts import impact_demand, rim_engagement, slips_of_events, uplift_events
-from frames.checks.limits import DesignLimits
+from frames.checks.limits import PROJECT_LIMIT, DesignLimits
 from frames.checks.suite import Suite, left_out_checks
 from frames.checks.trace import Trace
 from frames.checks.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.checks.uplift import Uplift
 from frames.checks.worst import Calculation, WorstOf
 from frames.results.auditing import doubts_of
 from lir_element.door import require_positive
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
 
     from frames.frame import Frame
     from lir_element import LIRBearing
-
-_AS_GIVEN = "no code: limit as given"
 
 
 def impact_checks(
@@ -51,7 +50,8 @@ def impact_checks(
     limits : DesignLimits, optional
         What bearings and structure may be asked for.
     total_displacement : float, optional
-        D_TM [m], of which rims must not engage below a share.
+        D_TM of ASCE 7-22 [m], of which rims must not engage below a share; `engagement_checks` has
+        the other codes.
     least_engagement : float
         That share [-]; the wording of ASCE 7-22 17.2.4.5 has to be read.
     bound : {"lower", "nominal", "upper", ""}
@@ -89,6 +89,8 @@ def impact_checks(
     found += bearings.displacement(f"{NO_CODE}, section 2")
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]
+    lifted = Uplift(data, devices_of(data, frame), limits, bound, reason=reason)
+    found += [*lifted.rims(), *([] if limits.axial_force else lifted.landings())]
     if total_displacement is not None:
         require_positive("total_displacement", total_displacement, "m", error=CheckError)
         found += _engagement(data, total_displacement, least_engagement, bound)
@@ -172,7 +174,7 @@ def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Che
                 label.partition(" of ")[2]: _felt(row, symbol, unit, shown, limit)
                 for label, row in rows.iterrows()
             }
-            found += WorstOf(bound, CONFIRMED)(_AS_GIVEN, f"{kind} at an impact", each)
+            found += WorstOf(bound, CONFIRMED)(PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
@@ -203,7 +205,7 @@ def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]
         t.given(symbol, float(row[column]), unit, shown=shown, note=when)
         t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
         each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}
-        found += WorstOf(bound, CONFIRMED, note)(_AS_GIVEN, title, each)
+        found += WorstOf(bound, CONFIRMED, note)(PROJECT_LIMIT, title, each)
     return found
 
 
@@ -214,7 +216,7 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
         t = Trace()
         when = f"{row['bearing']}, t = {row['time']:.4g} s"
         t.given("U_rim", float(row["displacement"]), "m", shown="mm", note=when)
-        t.given("D_TM", whole, "m", shown="mm")
+        t.given("D_TM", whole, "m", shown="mm", note="of ASCE 7-22")
         t.given("eta_least", least)
         t("eta", "U_rim / D_TM")
         found.append(

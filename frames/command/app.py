@@ -13,12 +13,13 @@ from rich.markup import escape
 
 from frames._errors import ProjectError
 from frames.checks.check import CONFIRMED, Checks
-from frames.checks.demand_table import headed
+from frames.checks.demand_table import headed, void_said
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.telling import FAILED_CHECKS, err, out, say, told
 from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
 from frames.project.example import write_example
 from frames.project.groundwork import CODES, groundwork, inputs_of
+from frames.project.level_runs import said_of_runs
 from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
 from frames.project.speed import Way, recommended, ways_to_run
@@ -36,7 +37,7 @@ from lir_element.tables import text_table
 app = typer.Typer(
     name="lir", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
     help="Buildings on LIR-DCFP bearings: a project's file, its analyses and design checks. "
-    "Exit codes: 0 all checks pass, 1 a check fails, 2 the input cannot be used, 3 an analysis "
+    "Exit codes: 0 no check fails, 1 a check fails, 2 the input cannot be used, 3 an analysis "
     "fails, 130 interrupted.",
 )  # fmt: skip
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
@@ -64,13 +65,16 @@ def new(
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     with told():
-        ground = groundwork(_parts(file))
+        parts = _parts(file)
+        ground = groundwork(parts)
         say(f"{len(ground.frame.bearings)} bearings")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
-    say(f"the file can be run: lir run {file}")
+        say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
+        if not ground.equivalent.checks.passed:
+            raise typer.Exit(FAILED_CHECKS)
 
 
 @app.command(name="design")
@@ -100,10 +104,12 @@ def run(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
 ) -> None:
-    """Run a project at each bound of friction, check it, and write the results."""
+    """Run a project at each level and bound of friction, check it, and write the results."""
     with told():
         try:
-            found = run_project(_parts(file), progress=True)
+            parts = _parts(file)
+            say(said_of_runs(parts, parts.motions()))
+            found = run_project(parts, progress=True)
         except AnalysisInterrupted as stop:
             kept = write_interrupted(stop.data, results)
             err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
@@ -130,7 +136,7 @@ def report(
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     _frame_table("Demands", headed(found.demands))
-    if void := found.demands["void"].iloc[0]:
+    if void := void_said(found.demands):
         say(f"no values for design, only what runs reached: {void}")
     _checks("Checks", found.checks)
     say(f"{len(written)} files in {results}, report.html among them")
@@ -210,11 +216,12 @@ def _parts(file: Path) -> Parts:
 
 
 def _checks(title: str, checks: Checks) -> None:
-    # A line each, those that fail in red.
-    out.print(f"\n[bold]{title}[/]: {len(checks)}, {len(checks.failed)} failed")
+    # A line each, those that fail in red, limits of a procedure that are exceeded in yellow.
+    out.print(f"\n[bold]{title}[/]: {checks.tally}", soft_wrap=True)
+    width = max((len(each.verdict) for each in checks), default=0)
     for each in checks:
-        word, style = ("ok   ", "green") if each.passed else ("FAILS", "red")
-        out.print(f"[{style}]{word}[/] ", end="")
+        style = {"ok": "green", "FAILS": "red"}.get(each.verdict, "yellow")
+        out.print(f"[{style}]{each.verdict:{width}}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
         say(f"{each.statement} [{each.clause}]{star}")
     if any(each.standing != CONFIRMED for each in checks):

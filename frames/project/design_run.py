@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import pandas as pd
 import xarray as xr
 
-from frames.analysis.recording import Recording
 from frames.analysis.transient import time_history
 from frames.checks.bounds import bounded
 from frames.checks.capacity import engagement_checks
 from frames.checks.check import Check, Checks
 from frames.checks.demand_table import bounds_of, envelope_said
 from frames.checks.device import device_checks
-from frames.checks.histories import bounded_histories, history_checks, history_demands
+from frames.checks.histories import history_checks, history_demands
+from frames.checks.history_rules import RULES
 from frames.checks.impacts import rim_engagement
 from frames.checks.motions import motion_checks
 from frames.checks.programme import ProgrammeDemands, programme_of_tests
 from frames.checks.unevaluated import not_evaluated
 from frames.project.groundwork import groundwork, inputs_of
+from frames.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
 from frames.results.storage import as_packed
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from frames.analysis.model_check import ModelCheck
     from frames.checks.bounds import PropertyBounds
     from frames.checks.check import Bound
+    from frames.checks.history_rules import HistoryRules
     from frames.checks.outcome import EquivalentLinear
     from frames.frame import Frame
     from frames.hazard.motion_set import MotionSet
@@ -54,10 +56,10 @@ class ProjectRun:
         As they were run, scaled.
     equivalent : EquivalentLinear
         Equivalent-linear analysis at both bounds.
-    runs : mapping of str to xarray.Dataset
-        Time histories by bound, a row a motion.
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Time histories by level of the seismic action, then by bound; a row a motion.
     demands : pandas.DataFrame
-        What the time histories give for design.
+        What the time histories give for design, with the level of each row.
     checks : Checks
         Of the time histories, the bearing, and what of the equivalent-linear analysis they do
         not replace.
@@ -70,18 +72,20 @@ class ProjectRun:
     governing : xarray.Dataset
         Histories of the run that displaces a bearing most.
     governing_case : str
-        Which that is.
+        Which that is: motion, bound and level.
     inputs : mapping of str to str
         Digests of what the time histories depend on, by section of the file.
     programme : pandas.DataFrame
         Tests that prove the bearings.
+    rules : HistoryRules
+        How the time histories counted, and at which levels.
     """
 
     frame: Frame
     spectrum: Spectrum
     motions: MotionSet
     equivalent: EquivalentLinear
-    runs: Mapping[Bound, xr.Dataset]
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
     demands: pd.DataFrame
     checks: Checks
     bounds: PropertyBounds
@@ -91,6 +95,7 @@ class ProjectRun:
     governing_case: str
     inputs: Mapping[str, str]
     programme: pd.DataFrame
+    rules: HistoryRules
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,15 +104,15 @@ class Histories:
 
     Attributes
     ----------
-    runs : mapping of str to xarray.Dataset
-        By bound, a row a motion.
+    runs : mapping of str to mapping of str to xarray.Dataset
+        By level of the seismic action, then by bound; a row a motion.
     governing : xarray.Dataset
         Histories of the run that displaces a bearing most, in single precision as they are kept.
     governing_case : str
         Which that is.
     """
 
-    runs: Mapping[Bound, xr.Dataset]
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
     governing: xr.Dataset
     governing_case: str
 
@@ -115,7 +120,7 @@ class Histories:
 def run_project(
     parts: Parts, *, progress: Callable[[BatchProgress], None] | bool | None = None
 ) -> ProjectRun:
-    """Run a project: equivalent-linear analysis, time histories at each bound, and checks.
+    """Run a project: equivalent-linear analysis, time histories at each level and bound, checks.
 
     Parameters
     ----------
@@ -137,12 +142,12 @@ def run_project(
         After Ctrl-C, with the runs that were complete.
     """
     known = groundwork(parts)
-    runs = _histories(parts, known.frame, known.motions, progress)
+    runs = histories_at_levels(parts, known.frame, known.motions, progress)
     try:
         governing, case = _governing(parts, known.frame, known.motions, runs)
     except AnalysisInterrupted as stop:  # all runs were complete
         whole = xr.concat(
-            list(runs.values()), "run", data_vars="minimal", coords="minimal", compat="override"
+            _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
         )
         raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
     found = Histories(runs=runs, governing=governing, governing_case=case)
@@ -175,11 +180,13 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
     minima = known.equivalent if _has_minima(parts) else None
     found = [c for c in known.equivalent.checks if c.scope == "any"]
     found += motion_checks(known.motions, known.spectrum, known.equivalent)
-    found += history_checks(
-        runs, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima
-    )
-    demands = history_demands(runs, rules)
-    loads, slip = _asked(parts, known, demands)
+    for name, each in runs.items():
+        found += history_checks(
+            each, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima,
+            action_level=name,
+        )  # fmt: skip
+    demands = demands_at_levels(runs, rules)
+    loads, slip = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
     found += _of_the_bearing(parts, known, loads, slip)
     return ProjectRun(
         frame=frame, spectrum=known.spectrum, motions=known.motions,
@@ -187,6 +194,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
         bounds=bounds, model=frame.check(), loads=known.system.loads,
         governing=histories.governing, governing_case=histories.governing_case,
         inputs=inputs_of(parts, known), programme=_programme(parts, known, histories, loads, slip),
+        rules=rules,
     )  # fmt: skip
 
 
@@ -219,49 +227,50 @@ def compare_devices(
     plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
     frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
     tables = {
-        device: history_demands(_histories(parts, frame, known.motions, progress), parts.rules())
+        device: demands_at_levels(
+            histories_at_levels(parts, frame, known.motions, progress), parts.rules()
+        )
         for device, frame in frames.items()
     }
     columns = {
         f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
     }
-    return pd.DataFrame({"unit": tables["LIR-DCFP"]["unit"]} | columns)
+    ours = tables["LIR-DCFP"]
+    return ours[["unit"]].assign(**columns, level=ours["level"])
 
 
-def _histories(
-    parts: Parts,
-    frame: Frame,
-    motions: MotionSet,
-    progress: Callable[[BatchProgress], None] | bool | None,
-) -> dict[Bound, xr.Dataset]:
-    given = parts.file.analysis
-    return bounded_histories(
-        frame, motions, parts.bounds(), at=given.bounds, level=given.level, dt=given.dt,
-        workers=given.workers, progress=progress, record=Recording(every=None),
-    )  # fmt: skip
+def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
+    return [data for each in runs.values() for data in each.values()]
 
 
-def _most_displaced(runs: Mapping[Bound, xr.Dataset]) -> tuple[Bound, int]:
-    # Bound and place of the run that displaces a bearing most.
+def _of_bearings(parts: Parts) -> str:
+    # The level of the seismic action at which bearings are judged.
+    return next(level.name for level in parts.rules().levels if level.judges_bearings)
+
+
+def _most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
+    # Level, bound and place of the run that displaces a bearing most.
     reached = {
-        (bound, run): float(data["reached_displacement"].isel(run=run).max())
-        for bound, data in runs.items()
+        (level, bound, run): float(data["reached_displacement"].isel(run=run).max())
+        for level, each in runs.items()
+        for bound, data in each.items()
         for run in range(data.sizes["run"])
     }
     return max(reached, key=lambda key: reached[key])
 
 
 def _governing(
-    parts: Parts, frame: Frame, motions: MotionSet, runs: Mapping[Bound, xr.Dataset]
+    parts: Parts, frame: Frame, motions: MotionSet, runs: LevelRuns
 ) -> tuple[xr.Dataset, str]:
     # Histories of the run that displaces a bearing most, run once more to keep them.
-    bound, run = _most_displaced(runs)
-    name, given = str(runs[bound]["motion"].to_numpy()[run]), parts.file.analysis
+    level, bound, run = _most_displaced(runs)
+    name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
+    motion = motions[name].scaled(parts.rules().level(level).factor)
     model = frame if bound == "" else bounded(frame, bound, parts.bounds())
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
-        data = time_history(model, motions[name], level=given.level, dt=given.dt)
-    return as_packed(data), f"{name}, {bound} bound"  # as it will be kept
+        data = time_history(model, motion, level=given.level, dt=given.dt)
+    return as_packed(data), f"{name}, {bound} bound, {level} level"  # as it will be kept
 
 
 def _has_minima(parts: Parts) -> bool:
@@ -273,11 +282,15 @@ def _asked(
     parts: Parts, known: Groundwork, demands: pd.DataFrame
 ) -> tuple[tuple[float, float], float]:
     # Least axial load that presses at all and the largest, of all combinations and of the histories
-    # at each bound [N], and the slip of these [m].
+    # at each bound at the level of the bearings [N], and the slip of these [m].
     loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
     slip = float(demands.loc["interface slip", "envelope"])
     if demands["void"].any():  # runs failed: the most that it holds
         slip = parts.bearing().resolved()["slip_capacity"]
+    bearing, factor = parts.bearing(), parts.rules().displacement_factor
+    moved = float(demands.loc["isolator displacement", "envelope"])
+    if factor > 1.0 and not demands["void"].any():  # what is beyond the rims by the code
+        slip = max(slip, factor * moved - bearing.lateral_capacity)
     return (min(loads), max(loads)), slip
 
 
@@ -290,8 +303,13 @@ def _of_the_bearing(
     checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
     totals: dict[Bound, float] = {
         each.bound: each.total_displacement for each in known.equivalent.bounds.values()
+    level = _of_bearings(parts)
+    allowed: dict[Bound, float] = {
+        each.bound: each.allowed_displacement for each in known.equivalent.bounds.values()
     }
-    return [*checks, *engagement_checks(bearing, totals)]
+    code, agreed = RULES[parts.file.project.code], parts.limits().rim_engagement
+    found = [*checks, *engagement_checks(bearing, allowed, code=code, agreed=agreed)]
+    return [replace(check, level=level) for check in found]
 
 
 def _programme(

@@ -72,6 +72,7 @@ def groundwork(parts: Parts) -> Groundwork:
     CheckError, ModelError, MotionError
         If the analysis or the scaling fails.
     """
+    parts.limits(), parts.rules()  # refused before anything is run
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
     code = CODES[parts.file.project.code]()
@@ -123,7 +124,8 @@ def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        By section, "motions" being the accelerations; what only judges, such as limits, has none.
+        By section, "motions" being the accelerations, "levels" those of the seismic action where
+        there are several; what only judges, such as limits, has none.
     """
     file = parts.file
     analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
@@ -144,6 +146,9 @@ def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
         for name, motion in known.motions.items()
     ]  # fmt: skip
     found["motions"] = _digest(b"".join(samples))
+    levels = parts.rules().levels
+    if len(levels) > 1:
+        found["levels"] = _digest(repr([(one.name, one.factor) for one in levels]).encode())
     return found
 
 

@@ -165,18 +165,24 @@ class Bounds(Section):
 
 
 class Limits(Section):
-    """``[limits]``: what the engineer allows; fields of `frames.DesignLimits`."""
+    """``[limits]``: what the engineer allows; the fields of `frames.DesignLimits`."""
 
     margin: float | None = None
     rim_strength: Force | None = None
+    rims_together: bool | None = None
     eccentricity: float | None = None
     interface_pressure: Pressure | None = None
     liner_pressure: Pressure | None = None
     lateral_force: Force | None = None
+    slip_left: Length | None = None
+    uplift_gap: Length | None = None
+    rim_height: Length | None = None
     axial_force: Force | None = None
     floor_acceleration: Acceleration | None = None
     drift: Ratio | None = None
+    base_shear: Force | None = None
     displacement_left: Length | None = None
+    rim_engagement: Ratio | None = None
 
 
 class Target(Section):

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames.checks.check import Bound
     from frames.project.design_run import ProjectRun
+    from frames.project.level_runs import LevelRuns
 
 
 def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
@@ -38,7 +40,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     Returns
     -------
     list of Path
-        ``project.toml``; ``runs-<bound>.nc``, the time histories; ``equivalent-linear.csv``,
+        ``project.toml``; ``runs-<bound>.nc``, the time histories, ``runs-<level>-<bound>.nc``
+        where a code has several levels of the seismic action; ``equivalent-linear.csv``,
         ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
         ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
@@ -47,9 +50,9 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     for stale in (folder / "run.json", *folder.glob("runs-*.nc")):  # the first is written last
         stale.unlink(missing_ok=True)
-    written = {bound: folder / f"runs-{bound}.nc" for bound in run.runs}
-    for bound, path in written.items():
-        save(run.runs[bound], path)
+    written = {label: folder / f"runs-{label}.nc" for label in _labelled(run)}
+    for label, path in written.items():
+        save(_labelled(run)[label][2], path)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
     kept = [*write_judgement(run, folder, source), *written.values(), governing]
@@ -113,7 +116,10 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
         )
         raise ProjectError(msg)
     try:
-        runs = {bound: load(folder / f"runs-{bound}.nc") for bound in kept["runs"]}
+        runs: LevelRuns = {}
+        for label, about in kept["runs"].items():
+            each = runs.setdefault(about.get("level", ""), {})
+            each[about.get("bound", label)] = load(folder / f"runs-{label}.nc")
         governing = load(folder / "governing.nc")
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
@@ -152,11 +158,23 @@ def _facts(run: ProjectRun) -> dict[str, object]:
         "governing_case": run.governing_case,
         "inputs": dict(run.inputs),
         "runs": {
-            bound: {
+            label: {
+                "level": level,
+                "bound": bound,
                 "runs": data.sizes["run"],
                 "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
                 "seconds": float(data.attrs["seconds"]),
             }
-            for bound, data in run.runs.items()
+            for label, (level, bound, data) in _labelled(run).items()
         },
+    }
+
+
+def _labelled(run: ProjectRun) -> dict[str, tuple[str, Bound, xr.Dataset]]:
+    # Level, bound and runs by the words that a file's name has.
+    several = len(run.runs) > 1
+    return {
+        f"{level}-{bound}" if several else bound: (level, bound, data)
+        for level, each in run.runs.items()
+        for bound, data in each.items()
     }

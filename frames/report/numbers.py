@@ -42,7 +42,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a bearing; places and displacements [m], forces [N], in the names of the columns.
-        Largest over motions and bounds, whatever the code makes of them.
+        Largest over motions, bounds and levels, whatever the code makes of them.
     """
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
@@ -55,7 +55,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         index=pd.Index(list(links), name="bearing"),
     )
     for title, (name, sign) in _REACHED.items():
-        values = [reached(data, name).max(axis=0) for data in run.runs.values()]
+        every = (data for each in run.runs.values() for data in each.values())
+        values = [reached(data, name).max(axis=0) for data in every]
         table[title] = sign * np.max(values, axis=0)
     return table
 

@@ -13,7 +13,7 @@ from markupsafe import Markup
 from pandas.api.types import is_string_dtype
 
 from frames.checks.check import TO_BE_CONFIRMED
-from frames.checks.demand_table import headed
+from frames.checks.demand_table import headed, void_said
 from frames.report.figures import pictures
 from frames.report.tables import in_mm_and_kn, rows_of
 from lir_element.results.dataset import package_version
@@ -83,12 +83,27 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         motions=_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
         demands=_table(headed(run.demands), "quantity"),
-        void=str(run.demands["void"].iloc[0]),
+        void=void_said(run.demands),
+        levels=_levels(run),
         audit=run.governing.attrs["audit"].splitlines(),
         pictures=pictures(run),
         source=source,
         facts=_facts(run),
     )
+
+
+def _levels(run: ProjectRun) -> str:
+    # What is judged at which level of the seismic action, where there are several.
+    levels = run.rules.levels
+    if len(levels) < 2:
+        return ""
+    words = {"all": "bearings and structure", "isolation": "the bearings",
+             "superstructure": "what stands on the bearings"}  # fmt: skip
+    said = (
+        f"{words[one.judges]} at the level {one.name!r}, motions times {one.factor:g}"
+        for one in levels
+    )
+    return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
 
 
 def _judged(check: Check) -> Judged:

@@ -89,9 +89,7 @@ class Candidate:
     def beyond_procedure(self) -> tuple[str, ...]:
         """What the equivalent-linear procedure does not show, and a time history must."""
         return tuple(
-            f"{check.title} ({check.bound})"
-            for check in self.analysis.checks.failed
-            if check.scope == "procedure"
+            f"{check.title} ({check.bound})" for check in self.analysis.checks.inapplicable
         )
 
     def row(self) -> dict[str, object]:
@@ -288,5 +286,5 @@ def _lacks(
         if limit is not None and value > limit
     ]
     ill = [*checks.failed]
-    ill += [c for c in analysis.checks.failed if c.scope != "procedure"]
+    ill += [*analysis.checks.failed]
     return found + sorted({f"{check.title} (ratio {check.ratio:.2f})" for check in ill})

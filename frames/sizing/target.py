@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from frames._errors import CheckError
-from frames.checks.limits import DesignLimits
+from frames.checks.limits import LANDING_PRESSURE, DesignLimits
 from lir_element.device.friction import CoulombFriction, Friction
 from lir_element.door import require_between, require_positive, require_type
 
-INTERFACE_PRESSURE = 90e6
+INTERFACE_PRESSURE = LANDING_PRESSURE
 """Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
 
 

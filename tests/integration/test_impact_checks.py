@@ -188,7 +188,7 @@ def test_the_force_at_which_a_rim_broke_is_in_the_peaks() -> None:
     known = plain.bearings[row["where"]].bearing.resolved()
     assert row["value"] > max(before, known["rim_stiffness"] * known["rim_overrun"])
     assert row["time"] == data.attrs["failed_at"]
-    check = one(impact_checks(data, plain, limits=DesignLimits(rim_strength=1e12)), "rim force")
+    check = one(impact_checks(data, plain, limits=DesignLimits(rim_strength=9e9)), "rim force")
     assert check.demand == row["value"]
     assert not check.passed
 
@@ -202,7 +202,7 @@ def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Fram
         assert check.passed is passed
         assert check.note == "rims"
         runs = quietly(time_histories, frame, pulse(size), features=out)
-        assert one(history_checks(runs, frame, "NCh2745"), title).demand == check.demand
+        assert one(history_checks(runs, frame, "EN 1998-1"), title).demand == check.demand
 
 
 def test_resultant_on_one_rim_is_where_the_formula_has_it() -> None:

@@ -213,3 +213,25 @@ def test_the_interface_slips_where_the_pressure_says_on_the_rig() -> None:
         pendulum = pressure * area * 0.05 / 1.415
         mu_e = 0.05 * 1.5 / 1.415
         assert force == pytest.approx(pendulum + factor * mu_e * pressure * area, rel=0.01)
+
+
+def test_each_code_has_its_own_rule_for_rims() -> None:
+    """ASCE 7-22 a share of D_TM; of the others all of what bearings must allow."""
+    device, allowed = bearing(), {"lower": 0.35, "upper": 0.2}
+    for code, clause, least in (
+        ("ASCE 7-22", "ASCE 7-22 17.2.4.5", 0.60),
+        ("EN 1998-1", "EN 1998-1 10.3(2), EN 15129", 1.0),
+        ("NCh2745", "NCh2745 7.3", 1.0),
+    ):
+        checks = engagement_checks(device, allowed, code=code)  # type: ignore[arg-type]
+        assert {c.clause for c in checks} == {clause}
+        assert {c.limit for c in checks} == {least}
+        worst = checks.governing
+        assert (worst.bound, worst.demand) == ("lower", pytest.approx(0.175 / 0.35))
+        assert len(checks) == (4 if code == "ASCE 7-22" else 1)
+        if code != "ASCE 7-22":
+            assert "rims met by intent" in worst.note
+    free = engagement_checks(device, 0.1, code="EN 1998-1")[0]
+    assert (free.passed, free.note) == (True, "not met below gamma_x d_bd")
+    with pytest.raises(CheckError, match="code = 'UBC'"):
+        engagement_checks(device, 0.1, code="UBC")  # type: ignore[arg-type]

@@ -262,12 +262,12 @@ def test_design_shear_is_the_largest_of_its_minima() -> None:
     for each in found.bounds.values():
         t = each.trace
         # R_I = 3/8 * 5; 12.8 at T_M with S_DS = 1, S_D1 = 0.6
-        reduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 2.5 * t.value("beta_M")) / 1.875
+        reduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 3.5 * t.value("beta_M")) / 1.875
         fixed = max(0.6 / t.value("T_M") / 5.0, 0.044) * 5.8e6
         slides = max(1.6 * mu, 1.5 * mu) * 9.0e6
         assert each.superstructure_shear == pytest.approx(max(reduced, fixed, slides))
         assert sum(each.storey_forces[1:]) == pytest.approx(each.superstructure_shear)
-        unreduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 2.5 * t.value("beta_M"))
+        unreduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 3.5 * t.value("beta_M"))
         assert each.storey_forces[0] == pytest.approx((t.value("V_b") - unreduced) / 1.875)
         power = 14.0 * t.value("beta_M") * 0.6
         shares = np.array([2.0, 2.0, 1.8]) * np.array([3.5, 6.5, 9.5]) ** power
@@ -317,7 +317,12 @@ def test_minima_of_time_histories() -> None:
     assert t.value("D_prime_M") == pytest.approx(t.value("D_M") * reduced)
     assert t.value("D_TM_dyn") == pytest.approx(0.8 * t.value("D_TM") * reduced)
     assert t.value("V_b_dyn") == pytest.approx(0.9 * t.value("V_b"))
-    assert t.value("V_s_dyn") == pytest.approx(0.6 * t.value("V_s"))
+    assert t.value("V_s_dyn") == pytest.approx(t.value("V_s"))
+    code = ASCE7(history_share=0.6, irregular=True)
+    less = nominal(SYSTEM, Asce(0.6), superstructure=ABOVE, code=code)["nominal"]
+    assert less.trace.value("V_s_dyn") == pytest.approx(0.6 * t.value("V_s"))
+    [irregular] = [c for c in less.checks if c.title == "irregular structure"]
+    assert irregular.verdict == "does not apply"
 
 
 def test_scope_of_checks_and_their_table() -> None:
@@ -335,8 +340,9 @@ def test_scope_of_checks_and_their_table() -> None:
     }  # fmt: skip
     assert list(asce.to_dataframe()) == [
         "clause", "title", "demand", "limit", "symbol", "unit", "relation", "standing", "bound",
-        "subject", "note", "void", "ratio", "passed",
+        "subject", "note", "void", "level", "ratio", "passed", "verdict",
     ]  # fmt: skip
+    assert {c.level for c in asce} == {"MCE_R"}
     with pytest.raises(CheckError, match="scope"):
         replace(asce[0], scope="all")
 
@@ -470,8 +476,10 @@ def test_limits_of_the_simplified_analysis_need_all_their_numbers() -> None:
         nominal(SYSTEM, En(8.0), code=EN1998(simplified=True), superstructure=ABOVE)
     code = EN1998(simplified=True, fault_distance=12e3, property_variation=0.12)
     found = nominal(SYSTEM, En(8.0), code=code, superstructure=ABOVE)
-    failed = {c.title for c in found.checks.of("EN 1998-1 10.9").failed}
-    assert {"distance to the fault", "variation of properties"} <= failed
+    beyond = found.checks.of("EN 1998-1 10.9").inapplicable
+    assert {"distance to the fault", "variation of properties"} <= {c.title for c in beyond}
+    assert {c.verdict for c in beyond} == {"does not apply"}
+    assert not {c.title for c in beyond} & {c.title for c in found.checks.failed}
     assert len(found.checks.of("10.9.3")) == 5
 
 
@@ -592,3 +600,18 @@ def _without_floors(frame: Frame) -> Frame:
     for level in frame.levels[1:]:
         found.remove("level", level.name)
     return found
+
+
+def test_axial_loads_of_nch2745_are_those_of_the_maximum_level() -> None:
+    """W (D_M / L + mu) of the pendulum at D_M, over the centre of mass of forces by w h."""
+    found = nominal(SYSTEM, NCh(0.30), code=NCh2745(pressure_limit=60e6), superstructure=ABOVE)
+    result = found["nominal"]
+    t, weight = result.trace, sum(LOADS)
+    shear = weight * (t.value("D_M") / BEARING.effective_radius + BEARING.effective_friction)
+    w, h = np.array(ABOVE.storey_weights), np.array([3.5, 6.5, 9.5])
+    assert t.value("M_o") == pytest.approx(shear * (w * h**2).sum() / (w * h).sum())
+    assert shear > 1.05 * t.value("V_b")
+    levels = {c.title: c.level for c in result.checks}
+    assert levels["pressure on the slider, maximum"] == levels["no uplift, minimum"] == "maximum"
+    assert levels["rims free at the total displacement"] == "maximum"
+    assert levels["storey drift"] == levels["restoring force"] == "design"

@@ -171,6 +171,14 @@ def test_tests_of_nch2745_by_hand() -> None:
     assert at["increments, least load, D_M"] == pytest.approx(t.value("D_M"))
     assert at["many cycles, D_TD"] == pytest.approx(t.value("D_TD"))
     assert at["static, least load, D_TM"] == pytest.approx(t.value("D_TM"))
+    periods = own.set_index("what")["period [s]"]
+    assert t.value("T_M") > 1.02 * t.value("T_D")
+    for what, period in (
+        ("increments, average load, 0.5 D_D", "T_D"), ("increments, largest load, D_D", "T_D"),
+        ("many cycles, D_TD", "T_D"), ("increments, least load, D_M", "T_M"),
+        ("maximum displacement, D_TM", "T_M"),
+    ):  # fmt: skip
+        assert periods[what] == pytest.approx(t.value(period)), what
 
 
 def test_programmes_that_cannot_be_are_refused() -> None:

@@ -221,6 +221,46 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     assert demands.loc["isolator displacement", upper] == pytest.approx(float(each.max()))
 
 
+def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
+    """Bearings judged under 1.2 times the motions that judge what stands on them."""
+    file, out = folder / "chile.toml", folder / "chile"
+    file.write_text(f"{SMALL}\n[analysis]\nbounds = ['upper']\nuplift_allowed = true\n")
+    checked = run(app, ["check", str(file)])
+    assert "6 time histories: 3 motions, bounds upper, levels design, maximum (" in checked.stdout
+    done = run(app, ["run", str(file), "--results", str(out)])
+    assert done.exit_code in {0, 1}, done.output
+    assert done.stdout.startswith("6 time histories: 3 motions, bounds upper, levels design, max")
+    runs = {level: load(out / f"runs-{level}-upper.nc") for level in ("design", "maximum")}
+    assert [float(data["scale"][0]) for data in runs.values()] == [1.0, 1.2]
+    parts = Parts(read_project(file), folder)
+    motion = parts.motions()["artificial-1"].scaled(0.8 * 1.2)
+    single = time_history(bounded(parts.frame(), "upper", parts.bounds()), motion)
+    size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
+    at_most = float(runs["maximum"]["reached_displacement"].isel(run=0).max())
+    assert at_most == pytest.approx(size.max(), rel=1e-6)
+    checks = pd.read_csv(out / "checks.csv").set_index("title")
+    assert checks.loc["isolator displacement", "level"] == "maximum"
+    assert checks.loc["storey drift ratio", "level"] == "design"
+    assert set(checks.loc["number of motions", "level"]) == {"design", "maximum"}
+    reached = float(runs["maximum"]["reached_displacement"].max())
+    assert checks.loc["isolator displacement", "demand"] == pytest.approx(reached)
+    demands = pd.read_csv(out / "demands.csv")
+    upper = next(name for name in demands.columns if name.startswith("upper, "))
+    moved = demands[demands["quantity"] == "isolator displacement"].set_index("level")[upper]
+    assert moved["maximum"] == pytest.approx(reached)
+    assert moved["design"] < moved["maximum"]
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "the bearings at the level &#39;maximum&#39;, motions times 1.2" in page
+    again = run(app, ["report", str(file), "--results", str(out)])
+    assert again.exit_code == done.exit_code
+    facts = json.loads((out / "run.json").read_text())
+    del facts["inputs"]["levels"]  # as a run at one level left it
+    (out / "run.json").write_text(json.dumps(facts))
+    other = run(app, ["report", str(file), "--results", str(out)])
+    assert other.exit_code == 2
+    assert "levels differ" in " ".join(other.output.split())
+
+
 def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
     for line, is_void in said.items():
@@ -241,7 +281,7 @@ def test_the_devices_are_compared(folder: Path) -> None:
     done = run(app, ["compare", str(folder / "small.toml")])
     assert done.exit_code == 0, done.output
     line = next(one for one in done.stdout.splitlines() if one.startswith("interface slip left"))
-    assert line.split()[-1] == "0"  # the slider in one piece
+    assert line.split()[-2:] == ["0", "MCE_R"]  # the slider in one piece
 
 
 def test_steps_are_compared_with_a_finer_one(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -360,6 +400,30 @@ def test_what_cannot_be_used_ends_with_two(folder: Path) -> None:
     assert done.exit_code == 2
     assert "bearing.capacity = 180" in done.stderr
     assert run(app, ["check", str(folder / "nowhere.toml")]).exit_code == 2
+
+
+def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
+    for command_ in ("check", "run"):
+        done = run(app, [command_, str(changed(folder, '"5 MN"', '"-3 MN"'))])
+        assert done.exit_code == 2
+        assert "rim_strength = -3e+06 [N] must be at least 1" in " ".join(done.stderr.split())
+    given = 'uplift_gap = "20 mm"\nrim_height = "30 mm"\nrims_together = true\nbase_shear = "9 MN"'
+    path = changed(folder, 'rim_strength = "5 MN"', given)
+    limits = Parts(read_project(path), folder).limits()
+    assert (limits.uplift_gap, limits.rim_height, limits.base_shear) == (0.02, 0.03, 9e6)
+
+
+def test_check_ends_with_the_documented_codes(folder: Path) -> None:
+    """Too little restoring force ends with 1; limits of the procedure that are exceeded do not."""
+    done = run(app, ["check", str(folder / "small.toml")])
+    assert done.exit_code == 1, done.output
+    [line] = [line for line in done.stdout.splitlines() if line.startswith("FAILS")]
+    assert "restoring force (upper, MCE_R)" in line
+    (folder / "fine.toml").write_text(ASCE.replace("s_m1 = 0.5", "s_m1 = 0.7"))
+    fine = run(app, ["check", str(folder / "fine.toml")])
+    assert fine.exit_code == 0, fine.output
+    assert "does not apply rims free at the total displacement" in fine.stdout
+    assert "FAILS" not in fine.stdout
 
 
 def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:

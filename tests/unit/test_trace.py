@@ -177,6 +177,21 @@ def test_what_cannot_be_judged_is_refused() -> None:
         Check(clause="c", title="t", demand=1.0, limit=1.0, relation="<")
 
 
+def test_a_limit_of_a_procedure_is_no_failure() -> None:
+    given = {"clause": "c", "title": "period", "limit": 3.0, "unit": "s", "scope": "procedure"}
+    within, beyond = (Check(demand=value, **given) for value in (2.0, 4.0))
+    failing = Check(clause="c", title="drift", demand=2.0, limit=1.0, level="MCE_R")
+    assert [c.verdict for c in (within, beyond, failing)] == ["ok", "does not apply", "FAILS"]
+    assert Checks([within, beyond]).passed
+    checks = Checks([within, beyond, failing])
+    assert list(checks.failed) == [failing]
+    assert list(checks.inapplicable) == [beyond]
+    assert "3 checks, 1 failed, 1 limits of the procedure exceeded" in checks.tally
+    assert "does not apply" in str(beyond)
+    assert "(MCE_R)" in str(failing)
+    assert str(checks).count("FAILS") == 1
+
+
 def test_checks_know_which_governs() -> None:
     t = Trace()
     t.given("F", 100e3, "N")

@@ -1,0 +1,176 @@
+"""Uplift under every code, limits of a project beside those of codes, slip under gamma_x."""
+
+import math
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from frames import (
+    Check,
+    CheckError,
+    Checks,
+    DesignLimits,
+    Frame,
+    GroundMotion,
+    history_checks,
+    overlap_area,
+    shear_building,
+    time_histories,
+)
+from frames.plots.bearing_geometry import _RIM_SHARE, rim_height
+from lir_element import LIRBearing, VelocityFriction
+
+CODES = (("ASCE 7-22", ""), ("EN 1998-1", ""), ("NCh2745", "maximum"))
+RIMS = "gap of uplift over the height of the rims"
+
+
+def pulse(size: float) -> GroundMotion:
+    """A full sine of 2 s along x, and 4 s of rest."""
+    time = np.arange(0.0, 6.0, 0.01)
+    wave = size * np.sin(math.pi * time) * (time < 2.0)
+    return GroundMotion(x=wave, dt=0.01, name=f"pulse {size:g}")
+
+
+@pytest.fixture(scope="module")
+def bearing() -> LIRBearing:
+    return LIRBearing(
+        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.2,
+        friction=VelocityFriction(0.065, 0.0325, 15.0), interface_friction=0.14,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def frame(bearing: LIRBearing) -> Frame:
+    return shear_building(bearing, [60e3, 60e3], 60e6, base_mass=60e3)
+
+
+@pytest.fixture(scope="module")
+def runs(frame: Frame) -> xr.Dataset:
+    """Seven runs whose bearing stays on its plates and short of its rims."""
+    return time_histories(frame, [pulse(0.8 + 0.05 * k) for k in range(7)])
+
+
+@pytest.fixture(scope="module")
+def lifted(runs: xr.Dataset) -> xr.Dataset:
+    """The same with one lift-off, set by hand: 12 mm in one run, then 25.9 MN."""
+    one = xr.DataArray((np.arange(7) == 2).astype(float), dims="run")
+    nothing = 0.0 * runs["reached_time_lifted"]
+    return runs.assign(
+        reached_uplifts=3.0 * one,
+        reached_time_lifted=nothing + 0.2 * one,
+        reached_gap=nothing + 12e-3 * one,
+        reached_axial_force=nothing + xr.where(one > 0.0, 25.9e6, runs["reached_axial_force"]),
+    )
+
+
+def one(checks: Checks, title: str, clause: str = "") -> Check:
+    found = [c for c in checks if c.title == title and clause in c.clause]
+    assert len(found) == 1, title
+    return found[0]
+
+
+@pytest.mark.parametrize(("code", "level"), CODES)
+def test_the_widest_gap_and_the_hardest_landing_count_under_every_code(
+    frame: Frame, bearing: LIRBearing, lifted: xr.Dataset, code: Any, level: str
+) -> None:
+    """Not their means; heights of rims by the drawing's own geometry."""
+    checks = history_checks(lifted, frame, code, action_level=level)
+    gap = one(checks, RIMS)
+    assert gap.demand == 12e-3
+    assert gap.limit == pytest.approx(0.5 * rim_height(bearing) / _RIM_SHARE, rel=1e-9)
+    assert gap.passed
+    assert ("17.2.4.7" in gap.clause) == (code == "ASCE 7-22")
+    assert "lift off in 1 of 7 runs, 3 times in all; the widest gap, 12 mm, pulse 0.9" in gap.note
+    assert "0.2 s of the run, axial force up to 2.59e+04 kN" in gap.note
+    landing = one(checks, "pressure of a landing on the sliders")
+    slip = float(lifted["reached_slip"][2, 0])
+    assert landing.demand == pytest.approx(25.9e6 / overlap_area(0.15, slip))
+    assert (landing.limit, landing.passed) == (90e6, False)
+    assert landing.clause == "no code: a proposal"
+
+
+def test_a_slider_that_leaves_its_rims_is_no_pass(frame: Frame, lifted: xr.Dataset) -> None:
+    wide = lifted.assign(reached_gap=10.0 * lifted["reached_gap"])
+    for code, level in CODES:
+        assert not one(history_checks(wide, frame, code, action_level=level), RIMS).passed
+    limits = DesignLimits(rim_height=0.13, uplift_gap=0.05, axial_force=30e6)
+    checks = history_checks(wide, frame, "ASCE 7-22", limits=limits)
+    assert (one(checks, RIMS).limit, one(checks, RIMS).passed) == (0.13, True)
+    own = one(checks, "gap of uplift")
+    assert (own.demand, own.limit, own.clause) == (
+        pytest.approx(0.12), 0.05, "no code: limit of the project",
+    )  # fmt: skip
+    assert not own.passed
+    landing = one(checks, "axial force with a landing")
+    assert (landing.demand, landing.limit) == (25.9e6, 30e6)
+
+
+def test_bearings_that_stay_down_have_no_landing(frame: Frame, runs: xr.Dataset) -> None:
+    checks = history_checks(runs, frame, "ASCE 7-22")
+    assert one(checks, RIMS).demand == 0.0
+    assert one(checks, RIMS).note == "no bearing lifts off"
+    assert not [c for c in checks if "landing" in c.title]
+
+
+@pytest.mark.parametrize(("own", "word"), [(0.05, "laxer"), (0.001, "not laxer")])
+def test_a_limit_of_the_project_stands_beside_that_of_the_code(
+    frame: Frame, runs: xr.Dataset, own: float, word: str
+) -> None:
+    checks = history_checks(runs, frame, "ASCE 7-22", limits=DesignLimits(drift=own))
+    code = one(checks, "storey drift ratio", "ASCE 7-22 17.6.4.4")
+    project = one(checks, "storey drift ratio", "no code: limit of the project")
+    assert (code.limit, project.limit) == (0.02, own)
+    assert code.demand == project.demand
+    assert project.note.endswith(
+        f"{word} than 2 % of ASCE 7-22 17.6.4.4, which is checked beside it"
+    )
+    assert project.standing == "confirmed"
+    europe = history_checks(runs, frame, "EN 1998-1", limits=DesignLimits(drift=own))
+    assert one(europe, "storey drift ratio").clause == "no code: limit of the project"
+    plain = history_checks(runs, frame, "ASCE 7-22", limits=DesignLimits(base_shear=1e9))
+    assert one(plain, "base shear").clause == "no code: limit of the project"
+
+
+def test_limits_have_bounds() -> None:
+    for name, value, words in (
+        ("rim_strength", -3e6, r"rim_strength = -3e\+06 \[N\] must be at least 1 "),
+        ("interface_pressure", 60.0, r"interface_pressure = 60 \[Pa\] must be at least 100000"),
+        ("eccentricity", 1.5, "eccentricity = 1.5 .* must be at least 0.01 and below 1: give"),
+        ("drift", 5.0, "drift = 5 .* below 0.2: give a pure number, or leave it out"),
+        ("uplift_gap", 120.0, r"uplift_gap = 120 \[m\] .* below 0.5"),
+        ("rim_engagement", 75.0, "rim_engagement = 75"),
+        ("base_shear", math.inf, "base_shear = inf"),
+    ):
+        with pytest.raises(CheckError, match=words):
+            DesignLimits(**{name: value})
+
+
+def test_the_file_knows_every_limit() -> None:
+    pytest.importorskip("pydantic")
+    from frames.project.schema import Limits
+
+    assert set(Limits.model_fields) == {f.name for f in fields(DesignLimits)}
+
+
+def test_gamma_x_raises_the_slip_as_well(
+    frame: Frame, bearing: LIRBearing, runs: xr.Dataset
+) -> None:
+    """Rims met at 200 mm; 190 mm of runs are 228 mm by EN 1998-1, of which 28 mm are slip."""
+    moved = runs.assign(reached_displacement=0.19 + 0.0 * runs["reached_displacement"])
+    checks = history_checks(moved, frame, "EN 1998-1")
+    for title in ("slip over the overlap", "slip over the one that holds"):
+        assert one(checks, title).demand == pytest.approx(1.2 * 0.19 - 0.2)
+    plain = history_checks(moved, frame, "ASCE 7-22")
+    assert one(plain, "slip over the overlap").demand < 0.01
+    rims = one(checks, "displacement where a rim engages, over gamma_x d_bd of histories")
+    assert rims.demand == pytest.approx(0.2 / 0.228)
+    assert (rims.limit, rims.passed) == (1.0, False)
+    assert rims.clause == "EN 1998-1 10.3(2), EN 15129"
+    assert "agreement of the authority" in rims.note
+    agreed = history_checks(moved, frame, "EN 1998-1", limits=DesignLimits(rim_engagement=0.8))
+    title = "displacement where a rim engages, over gamma_x d_bd of histories"
+    assert one(agreed, title, "limit of the project").passed
+    assert not one(agreed, title, "EN 1998-1").passed
