@@ -181,7 +181,7 @@ class Worker:
             recorder = self._recorder or PeakRecorder(workspace, self._is_stopped)
             recorder.renew(motion, ground)
             self._recorder = recorder
-        begin(state, ground)
+        begin(state, ground, settings)
         code, seconds = march(state, settings, ground, recorder, options)
         if code is RunStatus.INTERRUPTED:
             return None

@@ -101,7 +101,8 @@ class Recorder:
 
     def begin(self) -> None:
         """Record the state at rest, and refuse what cannot be recorded."""
-        record(self._state.run, self._state.contacts, self._state.parts, self.out, 0)
+        state = self._state
+        record(state.model, state.run, state.contacts, state.parts, self._ground, self.out, 0)
         recording = self._recording
         if self._is_whole:
             return

@@ -261,7 +261,7 @@ def _run_from(
     tolerance = settings.error_tolerance
     ground = ground_of(motion, features, settings)
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
-    begin(state, ground)
+    begin(state, ground, settings)
     code, seconds = march(state, settings, ground, recorder, options)
     end = ended(state, code)
     counts = state.run.counts[0]
@@ -345,7 +345,7 @@ def ground_of(motion: GroundMotion, features: Features, settings: Setup) -> Grou
     return Ground(*seen_by_steps(shaking, settings.dt))
 
 
-def begin(state: GravityState, ground: Ground) -> None:
+def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
     """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
@@ -356,6 +356,10 @@ def begin(state: GravityState, ground: Ground) -> None:
         record_of[:] = np.zeros(1, dtype=record_of.dtype)
     elastic = 0.5 * (run.b @ basis.stiffness_b @ run.b + basis.omega2 @ run.e**2)
     run.clock["elastic_start"] = elastic
+    damps = settings.alpha_m != 0.0 or settings.alpha_f != 0.0
+    run.balanced[0] = int(damps)
+    if damps:
+        run.balance[:] = basis.mobility
     run.push[:] = run.old["force"][:, 6:9]
     run.carried[:] = np.maximum(state.axial_forces, 1e-3 * state.axial_forces.max())
     run.carried[:] /= state.system.gravity
@@ -368,7 +372,7 @@ def march(
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
     ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)
-    ready(record, run, contacts, parts, out, 0)
+    ready(record, model, run, contacts, parts, ground, out, 0)
     recorder.begin()
     began = perf_counter()
 

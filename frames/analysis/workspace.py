@@ -90,8 +90,8 @@ def set_up(
     coupling = 0.0 if features.second_direction else plane_coupling(model)
     state = gravity(model, features, level)
     out, states, bodies = output_arrays(state.model, state.contacts, 1, part_sizes(state.parts))
-    record(state.run, state.contacts, state.parts, out, 0)
     still = Ground(np.zeros((2, 3)), 1.0)
+    record(state.model, state.run, state.contacts, state.parts, still, out, 0)
     first = build_dataset(model, state, still, np.zeros(3), out, states, bodies, 1)
     left_out = ", ".join(features.left_out) or "none"
     first = first.assign_attrs(features_left_out=left_out)
@@ -178,7 +178,8 @@ class PeakRecorder:
 
     def begin(self) -> None:
         """Record the state at rest."""
-        record(self._state.run, None, self._state.parts, self.out, 0)
+        state = self._state
+        record(state.model, state.run, None, state.parts, self._ground, self.out, 0)
 
     def room(self, done: int) -> int:
         """Return the last base step that there is room for; a full buffer is taken up first."""

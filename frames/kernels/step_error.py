@@ -161,7 +161,7 @@ def lagging(model: Model, run: Run, k: int) -> float:
 def estimated_error(
     model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
 ) -> float:
-    """Return the error of the bearings' displacements that such steps make, over the allowed one.
+    """Return the error of the bearings' displacements that such steps make [m].
 
     The trapezoidal rule integrates each bearing's force with an error of a twelfth of its second
     difference, and what is late counts besides. A lasting error of a force is a displacement of the
@@ -190,7 +190,7 @@ def estimated_error(
     error = math.sqrt(wrong / mass) * settings.error_flexibility  # (5.3)
     error *= min(clock.dt / settings.error_event, 1.0)
     error += ringing(model, run, settings, ground)  # (5.10)
-    return factor * error / (settings.error_tolerance * max(clock.reach, settings.smallest_reach))
+    return factor * error
 
 
 @expanded
@@ -211,15 +211,19 @@ def is_rough(
     scale = max(run.energy[0].kinetic, abs(run.energy[0].input), settings.energy_floor)
     if defect > settings.energy_tolerance * scale:
         return True
+    clock = run.clock[0]
+    clock.error = estimated_error(model, run, parts, settings, ground)
     if settings.error_tolerance < math.inf:
-        run.clock[0].share = estimated_error(model, run, parts, settings, ground)
-    return run.clock[0].share > 1.0
+        reach = max(clock.reach, settings.smallest_reach)
+        clock.share = clock.error / (settings.error_tolerance * reach)
+    return clock.share > 1.0
 
 
 @expanded
 def keep_motion(model: Model, run: Run, ground: Ground) -> None:
     """Keep how the bearings were forced and moved, for the next estimate of the error."""
     clock = run.clock[0]
+    clock.worst = max(clock.worst, clock.error)
     share = clock.dt / (clock.dt + _MEMORY)
     run.swing[2] += share * (run.swing[0] - run.swing[2])
     run.swing[3] += share * (run.swing[1] / (clock.dt * clock.dt) - run.swing[3])
