@@ -103,6 +103,9 @@ def build_dataset(
         "node_position": labelled(
             ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
         ),
+        "node_mass": labelled(
+            ("node", "axis"), system.node_mass[:, :3].copy(), "kg", "mass at the node"
+        ),
         "node_displacement": labelled(
             node,
             of(motion.displacement, nodes, 6),
@@ -196,10 +199,9 @@ class _Motion:
         return q
 
     def acceleration(self) -> FloatArray:
-        # what lags without mass has a velocity, but no acceleration of use
-        basis, out, count = self._state.basis, self._out, self._count
-        rates = basis.mass_e * out.a_e[:count]
-        found = self._of_nodes(expand(basis, out.a_b[:count], rates, offset=False))
+        out, count = self._out, self._count
+        rates = np.hstack([out.a_b[:count], out.a_e[:count]])
+        found = self._of_nodes(rates @ self._state.accelerating.T)
         found[..., :3] += self.ground[:, None, :]
         return found
 

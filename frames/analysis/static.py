@@ -13,6 +13,7 @@ import numpy as np
 
 from frames._errors import ModelError, ModelWarning
 from frames.analysis.blas_threads import blas_threads_for
+from frames.analysis.accelerating import accelerating
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.nonlinear_start import parts_at_rest
 from frames.analysis.plausible import doubts, held_periods
@@ -88,6 +89,11 @@ class GravityState:
     def part_shift(self) -> FloatArray:
         """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
         return self.basis.shift(self.system.part_rows.T.toarray())
+
+    @cached_property
+    def accelerating(self) -> FloatArray:
+        """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
+        return accelerating(self)
 
     @property
     def held_periods(self) -> tuple[float, ...]:
