@@ -49,7 +49,7 @@ def accelerating(state: GravityState) -> FloatArray:
     """
     basis = state.basis
     found = np.hstack([basis.expand_b, basis.mass_e * basis.expand_e])
-    stiffness = sparse.csr_array(state.system.stiffness + state.geometric + _springs(state))
+    stiffness = present_stiffness(state)
     light = without_inertia(state, stiffness)
     own = state.system.mass.diagonal() > 0.0
     if not (light[basis.bearing_dofs].any() or (light & own).any()):
@@ -61,6 +61,17 @@ def accelerating(state: GravityState) -> FloatArray:
     right = np.asarray(stiffness[light][:, ~light] @ found[~light])
     found[light] = -Factors(inner).solve(right)
     return found
+
+
+def has_light_nodes(state: GravityState) -> bool:
+    """Return whether a displacement of the structure has so little mass that it counts as none."""
+    light = without_inertia(state, present_stiffness(state))
+    return bool((light & (state.system.mass.diagonal() > 0.0)).any())
+
+
+def present_stiffness(state: GravityState) -> SparseMatrix:
+    """Return the stiffness (n_free, n_free) of the structure on bearings pressed as at rest."""
+    return sparse.csr_array(state.system.stiffness + state.geometric + _springs(state))
 
 
 def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from frames.analysis.cutting import storey_rows
+from frames.analysis.resultants import RESULTANTS, moving_mass
 from frames.analysis.static import expand
 from frames.analysis.yielding import part_variables
 from frames.assembly.assemble import node_geometric_stiffness
@@ -104,7 +105,13 @@ def build_dataset(
             ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
         ),
         "node_mass": labelled(
-            ("node", "axis"), system.node_mass[:, :3].copy(), "kg", "mass at the node"
+            ("node", "axis"), moving_mass(state), "kg", "mass at the node, 0 where it is fixed"
+        ),
+        "imbalance": labelled(
+            ("time", "resultant"),
+            of(motion.imbalance, len(RESULTANTS)),
+            "1",
+            "sum of all forces over the weight, of moments over that times half the extent",
         ),
         "node_displacement": labelled(
             node,
@@ -148,6 +155,7 @@ def build_dataset(
         "node": list(system.node_names),
         "dof": list(DOFS),
         "term": list(ENERGY_TERMS),
+        "resultant": list(RESULTANTS),
         "level": [lv.name for lv in frame.levels],
         **names,
         **bearing_coordinates([name for name, _, _, _ in system.bearings]),
@@ -204,6 +212,9 @@ class _Motion:
         found = self._of_nodes(rates @ self._state.accelerating.T)
         found[..., :3] += self.ground[:, None, :]
         return found
+
+    def imbalance(self) -> FloatArray:
+        return self._state.resultants.of(self._out, self._states, self.ground, 0, self._count)
 
     def bearing_velocity(self) -> FloatArray:
         return _bearing_velocity(self._state, self._out.v_b[: self._count])

@@ -274,6 +274,7 @@ def _run_from(
         "dt": float(options.base),
         "step_control": "error" if math.isfinite(tolerance) else "fixed",
         "tolerance": tolerance if math.isfinite(tolerance) else math.nan,
+        "estimated_error": estimated_error(state, settings),
         "steps": int(counts["steps"]),
         "newton_iterations": int(counts["iterations"]),
         "halvings": int(counts["halvings"]),
@@ -323,6 +324,12 @@ def settings_of(state: GravityState, options: Options) -> Setup:
     )
 
 
+def estimated_error(state: GravityState, settings: Setup) -> float:
+    """Return the estimated error of a run's displacement histories over the largest reached [-]."""
+    clock = state.run.clock[0]
+    return float(clock["worst"] / max(clock["reach"], 1e-6 * settings.smallest_reach))
+
+
 def _least_halvings(base: float, tolerance: float) -> int:
     # Of the base step: small tolerances get small steps, whatever the estimate says.
     if not tolerance <= 0.5 * _HALVED_FROM:
@@ -360,6 +367,7 @@ def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
     run.balanced[0] = int(damps)
     if damps:
         run.balance[:] = basis.mobility
+        run.held[:] = basis.stiffness_b @ run.b
     run.push[:] = run.old["force"][:, 6:9]
     run.carried[:] = np.maximum(state.axial_forces, 1e-3 * state.axial_forces.max())
     run.carried[:] /= state.system.gravity

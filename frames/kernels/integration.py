@@ -216,7 +216,7 @@ def accept_step(
     """Commit the step."""
     clock = run.clock[0]
     add_energy(model, run, parts, ground)
-    keep_motion(model, run, ground)
+    keep_motion(model, run, settings, ground)
     commit_bearings(model, run, contacts)
     add_bearing_energy(run)
     if parts is not None:
@@ -242,7 +242,7 @@ def balanced_rates(
     """Set the accelerations that balance all forces of the committed state."""
     n_b, n_e = run.b.shape[0], run.e.shape[0]
     for a in range(n_b):
-        run.h_b[a] = model.load_b[a] - run.force_old[a]
+        run.h_b[a] = model.load_b[a] - run.force_old[a] - run.held[a]
         a_b[a] = 0.0
     for k in range(n_e):
         a_e[k] = model.load_e[k] - model.damping_e[k] * run.v_e[k] - model.omega2[k] * run.e[k]
@@ -263,7 +263,6 @@ def balanced_rates(
             a_e[k] -= model.inertia_e[k, axis] * pull
     for k in range(n_e):
         a_e[k] *= model.mass_e[k]
-    add_product(model.stiffness_b, run.b, -1.0, run.h_b)
     if model.damping_b.shape[0] > 0:
         add_product(model.damping_b, run.v_b, -1.0, run.h_b)
     add_product(model.mass_eb, a_e, -1.0, run.h_b)

@@ -17,7 +17,13 @@ from lir_element.kernels.pendulum.solve import (
     solve_axis,
     square_to_reach,
 )
-from lir_element.kernels.pendulum.spin import own_time, rates_by_spin, spin_against, spin_balance, spin_by
+from lir_element.kernels.pendulum.spin import (
+    own_time,
+    rates_by_spin,
+    spin_against,
+    spin_balance,
+    spin_by,
+)
 from lir_element.kernels.pendulum.string import aim_on, evaluate, set_axis, turn_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.layout import SPIN_BALANCE
