@@ -6,7 +6,6 @@ about which the structure is held by its bearings alone.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +19,7 @@ from frames.results.reached import VIOLENT, Extreme, extreme_of, later
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.analysis.static import GravityState
-    from frames.kernel_data import Ground, Output
+    from frames.kernel_data import Output
     from lir_element.layout import Records
 
 RESULTANTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")

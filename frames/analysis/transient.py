@@ -363,7 +363,7 @@ def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
         record_of[:] = np.zeros(1, dtype=record_of.dtype)
     elastic = 0.5 * (run.b @ basis.stiffness_b @ run.b + basis.omega2 @ run.e**2)
     run.clock["elastic_start"] = elastic
-    damps = settings.alpha_m != 0.0 or settings.alpha_f != 0.0
+    damps = abs(settings.alpha_m) + abs(settings.alpha_f) > 0.0
     run.balanced[0] = int(damps)
     if damps:
         run.balance[:] = basis.mobility

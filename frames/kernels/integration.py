@@ -5,7 +5,6 @@ Newmark's method is the member alpha_m = alpha_f = 0; Chung and Hulbert (1993) g
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from frames._jit import expanded, inlined, kernel

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 BALANCED = 2e-3
-"""Sum of all forces over the weight, of moments over weight times half the structure's extent, up to
-which a run is in equilibrium: ordinary runs keep 1e-6 of forces, and 1e-4 of moments, for damping by
-modes leaves what axial forces turn undamped (docs/theory.md, 5)."""
+"""Sum of all forces over the weight, of moments over weight times half the structure's extent, up
+to which a run is in equilibrium: ordinary runs keep 1e-6 of forces, and 1e-4 of moments: damping
+by modes does not know what axial forces turn (docs/theory.md, 5)."""
 
 ROUGH = 0.05
 """Estimated error of a given step over the displacement reached from which on a run says so."""
@@ -59,7 +59,7 @@ def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
         if doubtful:
             text = (
                 f"equilibrium: {name} of bearing forces, weight and inertia differ by "
-                f"{100.0 * most:.3g} % of {over} at t = {float(gaps.at[k]):.4g} s: axial forces and "
+                f"{100.0 * most:.3g} % of {over} at t = {float(gaps.at[k]):.4g} s: forces and "
                 "accelerations of one instant do not belong together; take neither for a design"
             )
     return (Remark("equilibrium", most, text, doubtful), *_violence(data))
