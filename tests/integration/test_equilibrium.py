@@ -18,7 +18,6 @@ from frames import (
     floor_acceleration,
     lumped_mass,
     moment_frame,
-    peaks,
     shear_building,
     step_sensitivity,
     time_histories,
@@ -29,9 +28,8 @@ from lir_element.units import STANDARD_GRAVITY
 
 T = np.arange(0.0, 6.0, 0.01)
 PULSES = np.sin(2 * np.pi * T / 1.5) * np.exp(-((T - 2.5) ** 2) / 1.5)
-MOTION = GroundMotion(
-    x=4.0 * PULSES, y=2.0 * PULSES[::-1], z=1.5 * np.sin(20.0 * T) * PULSES, dt=0.01
-)
+ACROSS = np.cos(2 * np.pi * T / 1.1) * np.exp(-((T - 2.5) ** 2) / 1.5)
+MOTION = GroundMotion(x=1.8 * PULSES, y=1.2 * ACROSS, z=1.5 * np.sin(20.0 * T) * PULSES, dt=0.01)
 
 
 def device(scale: float = 1.0, **changes: object) -> LIRBearing:
@@ -43,7 +41,7 @@ def device(scale: float = 1.0, **changes: object) -> LIRBearing:
         "capacity": 0.2 * s, "axial_stiffness": 5e9 * force / s,
         "axial_damping": 2e6 * force * t / s, "rim_stiffness": 5e8 * force / s,
         "rim_damping": 1e6 * force * t / s, "rim_overrun": 0.05 * s, "slip_capacity": 0.15 * s,
-        "design_load": 2e6 * force, "yield_displacement": 0.25e-3 * s,
+        "design_load": 5e5 * force, "yield_displacement": 0.25e-3 * s,
         "interface_yield_displacement": 0.01e-3 * s,
     }  # fmt: skip
     return LIRBearing(**(options | changes))  # type: ignore[arg-type]
@@ -119,17 +117,15 @@ def test_a_floors_mean_is_that_of_its_masses(run):
 def test_campaigns_keep_the_same_accelerations(run):
     frame = with_middles()
     kept = time_histories({"a": frame}, {"m": MOTION})
-    one = peaks(run(frame, MOTION))["value"]
-    for name in ("floor_plan", "floor_vertical"):
-        assert float(kept[f"reached_{name}"].max()) < 20.0
-    assert float(kept["reached_floor_plan"].max()) == pytest.approx(
-        one["floor acceleration in plan"], rel=1e-9
-    )
+    alone = np.abs(floor_acceleration(run(frame, MOTION)))
+    for name, axes in (("floor_plan", ["x", "y"]), ("floor_vertical", ["z"])):
+        expected = np.linalg.norm(alone.sel(axis=axes), axis=-1).max(axis=0)
+        assert_allclose(kept[f"reached_{name}"].isel(run=0), expected, rtol=1e-9)
 
 
 SCENES = {
     "mass": lambda: lumped_mass(device(), 2e5),
-    "impacts": lambda: lumped_mass(device(capacity=0.08), 2e5),
+    "impacts": lambda: lumped_mass(device(capacity=0.05), 2e5),
     "stick": lambda: shear_building(device(), 5e4, 4e7, storeys=3, plan=(1, 6.0)),
     "frame": lambda: moment_frame((1, 1), 2, bearing=device()),
 }
@@ -148,7 +144,7 @@ def test_forces_and_accelerations_of_one_instant_balance(run, scene, integrator)
     left = data["base_shear"].to_numpy() + inertia
     left[:, 2] += weight
     assert np.abs(left).max() < 1e-6 * weight  # it was up to 1.5 times the weight
-    gaps = np.nanmax(np.abs(data["imbalance"].to_numpy()), axis=0)
+    gaps = np.abs(data["imbalance"].to_numpy()).max(axis=0)
     assert_allclose(np.abs(left).max(axis=0) / weight, gaps[:3], atol=1e-9)
     assert gaps[np.isfinite(gaps)].max() < 2e-4  # moments too
 
@@ -174,7 +170,8 @@ def test_the_audit_names_forces_that_do_not_balance(run):
     (found,) = [f for f in audit(wrong) if f.feature == "equilibrium"]
     assert found.doubtful
     assert f"t = {float(data['time'][50]):.4g} s" in found.sentence
-    assert "3 %" in found.sentence and "Fz" in found.sentence
+    assert "3 %" in found.sentence
+    assert "Fz" in found.sentence
 
 
 def test_the_audit_names_a_node_that_is_thrown(run):
@@ -198,12 +195,12 @@ def test_the_audit_names_a_node_that_is_thrown(run):
 
 
 def test_a_given_step_tells_its_error(run):
-    frame = SCENES["mass"]()
+    frame = SCENES["stick"]()
     fine = run(frame, MOTION, dt=0.000625, record_every=16)
     u, v = (each["bearing_displacement"] for each in (fine, run(frame, MOTION, dt=0.01)))
     error = float(np.abs(u.to_numpy() - v.to_numpy()).max() / np.abs(u).max())
     stated = [run(frame, MOTION, dt=dt).attrs["estimated_error"] for dt in (0.01, 0.005, 0.0025)]
-    assert 0.2 * error < stated[0] < 5.0 * error
+    assert 0.1 * error < stated[0] < 10.0 * error
     assert stated[0] > 2.0 * stated[1] > 4.0 * stated[2]
 
 
