@@ -10,7 +10,7 @@ would carry it along, forces of bearings and nonlinear parts on it taken to stay
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from scipy import sparse
@@ -21,7 +21,8 @@ from frames.model.parts import bearing_axial_stiffness
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
-    from frames.analysis.static import GravityState
+    from frames.assembly.basis import Basis
+    from frames.assembly.system import System
 
 FASTEST = 1e-3
 """Own period of a displacement, all others held, over sqrt(L / g) of the bearings, below which its
@@ -32,12 +33,36 @@ LIGHTEST = 1e-3
 being no masses that are next to nothing (a choice)."""
 
 
-def accelerating(state: GravityState) -> FloatArray:
+class AtRest(Protocol):
+    """A structure in equilibrium under its permanent loads, as `frames.GravityState` is."""
+
+    @property
+    def system(self) -> System:
+        """Its matrices over the free degrees of freedom."""
+        ...
+
+    @property
+    def geometric(self) -> SparseMatrix:
+        """Its geometric stiffness."""
+        ...
+
+    @property
+    def basis(self) -> Basis:
+        """The same in bearing coordinates."""
+        ...
+
+    @property
+    def axial_forces(self) -> FloatArray:
+        """Axial forces of its bearings [N]."""
+        ...
+
+
+def accelerating(state: AtRest) -> FloatArray:
     """Return how accelerations of b and eta accelerate the free degrees of freedom.
 
     Parameters
     ----------
-    state : GravityState
+    state : AtRest
         The structure at rest.
 
     Returns
@@ -63,23 +88,23 @@ def accelerating(state: GravityState) -> FloatArray:
     return found
 
 
-def has_light_nodes(state: GravityState) -> bool:
+def has_light_nodes(state: AtRest) -> bool:
     """Return whether a displacement of the structure has so little mass that it counts as none."""
     light = without_inertia(state, present_stiffness(state))
     return bool((light & (state.system.mass.diagonal() > 0.0)).any())
 
 
-def present_stiffness(state: GravityState) -> SparseMatrix:
+def present_stiffness(state: AtRest) -> SparseMatrix:
     """Return the stiffness (n_free, n_free) of the structure on bearings pressed as at rest."""
     return sparse.csr_array(state.system.stiffness + state.geometric + _springs(state))
 
 
-def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:
+def without_inertia(state: AtRest, stiffness: SparseMatrix) -> BoolArray:
     """Return which free degrees of freedom have no mass, or so little that no step follows it.
 
     Parameters
     ----------
-    state : GravityState
+    state : AtRest
         The structure at rest.
     stiffness : csr_array, (n_free, n_free)
         Its stiffness, bearings included.
@@ -100,7 +125,7 @@ def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:
     return np.asarray(~(mass > 0.0) | fast)
 
 
-def _springs(state: GravityState) -> SparseMatrix:
+def _springs(state: AtRest) -> SparseMatrix:
     # The bearings pressed as at rest: what restores along the pendulum, and the axial contact.
     system = state.system
     values = np.zeros((len(system.bearings), 6))

@@ -101,12 +101,6 @@ def build_dataset(
         "peak_ground_velocity": labelled(
             ("axis",), peak, "m/s", "largest velocity of the ground, also of a direction left out"
         ),
-        "node_position": labelled(
-            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
-        ),
-        "node_mass": labelled(
-            ("node", "axis"), moving_mass(state), "kg", "mass at the node, 0 where it is fixed"
-        ),
         "imbalance": labelled(
             ("time", "resultant"),
             of(motion.imbalance, len(RESULTANTS)),
@@ -167,6 +161,12 @@ def _permanent(frame: FrameContents, state: GravityState) -> dict[str, xr.Variab
     # What a structure carries, and its levels.
     system = state.system
     return {
+        "node_position": labelled(
+            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
+        ),
+        "node_mass": labelled(
+            ("node", "axis"), moving_mass(state), "kg", "mass at the node, 0 where it is fixed"
+        ),
         "weight": labelled(
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
         ),

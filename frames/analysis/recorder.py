@@ -207,7 +207,7 @@ class Recorder:
         parts = PartGauge(self._state, self._model)
         gauge.take(self._states, self.out, self._ground, 0, count)
         parts.take(self.out, 0, count)
-        whole = Plausibility(self._state)
+        whole = Plausibility(self._state, self._state.resultants)
         shaking = ground_at(self._ground, self.out.time[:count])
         whole.take(self.out, self._states, shaking, 0, count)
         return gauge.reached() | parts.reached() | whole.reached(), gauge.totals()

@@ -6,20 +6,21 @@ about which the structure is held by its bearings alone.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from frames.analysis.accelerating import AtRest
 from frames.assembly.basis import bearing_rows
 from frames.assembly.sparse_solver import Factors
 from frames.results.reached import VIOLENT, Extreme, extreme_of, later
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
-    from frames.analysis.static import GravityState
     from frames.kernel_data import Output
+    from frames.parts_data import Parts
     from lir_element.layout import Records
 
 RESULTANTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
@@ -29,12 +30,36 @@ _HELD = 1e-9  # of the stiffness against a motion, part by part, below which not
 _AT_ONCE = 256  # steps, of which the accelerations of all nodes are formed together
 
 
+class AtRestMoving(AtRest, Protocol):
+    """A structure at rest that knows how its coordinates move it."""
+
+    @property
+    def parts(self) -> Parts | None:
+        """Its nonlinear parts."""
+        ...
+
+    @property
+    def part_shift(self) -> FloatArray:
+        """How their forces displace what has no mass."""
+        ...
+
+    @property
+    def accelerating(self) -> FloatArray:
+        """How accelerations of its coordinates accelerate it."""
+        ...
+
+    @property
+    def has_light_nodes(self) -> bool:
+        """Whether nodes have so little mass that no step follows it."""
+        ...
+
+
 class Resultants:
     """Sums of all forces on what stands on bearings alone.
 
     Parameters
     ----------
-    state : GravityState
+    state : AtRestMoving
         The structure at rest.
 
     Notes
@@ -45,7 +70,7 @@ class Resultants:
     or the fixed rotations of a node share in are not formed.
     """
 
-    def __init__(self, state: GravityState) -> None:
+    def __init__(self, state: AtRestMoving) -> None:
         system, basis = state.system, state.basis
         motions, formed, extent = _rigid_motions(state)
         weight = max(float(np.abs(system.load).sum()), 1e-300)
@@ -93,7 +118,7 @@ class Resultants:
         return np.asarray(found + self._rest)
 
 
-def _rigid_motions(state: GravityState) -> tuple[FloatArray, FloatArray, float]:
+def _rigid_motions(state: AtRestMoving) -> tuple[FloatArray, FloatArray, float]:
     # Rigid motions (n_free, 6) of what bearings alone hold, which of them nothing else resists,
     # and half the extent of the structure.
     system = state.system
@@ -124,7 +149,7 @@ def _rigid_motions(state: GravityState) -> tuple[FloatArray, FloatArray, float]:
     return motions, formed, extent
 
 
-def _parts(state: GravityState) -> IntArray:
+def _parts(state: AtRestMoving) -> IntArray:
     # Parts of the structure that bearings alone connect, by free displacement.
     system = state.system
     pattern = abs(system.stiffness) + abs(system.mass)
@@ -136,14 +161,15 @@ class Plausibility:
 
     Parameters
     ----------
-    state : GravityState
+    state : AtRestMoving
         The structure.
+    resultants : Resultants
+        Its sums of forces.
     """
 
-    def __init__(self, state: GravityState) -> None:
+    def __init__(self, state: AtRestMoving, resultants: Resultants) -> None:
         system = state.system
-        self._state = state
-        self._resultants = state.resultants
+        self._state, self._resultants = state, resultants
         mass = moving_mass(state)
         self._nodes = np.flatnonzero(mass.max(axis=1) > 0.0)
         self._least = float(mass.max(axis=1)[self._nodes].min())
@@ -192,12 +218,12 @@ class Plausibility:
         return found
 
 
-def moving_mass(state: GravityState) -> FloatArray:
+def moving_mass(state: AtRestMoving) -> FloatArray:
     """Return the masses of the nodes that can move (n_nodes, 3), 0 along what supports hold [kg].
 
     Parameters
     ----------
-    state : GravityState
+    state : AtRestMoving
         The structure.
 
     Returns

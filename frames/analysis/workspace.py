@@ -176,7 +176,8 @@ class PeakRecorder:
         self.first, self._taken = 0, 0
         self._gauge = Gauge(*self._structure.gauges)
         self._parts = PartGauge(self._structure.state, self._structure.model)
-        self._whole = Plausibility(self._structure.state)
+        rest = self._structure.state
+        self._whole = Plausibility(rest, rest.resultants)
 
     def begin(self) -> None:
         """Record the state at rest."""
