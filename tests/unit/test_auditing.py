@@ -59,7 +59,13 @@ def found(data: xr.Dataset) -> dict[str, Finding]:
 
 def test_one_finding_a_feature():
     names = [finding.feature for finding in audit(run(device()))]
-    assert names == [*Features.names(), "full_contact", "slip_stability", "equilibrium", "time_step"]
+    assert names == [
+        *Features.names(),
+        "full_contact",
+        "slip_stability",
+        "equilibrium",
+        "time_step",
+    ]
 
 
 def test_rims_left_out_that_were_not_needed():
