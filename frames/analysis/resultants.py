@@ -113,9 +113,15 @@ class Resultants:
         rows = slice(first, last)
         x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])
         rates = np.hstack([out.a_b[rows], out.a_e[rows]])
-        found = x @ self._over_x.T + rates @ self._over_a.T + ground @ self._over_ground.T
-        found += states["force"][rows].reshape(last - first, -1) @ self._over_force.T
+        found = _times(x, self._over_x) + _times(rates, self._over_a)
+        found += _times(np.asarray(ground), self._over_ground)
+        found += _times(states["force"][rows].reshape(last - first, -1), self._over_force)
         return np.asarray(found + self._rest)
+
+
+def _times(steps: FloatArray, rows: FloatArray) -> FloatArray:
+    # Rows times each step: the same to the last digit however many steps are taken at once.
+    return np.asarray(np.einsum("ti,ki->tk", steps, rows))
 
 
 def _rigid_motions(state: AtRestMoving) -> tuple[FloatArray, FloatArray, float]:
