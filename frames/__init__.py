@@ -21,6 +21,7 @@ from frames.analysis.recovery import storey_forces as storey_forces
 from frames.analysis.recovery import support_reactions as support_reactions
 from frames.analysis.static import GravityState as GravityState
 from frames.analysis.static import gravity as gravity
+from frames.analysis.step_sensitivity import step_sensitivity as step_sensitivity
 from frames.analysis.transient import time_history as time_history
 from frames.campaign.campaign import Campaign as Campaign
 from frames.campaign.sampling import ParameterSample as ParameterSample
@@ -280,6 +281,7 @@ __all__ = [
     "slips_of_events",
     "sobol_indices",
     "sobol_sample",
+    "step_sensitivity",
     "storey_drift",
     "storey_ductility",
     "storey_forces",

@@ -54,6 +54,9 @@ CLOCK_FIELDS = (
     Field("dt_before", "s", "", "last step that was accepted, zero at the start"),
     Field("share", "-", "", "estimated error of the last step over what is allowed"),
     Field("reach", "m", "", "largest horizontal displacement of a bearing so far"),
+    Field("error", "m", "", "estimated error of the last step tried, were all steps so"),
+    Field("recent", "m", "", "mean of those of the accepted steps of late"),
+    Field("worst", "m", "", "largest of these means"),
     Field("equal", "-", "", "accepted steps since one of another size", (), "i8"),
     Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
@@ -125,6 +128,8 @@ class Run(NamedTuple):
     force_old: Array  # (n_b,) bearing forces, committed
     force: Array
     force_before: Array  # (2, n_b) and those of the two steps before
+    balanced: Array  # (1,) 1: accelerations are recorded from equilibrium at the end of the step
+    balance: Array  # (n_b, n_b) then: accelerations of b by forces, eta following
     tangent: Array  # (n_b, n_b) the last one made, transposed and factorised
     order: Array  # (n_b,) of its rows
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
@@ -255,6 +260,7 @@ def run_arrays(model: Model) -> Run:
         push=np.zeros((count, 3)), moved=np.zeros((count, 6)),
         own=np.zeros((count, 2)), swing=np.zeros(4), carried=np.ones(count),
         force_old=b(), force=b(), force_before=np.zeros((2, n_b)),
+        balanced=np.zeros(1, np.int64), balance=np.zeros((n_b, n_b)),
         tangent=np.zeros((n_b, n_b)), order=np.zeros(n_b, np.int64),
         reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),

@@ -14,7 +14,7 @@ from frames.analysis.recording import Recording
 from frames.analysis.reduction import judgeable_of
 from frames.analysis.size import require_rows
 from frames.analysis.stacking import NUMBERS, Layout, Row, reached_row
-from frames.analysis.transient import begin, ground_of, march, settings_of
+from frames.analysis.transient import begin, estimated_error, ground_of, march, settings_of
 from frames.analysis.workspace import PeakRecorder, Structure, Workspace, set_up
 from frames.kernel_data import ENERGY_TERMS
 from frames.results.auditing import doubts_of
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from frames.analysis.cases import Case
     from frames.analysis.options import Options
     from frames.analysis.static import GravityState
+    from frames.kernel_data import Setup
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
     from lir_element.device.features import Features
@@ -181,11 +182,12 @@ class Worker:
             recorder = self._recorder or PeakRecorder(workspace, self._is_stopped)
             recorder.renew(motion, ground)
             self._recorder = recorder
-        begin(state, ground)
+        begin(state, ground, settings)
         code, seconds = march(state, settings, ground, recorder, options)
         if code is RunStatus.INTERRUPTED:
             return None
-        return self._judged(recorder, state, ended(state, code), structure, options, seconds)
+        end = ended(state, code)
+        return self._judged(recorder, state, end, structure, options, settings, seconds)
 
     def _judged(
         self,
@@ -194,13 +196,16 @@ class Worker:
         end: tuple[RunStatus, str],
         structure: Structure,
         options: Options,
+        settings: Setup,
         seconds: float,
     ) -> _Ended:
         # What became of a run, as `time_history` judges it.
         counts, done = state.run.counts[0], int(state.run.clock["done"][0])
         data = recorder.data(done).assign_attrs(
-            structure.template.attrs, integrator=options.integrator, seconds_loop=seconds
-        )
+            structure.template.attrs, integrator=options.integrator, seconds_loop=seconds,
+            step_control="error" if math.isfinite(settings.error_tolerance) else "fixed",
+            estimated_error=estimated_error(state, settings),
+        )  # fmt: skip
         energy = recorder.out.energy[done - recorder.first].copy()
         whole, data = data, judgeable_of(data) if "time" in data.dims else data
         outcome = concluded(data, state, end)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from frames.analysis.cutting import storey_rows
+from frames.analysis.resultants import RESULTANTS, moving_mass
 from frames.analysis.static import expand
 from frames.analysis.yielding import part_variables
 from frames.assembly.assemble import node_geometric_stiffness
@@ -100,8 +101,11 @@ def build_dataset(
         "peak_ground_velocity": labelled(
             ("axis",), peak, "m/s", "largest velocity of the ground, also of a direction left out"
         ),
-        "node_position": labelled(
-            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
+        "imbalance": labelled(
+            ("time", "resultant"),
+            of(motion.imbalance, len(RESULTANTS)),
+            "1",
+            "sum of all forces over the weight, of moments over that times half the extent",
         ),
         "node_displacement": labelled(
             node,
@@ -145,6 +149,7 @@ def build_dataset(
         "node": list(system.node_names),
         "dof": list(DOFS),
         "term": list(ENERGY_TERMS),
+        "resultant": list(RESULTANTS),
         "level": [lv.name for lv in frame.levels],
         **names,
         **bearing_coordinates([name for name, _, _, _ in system.bearings]),
@@ -156,6 +161,12 @@ def _permanent(frame: FrameContents, state: GravityState) -> dict[str, xr.Variab
     # What a structure carries, and its levels.
     system = state.system
     return {
+        "node_position": labelled(
+            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
+        ),
+        "node_mass": labelled(
+            ("node", "axis"), moving_mass(state), "kg", "mass at the node, 0 where it is fixed"
+        ),
         "weight": labelled(
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
         ),
@@ -196,12 +207,14 @@ class _Motion:
         return q
 
     def acceleration(self) -> FloatArray:
-        # what lags without mass has a velocity, but no acceleration of use
-        basis, out, count = self._state.basis, self._out, self._count
-        rates = basis.mass_e * out.a_e[:count]
-        found = self._of_nodes(expand(basis, out.a_b[:count], rates, offset=False))
+        out, count = self._out, self._count
+        rates = np.hstack([out.a_b[:count], out.a_e[:count]])
+        found = self._of_nodes(rates @ self._state.accelerating.T)
         found[..., :3] += self.ground[:, None, :]
         return found
+
+    def imbalance(self) -> FloatArray:
+        return self._state.resultants.of(self._out, self._states, self.ground, 0, self._count)
 
     def bearing_velocity(self) -> FloatArray:
         return _bearing_velocity(self._state, self._out.v_b[: self._count])

@@ -22,7 +22,7 @@ from frames.kernels.peaking import (
     peak_of_structure,
 )
 from frames.peak_data import Devices, Reached, Shape
-from frames.results.measures import lines_of
+from frames.results.measures import floor_shares, lines_of
 from frames.results.reached import Extreme
 from lir_element.device.sliders import interface_height
 
@@ -41,12 +41,13 @@ class Places(NamedTuple):
     level: IntArray  # (n_nodes,) level of each node, -1 for none
     height: FloatArray  # (n_levels,) [m]
     lines: tuple[IntArray, IntArray, IntArray]  # lower node, upper node, its level
+    shares: FloatArray  # (n_nodes, 3) of each node in its level's mean acceleration
 
 
 def places_of(data: xr.Dataset) -> Places:
     """Return where the nodes of a result stand."""
     levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
-    return Places(*levels, lines_of(data))
+    return Places(*levels, lines_of(data), floor_shares(data))
 
 
 class StoreyMaps(NamedTuple):
@@ -118,7 +119,7 @@ def shape_of(state: GravityState, places: Places) -> Shape:
     return Shape(
         moves=np.ascontiguousarray(moves.T),
         rest=np.concatenate([basis.offset[u_used], shears.rest]),
-        rates=np.ascontiguousarray(expand[a_used].T),
+        rates=np.ascontiguousarray(state.accelerating[a_used].T),
         mass_e=np.ascontiguousarray(basis.mass_e),
         u_start=u_rows[0], u_place=u_rows[1], u_value=u_rows[2],
         shear=shear[1], crossed=shears.crossed,
@@ -245,7 +246,12 @@ def _acceleration_rows(state: GravityState, places: Places) -> SparseMatrix:
     nodes = transform[_nodes_dofs(np.arange(len(state.system.node_names)), 3)]
     if not len(places.height):
         return sparse.csr_array(nodes)
-    return sparse.csr_array(sparse.vstack([nodes, _mean_rows(transform, places, 3)]))
+    blocks = [nodes]
+    for level in range(len(places.height)):
+        on = np.flatnonzero(places.level == level)
+        mean = sparse.hstack([sparse.diags_array(places.shares[node]) for node in on])
+        blocks.append(sparse.csr_array(mean @ transform[_nodes_dofs(on, 3)]))
+    return sparse.csr_array(sparse.vstack(blocks))
 
 
 def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.dataset import build_dataset, ground_at, peak_velocity
 from frames.analysis.gauging import Gauge, can_gauge, devices_of, places_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
@@ -15,6 +15,7 @@ from frames.analysis.reduction import (
     present_quantities,
     with_findings,
 )
+from frames.analysis.resultants import Plausibility
 from frames.analysis.size import (
     bytes_of_step,
     bytes_over_time,
@@ -101,7 +102,8 @@ class Recorder:
 
     def begin(self) -> None:
         """Record the state at rest, and refuse what cannot be recorded."""
-        record(self._state.run, self._state.contacts, self._state.parts, self.out, 0)
+        state = self._state
+        record(state.model, state.run, state.contacts, state.parts, self._ground, self.out, 0)
         recording = self._recording
         if self._is_whole:
             return
@@ -205,7 +207,10 @@ class Recorder:
         parts = PartGauge(self._state, self._model)
         gauge.take(self._states, self.out, self._ground, 0, count)
         parts.take(self.out, 0, count)
-        return gauge.reached() | parts.reached(), gauge.totals()
+        whole = Plausibility(self._state, self._state.resultants)
+        shaking = ground_at(self._ground, self.out.time[:count])
+        whole.take(self.out, self._states, shaking, 0, count)
+        return gauge.reached() | parts.reached() | whole.reached(), gauge.totals()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""

@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError, ModelWarning
+from frames.analysis.accelerating import accelerating, has_light_nodes
 from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.equilibrium import find_equilibrium
 from frames.analysis.nonlinear_start import parts_at_rest
 from frames.analysis.plausible import doubts, held_periods
+from frames.analysis.resultants import Resultants
 from frames.analysis.springs import first_displacement
 from frames.assembly.assemble import (
     assemble,
@@ -88,6 +90,21 @@ class GravityState:
     def part_shift(self) -> FloatArray:
         """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
         return self.basis.shift(self.system.part_rows.T.toarray())
+
+    @cached_property
+    def accelerating(self) -> FloatArray:
+        """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
+        return accelerating(self)
+
+    @cached_property
+    def has_light_nodes(self) -> bool:
+        """Whether nodes have so little mass that no step follows it."""
+        return has_light_nodes(self)
+
+    @cached_property
+    def resultants(self) -> Resultants:
+        """Sums of all forces on what stands on bearings alone."""
+        return Resultants(self)
 
     @property
     def held_periods(self) -> tuple[float, ...]:

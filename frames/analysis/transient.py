@@ -261,7 +261,7 @@ def _run_from(
     tolerance = settings.error_tolerance
     ground = ground_of(motion, features, settings)
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
-    begin(state, ground)
+    begin(state, ground, settings)
     code, seconds = march(state, settings, ground, recorder, options)
     end = ended(state, code)
     counts = state.run.counts[0]
@@ -274,6 +274,7 @@ def _run_from(
         "dt": float(options.base),
         "step_control": "error" if math.isfinite(tolerance) else "fixed",
         "tolerance": tolerance if math.isfinite(tolerance) else math.nan,
+        "estimated_error": estimated_error(state, settings),
         "steps": int(counts["steps"]),
         "newton_iterations": int(counts["iterations"]),
         "halvings": int(counts["halvings"]),
@@ -323,6 +324,12 @@ def settings_of(state: GravityState, options: Options) -> Setup:
     )
 
 
+def estimated_error(state: GravityState, settings: Setup) -> float:
+    """Return the estimated error of a run's displacement histories over the largest reached [-]."""
+    clock = state.run.clock[0]
+    return float(clock["worst"] / max(clock["reach"], 1e-6 * settings.smallest_reach))
+
+
 def _least_halvings(base: float, tolerance: float) -> int:
     # Of the base step: small tolerances get small steps, whatever the estimate says.
     if not tolerance <= 0.5 * _HALVED_FROM:
@@ -345,7 +352,7 @@ def ground_of(motion: GroundMotion, features: Features, settings: Setup) -> Grou
     return Ground(*seen_by_steps(shaking, settings.dt))
 
 
-def begin(state: GravityState, ground: Ground) -> None:
+def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
     """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
@@ -356,6 +363,11 @@ def begin(state: GravityState, ground: Ground) -> None:
         record_of[:] = np.zeros(1, dtype=record_of.dtype)
     elastic = 0.5 * (run.b @ basis.stiffness_b @ run.b + basis.omega2 @ run.e**2)
     run.clock["elastic_start"] = elastic
+    damps = abs(settings.alpha_m) + abs(settings.alpha_f) > 0.0
+    run.balanced[0] = int(damps)
+    if damps:
+        run.balance[:] = basis.mobility
+        run.held[:] = basis.stiffness_b @ run.b
     run.push[:] = run.old["force"][:, 6:9]
     run.carried[:] = np.maximum(state.axial_forces, 1e-3 * state.axial_forces.max())
     run.carried[:] /= state.system.gravity
@@ -368,7 +380,7 @@ def march(
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
     ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)
-    ready(record, run, contacts, parts, out, 0)
+    ready(record, model, run, contacts, parts, ground, out, 0)
     recorder.begin()
     began = perf_counter()
 

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.analysis.dataset import build_dataset, peak_velocity
+from frames.analysis.dataset import build_dataset, ground_at, peak_velocity
 from frames.analysis.gauging import Gauge, can_gauge, devices_of, places_of, shape_of
 from frames.analysis.gauging_parts import PartGauge
 from frames.analysis.recording import require_known
 from frames.analysis.reduction import Findings, judgeable_of, reduced, with_other_findings
+from frames.analysis.resultants import Plausibility
 from frames.analysis.scene import plane_coupling
 from frames.analysis.size import bytes_of_step, bytes_over_time
 from frames.analysis.stacking import Layout, layout_of
@@ -90,8 +91,8 @@ def set_up(
     coupling = 0.0 if features.second_direction else plane_coupling(model)
     state = gravity(model, features, level)
     out, states, bodies = output_arrays(state.model, state.contacts, 1, part_sizes(state.parts))
-    record(state.run, state.contacts, state.parts, out, 0)
     still = Ground(np.zeros((2, 3)), 1.0)
+    record(state.model, state.run, state.contacts, state.parts, still, out, 0)
     first = build_dataset(model, state, still, np.zeros(3), out, states, bodies, 1)
     left_out = ", ".join(features.left_out) or "none"
     first = first.assign_attrs(features_left_out=left_out)
@@ -175,10 +176,13 @@ class PeakRecorder:
         self.first, self._taken = 0, 0
         self._gauge = Gauge(*self._structure.gauges)
         self._parts = PartGauge(self._structure.state, self._structure.model)
+        rest = self._structure.state
+        self._whole = Plausibility(rest, rest.resultants)
 
     def begin(self) -> None:
         """Record the state at rest."""
-        record(self._state.run, None, self._state.parts, self.out, 0)
+        state = self._state
+        record(state.model, state.run, None, state.parts, self._ground, self.out, 0)
 
     def room(self, done: int) -> int:
         """Return the last base step that there is room for; a full buffer is taken up first."""
@@ -202,6 +206,7 @@ class PeakRecorder:
             "slip": np.linalg.norm(row["slip_total"], axis=-1),
         }
         reached: dict[str, Extreme] = self._gauge.reached() | self._parts.reached()
+        reached |= self._whole.reached()
         left |= self._parts.left(self.out, last)
         until = float(self.out.time[last])
         return Findings(reached, self._gauge.totals(), left, until)
@@ -216,4 +221,6 @@ class PeakRecorder:
         first, last = self._taken - self.first, done + 1 - self.first
         self._gauge.take(self._states, self.out, self._ground, first, last)
         self._parts.take(self.out, first, last)
+        shaking = ground_at(self._ground, self.out.time[first:last])
+        self._whole.take(self.out, self._states, shaking, first, last)
         self._taken = done + 1

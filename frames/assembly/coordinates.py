@@ -14,6 +14,8 @@ from frames.assembly.natural_modes import symmetric
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
 
+_OWN_MASS = 1e-9  # of a coordinate's mass with all that follows it, above which it has its own
+
 
 @dataclass(frozen=True, repr=False)
 class Basis:
@@ -66,6 +68,20 @@ class Basis:
     load_e: FloatArray
     inertia_b: FloatArray
     inertia_e: FloatArray
+
+    @cached_property
+    def mobility(self) -> FloatArray:
+        """Accelerations of b under forces on b that eta gives way to, (n_b, n_b) [1/kg, ...].
+
+        Coordinates without mass of their own have none: nothing balances a force on them.
+        """
+        heavy = self.mass_e > 0.0
+        between = self.mass_be[:, heavy]
+        left = symmetric(self.mass_b - between @ between.T)
+        own = np.diag(left) > _OWN_MASS * np.diag(self.mass_b)
+        found = np.zeros_like(left)
+        found[np.ix_(own, own)] = linalg.pinvh(left[np.ix_(own, own)])
+        return found
 
     @cached_property
     def shaken(self) -> FloatArray:

@@ -5,7 +5,6 @@ Newmark's method is the member alpha_m = alpha_f = 0; Chung and Hulbert (1993) g
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from frames._jit import expanded, inlined, kernel
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Output, Run, Setup
     from frames.parts_data import Parts
     from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Floats
 
 _OK = int(RunStatus.OK)
 _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
@@ -215,8 +215,7 @@ def accept_step(
     """Commit the step."""
     clock = run.clock[0]
     add_energy(model, run, parts, ground)
-    if settings.error_tolerance < math.inf:
-        keep_motion(model, run, ground)
+    keep_motion(model, run, settings, ground)
     commit_bearings(model, run, contacts)
     add_bearing_energy(run)
     if parts is not None:
@@ -235,16 +234,60 @@ def accept_step(
     run.counts[0].steps += 1
 
 
+@kernel
+def balanced_rates(
+    model: Model, run: Run, parts: Parts | None, ground: Ground, a_b: Floats, a_e: Floats
+) -> None:
+    """Set the accelerations that balance all forces of the committed state."""
+    n_b, n_e = run.b.shape[0], run.e.shape[0]
+    for a in range(n_b):
+        run.h_b[a] = model.load_b[a] - run.force_old[a] - run.held[a]
+        a_b[a] = 0.0
+    for k in range(n_e):
+        a_e[k] = model.load_e[k] - model.damping_e[k] * run.v_e[k] - model.omega2[k] * run.e[k]
+    if parts is not None:
+        for a in range(n_b):
+            run.h_b[a] -= parts.load_b[a]
+        for k in range(n_e):
+            a_e[k] -= parts.load_e[k]
+    if model.damping_ee.shape[0] > 0:
+        add_product(model.damping_ee, run.v_e, -1.0, a_e)
+        add_product(model.damping_be, run.v_b, -1.0, a_e)
+        add_product(model.damping_eb, run.v_e, -1.0, run.h_b)
+    for axis in range(3):
+        pull = ground_acceleration(ground.acceleration, ground.dt, run.clock[0].time, axis)
+        for a in range(n_b):
+            run.h_b[a] -= model.inertia_b[a, axis] * pull
+        for k in range(n_e):
+            a_e[k] -= model.inertia_e[k, axis] * pull
+    for k in range(n_e):
+        a_e[k] *= model.mass_e[k]
+    if model.damping_b.shape[0] > 0:
+        add_product(model.damping_b, run.v_b, -1.0, run.h_b)
+    add_product(model.mass_eb, a_e, -1.0, run.h_b)
+    add_product(run.balance, run.h_b, 1.0, a_b)
+    set_product(model.mass_be, a_b, run.h_e)
+    for k in range(n_e):
+        a_e[k] -= run.h_e[k]
+
+
 @inlined
 def record(
-    run: Run, contacts: Contacts | None, parts: Parts | None, out: Output, place: int
-) -> None:
-    """Copy the committed state into the output arrays."""
+    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, ground: Ground,
+    out: Output, place: int,
+) -> None:  # fmt: skip
+    """Copy the committed state into the output arrays.
+
+    A scheme that balances forces between the ends of its steps has accelerations that are no
+    state's: then those are recorded that balance the forces recorded with them.
+    """
     out.time[place] = run.clock[0].time
     for a in range(run.b.shape[0]):
         out.b[place, a], out.v_b[place, a], out.a_b[place, a] = run.b[a], run.v_b[a], run.a_b[a]
     for k in range(run.e.shape[0]):
         out.e[place, k], out.a_e[place, k] = run.e[k], run.a_e[k]
+    if run.balanced[0] == 1:
+        balanced_rates(model, run, parts, ground, out.a_b[place], out.a_e[place])
     for k in range(run.old.shape[0]):
         copy_words(run.old_words[k], out.words[place, k])
     if contacts is not None:
@@ -333,5 +376,6 @@ def advance(
             clock.done += 1
             clock.ticks = 0
             clock.time = settings.dt * clock.done
-            record(run, contacts, parts, out, clock.done - settings.first)
+            place = clock.done - settings.first
+            record(model, run, contacts, parts, ground, out, place)
     return _OK

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.results.balance import Remark, equilibrium, time_step
 from frames.results.reached import FULL_SLIP, Extreme, largest, left_out, total
 from lir_element.device.features import Features
 
@@ -69,7 +70,8 @@ class Finding:
     feature : str
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
         "slip_stability": whether the slip that is left holds; or "yielding": whether hinges
-        turned further than they keep their strength.
+        turned further than they keep their strength; or "equilibrium", "accelerations" and
+        "time_step": whether the numbers of the run belong together.
     left_out : bool
         Whether the run left it out.
     mattered : bool
@@ -102,7 +104,9 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        slip that holds; of a structure with hinges one on how far they turned.
+        slip that holds; of a structure with hinges one on how far they turned; one on the sum of
+        all forces, and where it applies one on nodes accelerated by more than 50 g and one on the
+        error of a step that was given.
 
     Notes
     -----
@@ -112,7 +116,8 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     """
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
-    return (*found, _full_contact(data), _slip_stability(data), *_yielding(data))
+    remarks = tuple(_remarked(each) for each in (*equilibrium(data), *time_step(data)))
+    return (*found, _full_contact(data), _slip_stability(data), *_yielding(data), *remarks)
 
 
 def audit_report(data: xr.Dataset) -> str:
@@ -357,6 +362,13 @@ def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
         )
     finding = _finding("yielding", False, most > 0.0, most, text)
     return (replace(finding, doubtful=most > TURNED),)
+
+
+def _remarked(remark: Remark) -> Finding:
+    return Finding(
+        feature=remark.feature, left_out=False, mattered=remark.doubtful, number=remark.number,
+        sentence=remark.sentence, doubtful=remark.doubtful,
+    )  # fmt: skip
 
 
 def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:

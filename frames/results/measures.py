@@ -86,13 +86,61 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
 
 
 def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
-    """Return the mean total acceleration of each level's nodes (time, level, axis) [m/s2]."""
+    """Return the mean total acceleration of each level (time, level, axis) [m/s2].
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history of a model with levels.
+
+    Returns
+    -------
+    xarray.DataArray
+        Means over the level's nodes by their masses: the acceleration of its centre of mass. Nodes
+        without mass count only on a level that has none.
+    """
+    require_recorded(data, "means over levels", "node_acceleration")
+    require_whole_levels(data, "means over levels")
+    place, shares = data["level_node"].to_numpy(), floor_shares(data)
+    moves = data["node_acceleration"].sel(dof=["ux", "uy", "uz"]).transpose("time", "node", "dof")
+    values = moves.to_numpy()
+    means = [
+        np.einsum("tna,na->ta", values[:, on], shares[on])
+        for on in (np.flatnonzero(place == k) for k in range(data.sizes["level"]))
+    ]
     return xr.DataArray(
-        _level_means(data, "node_acceleration", ["ux", "uy", "uz"]),
+        np.stack(means, axis=1),
         dims=("time", "level", "axis"),
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
         attrs={"units": "m/s2", "long_name": "total acceleration of the level"} | noted(data),
     )
+
+
+def floor_shares(data: xr.Dataset) -> FloatArray:
+    """Return the share of each node in its level's mean acceleration.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    ndarray, (n_nodes, 3)
+        Its part of the level's mass along x, y and z; equal parts where the level has none, or
+        masses are not in the result. 0 of nodes on no level.
+    """
+    place = data["level_node"].to_numpy()
+    mass = np.ones((len(place), 3))
+    if "node_mass" in data:
+        mass = data["node_mass"].transpose("node", "axis").to_numpy()
+    found = np.zeros((len(place), 3))
+    for k in range(data.sizes["level"]):
+        on = place == k
+        total = mass[on].sum(axis=0)
+        equal = 1.0 / max(int(on.sum()), 1)
+        found[on] = np.where(total > 0.0, mass[on] / np.where(total > 0.0, total, 1.0), equal)
+    return found
 
 
 def drift_by_line(data: xr.Dataset) -> xr.DataArray:

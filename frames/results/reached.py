@@ -39,6 +39,10 @@ FULL_SLIP = 1.0 - 1e-9
 """Share of what the interface's friction holds from which on it counts as slipping."""
 
 
+VIOLENT = 50.0 * STANDARD_GRAVITY
+"""Acceleration of a node from which on it is looked at [m/s2]."""
+
+
 class Quantity(NamedTuple):
     """A derived history (time, ...) of which the largest value counts."""
 
@@ -233,6 +237,12 @@ def _eccentricity(data: xr.Dataset) -> FloatArray:
     return np.where(pressed, shares, 0.0)
 
 
+def _violence(data: xr.Dataset) -> FloatArray:
+    moves = np.linalg.norm(_node_acceleration(data)[..., :3], axis=-1)
+    heavy = data.variables["node_mass"].to_numpy().max(axis=1) > 0.0
+    return np.where((moves > VIOLENT) & heavy, moves, 0.0)
+
+
 def _floor(data: xr.Dataset) -> FloatArray:
     return floor_acceleration(data).transpose("time", "level", "axis").to_numpy()
 
@@ -343,6 +353,13 @@ QUANTITIES: dict[str, Quantity] = {
     "node_vertical": Quantity(
         ("node",), "m/s2", "acceleration of a node, vertical",
         lambda d: np.abs(_node_acceleration(d)[..., 2]),
+    ),
+    "violence": Quantity(
+        ("node",), "m/s2", "acceleration of a node with mass, 0 up to 50 g", _violence
+    ),
+    "imbalance": Quantity(
+        ("resultant",), "1", "sum of all forces, or their moments, over the weight",
+        lambda d: np.abs(_values(d, "imbalance", "time", "resultant")),
     ),
     "drift": Quantity(
         ("storey",), "1", "storey drift", lambda d: in_plan(storey_drift(d).to_numpy())

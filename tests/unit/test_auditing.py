@@ -59,7 +59,13 @@ def found(data: xr.Dataset) -> dict[str, Finding]:
 
 def test_one_finding_a_feature():
     names = [finding.feature for finding in audit(run(device()))]
-    assert names == [*Features.names(), "full_contact", "slip_stability"]
+    assert names == [
+        *Features.names(),
+        "full_contact",
+        "slip_stability",
+        "equilibrium",
+        "time_step",
+    ]
 
 
 def test_rims_left_out_that_were_not_needed():
@@ -247,7 +253,7 @@ def test_audit_survives_a_file(tmp_path):
     assert again.attrs["audit"] == data.attrs["audit"] == audit_report(again)
     assert audit(again) == audit(data)
     lines = data.attrs["audit"].splitlines()
-    assert len(lines) == len(Features.names()) + 2
+    assert len(lines) == len(Features.names()) + 4
     assert sum("left out" in line for line in lines) == 3
 
 

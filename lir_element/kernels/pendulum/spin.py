@@ -21,6 +21,7 @@ _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and s
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
 _MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
 _MAX_SEARCH, _ENOUGH = 60, 1e-12  # iterations for a torque, and its relative error
+_CHOSEN = 2.25  # m: effective radius for which these are chosen; with the pendulum's time they grow
 _LAG = 0.005  # s, of speeds and centres of pressure: steps must not answer each other (a choice)
 _CREEP = 1e-5  # m/s, with which a surface that sticks counts as sliding (a choice)
 
@@ -50,9 +51,18 @@ def torque_of_spin(ratio: float) -> tuple[float, float]:
 
 
 @kernel
-def slides_with(old: State, k: int) -> float:
+def own_time(p: Props) -> float:
+    """Return the time of the bearing's pendulum over that of an effective radius of 2.25 m.
+
+    Times and speeds without a law of their own follow it, so that what is similar moves alike.
+    """
+    return math.sqrt(p.length / _CHOSEN)
+
+
+@kernel
+def slides_with(p: Props, old: State, k: int) -> float:
     """Return the speed of surface `k` at the step's start, against which the sliders spin [m/s]."""
-    return math.sqrt(old.axis_speed[k] ** 2 + _CREEP**2)
+    return math.sqrt(old.axis_speed[k] ** 2 + (own_time(p) * _CREEP) ** 2)
 
 
 @kernel
@@ -75,7 +85,7 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
         w.left[k], w.left_rate[k] = 1.0, 0.0
         if spin == 0.0:
             continue
-        drift = w.dt * slides_with(old, k)
+        drift = w.dt * slides_with(p, old, k)
         ratio = p.slider_radius * abs(spin) / drift
         base = 1.0 + ratio**4
         w.left[k] = base**-0.25  # (2.5)
@@ -87,7 +97,7 @@ def torque(p: Props, old: State, w: Work, spin: float) -> tuple[float, float]:
     """Return the torque of the surfaces against the spin over N, and its derivative (2.4)."""
     total, rate = 0.0, 0.0
     for k in range(2):
-        drift = w.dt * slides_with(old, k)
+        drift = w.dt * slides_with(p, old, k)
         most = _TORQUE * p.slider_radius * old.friction_coefficient[k]
         part, slope = torque_of_spin(p.slider_radius * abs(spin) / drift)
         total, rate = total + most * part, rate + most * slope * p.slider_radius / drift
@@ -140,7 +150,7 @@ def spin_against(p: Props, old: State, w: Work, couple: float) -> float:
     for k in range(2):
         most += _TORQUE * p.slider_radius * old.friction_coefficient[k]
     wanted = min(abs(couple), _MOST * most)
-    low, high = 0.0, _FASTEST * w.dt * max(slides_with(old, 0), slides_with(old, 1))
+    low, high = 0.0, _FASTEST * w.dt * max(slides_with(p, old, 0), slides_with(p, old, 1))
     high /= p.slider_radius
     spin = 0.0
     for _ in range(_MAX_SEARCH):
@@ -268,7 +278,7 @@ def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
     new.spin_rate = w.spin / w.dt if w.dt > 0.0 else 0.0
     new.spin_couple = w.couple
     pressed = not p.fused and w.n_true > p.axial_floor and max(w.rim[0], w.rim[1]) > 0.0
-    share = w.dt / (w.dt + _LAG)
+    share = w.dt / (w.dt + own_time(p) * _LAG)
     for k in range(2):
         e_1, e_2, speed = 0.0, 0.0, w.speed[k]
         if pressed:

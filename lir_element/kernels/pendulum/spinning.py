@@ -17,7 +17,13 @@ from lir_element.kernels.pendulum.solve import (
     solve_axis,
     square_to_reach,
 )
-from lir_element.kernels.pendulum.spin import rates_by_spin, spin_against, spin_balance, spin_by
+from lir_element.kernels.pendulum.spin import (
+    own_time,
+    rates_by_spin,
+    spin_against,
+    spin_balance,
+    spin_by,
+)
 from lir_element.kernels.pendulum.string import aim_on, evaluate, set_axis, turn_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.layout import SPIN_BALANCE
@@ -39,9 +45,9 @@ _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last o
 
 
 @kernel
-def first_spin(old: State, dt: float) -> float:
+def first_spin(p: Props, old: State, dt: float) -> float:
     """Return the spin from which the search begins: that of the step before, at the same rate."""
-    if dt < _LEAST_STEP or max(old.rim_force[0], old.rim_force[1]) == 0.0:
+    if dt < own_time(p) * _LEAST_STEP or max(old.rim_force[0], old.rim_force[1]) == 0.0:
         return 0.0
     return old.spin_rate * dt
 
@@ -119,7 +125,7 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
     Newton's method in three unknowns from where slip and spin go on as in the last step. It gives
     up where it does not settle quickly: then the spin is found around the axis (`spin_sliders`).
     """
-    first = first_spin(old, w.dt)
+    first = first_spin(p, old, w.dt)
     if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
         return -1
     spin_by(p, old, w, first)
@@ -157,7 +163,9 @@ def spin_sliders(p: Props, old: State, w: Work) -> None:
     than the torque, the step is too long for that: the spin is the one under the couple at its
     start. Where none of the neighbouring spins has an axis, the last one that has is left.
     """
-    if p.fused or w.dt < _LEAST_STEP or (max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0):
+    if p.fused or (max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0):
+        return
+    if w.dt < own_time(p) * _LEAST_STEP:
         return
     if max(old.axis_speed[0], old.axis_speed[1]) == 0.0 or not w.n_true > p.axial_floor:
         if w.spin != 0.0:  # nothing that would hold it

@@ -231,7 +231,7 @@ def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
 @kernel
 def solve_in_turns(p: Props, old: State, w: Work) -> int:
     """Find the axis for a spin, and the spin around it; return the iterations, or -1."""
-    spin_by(p, old, w, first_spin(old, w.dt))
+    spin_by(p, old, w, first_spin(p, old, w.dt))
     aim_on(p, old, w)
     count = solve_axis(p, old, w)
     if count < 0:
