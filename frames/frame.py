@@ -120,9 +120,9 @@ class Frame(FrameEditor):
         -----
         The OpenSees model stays as it is, time and recorders too, but its analysis objects are
         wiped (`wipeAnalysis`), and copies of its nonlinear uniaxial materials are added under tags
-        from 2,147,000,000 on to be tried; no element has them. Displacements count from its present state. What OpenSees does not
-        show cannot be seen: damping by `modalDampingQ` and by elements' option ``-damp``. See
-        docs/choices.md.
+        from 2,147,000,000 on to be tried; no element has them. Displacements count from its present
+        state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
+        elements' option ``-damp``. See docs/choices.md.
         """
         from frames.opensees import frame as opensees_frame  # needs the optional openseespy
         from frames.opensees.structure import Options
