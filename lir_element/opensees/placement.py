@@ -80,7 +80,8 @@ def place(
     """
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
-    points = [_coordinates(ops, tag) for tag in _two_tags(i, j)]
+    i, j = _two_tags(i, j)
+    points = [_coordinates(ops, tag) for tag in (i, j)]
     ndm = len(points[0])
     axes = bearing_axes(orient, ndm)
     if orient is None and ndm == 3 and _stands_on_y(ops, int(i)):
@@ -99,7 +100,7 @@ def place(
     if ndm == 2:  # ux, uy, rz of the plane
         matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
     factor = 1.0 / (newton * metre)
-    return Placement((i, j), matrix.shape[1], matrix, factor, axes, newton)
+    return Placement((int(i), int(j)), matrix.shape[1], matrix, factor, axes, newton)
 
 
 def _stands_on_y(ops: Any, node: int) -> bool:
