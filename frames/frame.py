@@ -87,7 +87,8 @@ class Frame(FrameEditor):
         other_supports : collection of int
             Tags of supports that carry elements and shall stay as they are.
         accept_nonlinear : bool
-            Whether to freeze the present stiffness of elements that have left their initial one.
+            Whether to freeze the present stiffness of elements that have left their initial one,
+            and of gaps, bars that only pull or push, and dashpots that are not linear.
         vertical_mass : {None, "horizontal"} or mapping
             Vertical mass besides that of the model: "horizontal" lets masses act along the
             vertical as along x, a mapping gives kg by tag. It adds no weight to a loaded model.
@@ -112,14 +113,16 @@ class Frame(FrameEditor):
         Warns
         -----
         ModelWarning
-            On what should be known: elements that may be nonlinear, damping of the isolation.
+            On what should be known: elements that are or may be nonlinear with the share of the
+            strain energy that they hold, damping of the isolation.
 
         Notes
         -----
         The OpenSees model stays as it is, time and recorders too, but its analysis objects are
-        wiped (`wipeAnalysis`). Displacements count from its present state. What OpenSees does not
-        show cannot be seen: damping by `modalDampingQ` and by elements' option ``-damp``. See
-        docs/choices.md.
+        wiped (`wipeAnalysis`), and copies of its nonlinear uniaxial materials are added under tags
+        from 2,147,000,000 on to be tried; no element has them. Displacements count from its present
+        state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
+        elements' option ``-damp``. See docs/choices.md.
         """
         from frames.opensees import frame as opensees_frame  # needs the optional openseespy
         from frames.opensees.structure import Options

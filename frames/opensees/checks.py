@@ -10,6 +10,8 @@ from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
 from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
+from frames.opensees.natures import refuse_one_sided, told
+from frames.opensees.shares import energy_shares
 from lir_element.opensees.leftovers import listed
 
 if TYPE_CHECKING:
@@ -18,12 +20,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.system import System
     from frames.opensees.model import ElementEntry, OpenSeesModel
-
-LINEAR = (
-    "ElasticBeam2d", "ElasticBeam3d", "ElasticTimoshenkoBeam2d", "ElasticTimoshenkoBeam3d",
-    "ModElasticBeam2d", "ModElasticBeam3d",
-)  # fmt: skip
-"""Classes of elements that are linear whatever their material: only P-Delta changes them."""
+    from frames.opensees.natures import Nature
 
 YIELDED = 0.2
 """Change of stiffness of an element, of its initial one, from which on it is refused [-]."""
@@ -57,29 +54,31 @@ def refuse_unsymmetric(model: OpenSeesModel) -> None:
             raise ModelError(message)
 
 
-def changed_elements(model: OpenSeesModel) -> list[tuple[ElementEntry, float]]:
+def changed_elements(
+    model: OpenSeesModel, elements: list[ElementEntry]
+) -> list[tuple[ElementEntry, float]]:
     """Find elements whose stiffness is not their initial one.
 
     Off the diagonal a stiffness matrix shows what joins two nodes. The change is measured in the
-    deformation that it affects most, relative to the initial stiffness in it. Elements that are
-    linear by class are left out; those that share their nodes are told together.
+    deformation that it affects most, relative to the initial stiffness in it. Those that share
+    their nodes are told together.
 
     Parameters
     ----------
     model : OpenSeesModel
         The model.
+    elements : list of ElementEntry
+        Those that may be nonlinear.
 
     Returns
     -------
     list of (ElementEntry, float)
-        Elements that may be nonlinear, and the change of their stiffness [-].
+        The elements, and the change of their stiffness [-].
     """
     change = model.stiffness - model.initial
     at = {tag: place for place, tag in enumerate(model.tags)}
     ndf, found = model.ndf, []
-    for element in model.elements:
-        if element.kind in LINEAR:
-            continue
+    for element in elements:
         largest = 0.0
         for k, first in enumerate(element.nodes):
             for second in element.nodes[k + 1 :]:
@@ -107,32 +106,39 @@ def _relative_change(initial: FloatArray, change: FloatArray, length: float, ndm
     return float(np.linalg.norm(np.linalg.pinv(initial * scale, rcond=_RANK) @ (change * scale), 2))
 
 
-def judge_elements(model: OpenSeesModel, *, accept: bool) -> list[str]:
-    """Refuse elements that have left their initial stiffness; name those that may do so later.
+def judge_elements(
+    model: OpenSeesModel, found: list[Nature], vertical: int, *, accept: bool
+) -> list[str]:
+    """Refuse elements that no linear stiffness stands for, or that have left their initial one.
 
     Parameters
     ----------
     model : OpenSeesModel
         The model.
+    found : list of Nature
+        What is known of its elements.
+    vertical : int
+        The axis of the model that points up: 1 or 2.
     accept : bool
-        Whether to take changed elements at their present stiffness.
+        Whether to take such elements at their present stiffness.
 
     Returns
     -------
     list of str
-        Notes.
+        Notes on them, and on those that may leave their stiffness later.
 
     Raises
     ------
     ModelError
-        If an element has changed and `accept` is False.
+        If there is such an element and `accept` is False.
     """
-    found = changed_elements(model)
-    changed = [(element, share) for element, share in found if share > YIELDED]
-    notes = []
-    if changed:
-        worst = max(changed, key=lambda item: item[1])
-        tags = listed([element.tag for element, _ in changed])
+    notes = refuse_one_sided(found, accept=accept)
+    doubtful = [nature for nature in found if not nature.is_linear]
+    changed = changed_elements(model, [nature.element for nature in doubtful])
+    left = [(element, share) for element, share in changed if share > YIELDED]
+    if left:
+        worst = max(left, key=lambda item: item[1])
+        tags = listed([element.tag for element, _ in left])
         text = (
             f"elements {tags} have left their initial stiffness (element {worst[0].tag}, "
             f"{worst[0].kind}, by {100.0 * worst[1]:.0f} %, {100.0 * YIELDED:.0f} % counts as "
@@ -145,15 +151,10 @@ def judge_elements(model: OpenSeesModel, *, accept: bool) -> list[str]:
             )
             raise ModelError(message)
         notes.append(f"{text}: their present stiffness is kept")
-    kinds: dict[str, list[int]] = {}
-    for element, _ in found:
-        kinds.setdefault(element.kind, []).append(element.tag)
-    notes += [
-        f"{len(tags)} elements {kind} ({listed(tags)}) may be nonlinear: they are taken as linear "
-        "with their present stiffness and damping"
-        for kind, tags in kinds.items()
-    ]
-    return notes
+    if not doubtful:
+        return notes
+    shares = energy_shares(model, [nature.element.tag for nature in doubtful], vertical)
+    return notes + told(found, shares)
 
 
 def refuse_other_supports(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,9 +21,12 @@ from frames.opensees.checks import (
 )
 from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
+from frames.opensees.natures import natures
 from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
+from frames.opensees.viscous import with_viscous_springs
 from lir_element.door import require_choice, require_positive
+from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
 from lir_element.opensees.leftovers import listed
 
@@ -67,12 +71,16 @@ def read(options: Options) -> tuple[Taken, Structure]:
         )
         raise ModelError(message)
     refuse_unsymmetric(model)
-    notes = judge_elements(model, accept=options.accept_nonlinear)
+    up = 1 if options.vertical == "y" or model.coordinates.shape[1] == 2 else 2
+    ops = opensees()
+    notes = judge_elements(model, natures(ops, model), up, accept=options.accept_nonlinear)
     refuse_other_supports(model, options.base_nodes, options.other_supports)
-    structure = _released(_turned(model, options), options)
-    if not options.damping:
-        empty = sparse.csr_array(structure.matrices["damping"].shape, dtype=np.float64)
-        structure.matrices["damping"] = empty
+    if options.damping:
+        damping, said = with_viscous_springs(ops, model)
+        notes += said
+    else:
+        damping = sparse.csr_array(model.damping.shape, dtype=np.float64)
+    structure = _released(_turned(replace(model, damping=damping), options), options)
     structure.matrices["mass"], said = with_vertical_mass(structure, options.vertical_mass)
     notes += said
     load, said = permanent_load(structure, options)

@@ -80,7 +80,8 @@ def place(
     """
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
-    points = [_coordinates(ops, tag) for tag in _two_tags(i, j)]
+    i, j = _two_tags(i, j)
+    points = [_coordinates(ops, tag) for tag in (i, j)]
     ndm = len(points[0])
     axes = bearing_axes(orient, ndm)
     if orient is None and ndm == 3 and _stands_on_y(ops, int(i)):
@@ -99,7 +100,7 @@ def place(
     if ndm == 2:  # ux, uy, rz of the plane
         matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
     factor = 1.0 / (newton * metre)
-    return Placement((i, j), matrix.shape[1], matrix, factor, axes, newton)
+    return Placement((int(i), int(j)), matrix.shape[1], matrix, factor, axes, newton)
 
 
 def _stands_on_y(ops: Any, node: int) -> bool:
@@ -187,6 +188,21 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
     full = np.zeros(3)
     full[: len(rise)] = rise
     x, y, z = axes @ full
+    apart = float(np.linalg.norm(full))
+    thousandth = 1e-3 * apart
+    if abs(thousandth - height) <= _TOLERANCE and apart > _TOLERANCE:
+        msg = (
+            f"nodes {i} and {j} are {apart:g} m apart, a thousand times the bearing's height of "
+            f"{height:g} m: where the model is in mm, give length_unit=0.001 (and force_unit=1e3 "
+            "where it is in kN)"
+        )
+        raise ValueError(msg)
+    if abs(z + height) <= _TOLERANCE and max(abs(x), abs(y)) <= _TOLERANCE:
+        msg = (
+            f"node {j} is {-z:g} m below node {i}, the bearing's height: the nodes are swapped, "
+            f"give i={j} and j={i} (i is the node below)"
+        )
+        raise ValueError(msg)
     if max(abs(x), abs(y)) > _TOLERANCE:
         msg = (
             f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "

@@ -23,6 +23,7 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
+from tests.patience import patience
 from validation.opensees.model import (
     gravity_analysis,
     lead,
@@ -241,7 +242,11 @@ def test_zero_friction_would_end_the_process() -> None:
         "print('still here')\n"
     )
     done = subprocess.run(  # this script  # noqa: S603
-        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=patience(),
+        check=False,
     )
     assert "still here" not in done.stdout
 

@@ -1,6 +1,6 @@
 """Nothing hangs, nothing is left behind: killed processes, exits, forks, strangers, failures.
 
-Each case is a script in a process of its own, which has to end in time.
+Each case is a script in a process of its own, which has to end by itself.
 """
 
 import os
@@ -22,10 +22,10 @@ import psutil
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_response
 from lir_element.opensees.fast.selftest import why_not_fast
+from tests.patience import patience
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
-LIMIT = 60.0  # s, of a script
 ROUTES = [
     pytest.param("fast", marks=pytest.mark.skipif(bool(why_not_fast()), reason="not possible")),
     "portable",
@@ -70,7 +70,7 @@ def start(script: str, route: str) -> "subprocess.Popen[str]":
 def finish(process: "subprocess.Popen[str]") -> tuple[str, str]:
     """Return what a script wrote; it has to end by itself."""
     try:
-        return process.communicate(timeout=LIMIT)
+        return process.communicate(timeout=patience())
     except subprocess.TimeoutExpired:
         process.kill()
         pytest.fail(f"the script hangs: {process.communicate()}")
@@ -84,9 +84,9 @@ def run(script: str, route: str) -> str:
     return errors
 
 
-def gone(pid: int, patience: float = 6.0) -> bool:
+def gone(pid: int) -> bool:
     """Wait until a process is gone."""
-    end = time.monotonic() + patience
+    end = time.monotonic() + patience()
     while time.monotonic() < end:
         try:
             if psutil.Process(pid).status() == psutil.STATUS_ZOMBIE:
@@ -104,10 +104,9 @@ def test_a_server_killed_in_an_analysis_ends_it() -> None:
         server = _SESSION.server
         killer = "import os, sys, time; time.sleep(0.5); os.kill(int(sys.argv[1]), 9)"
         child = subprocess.Popen([sys.executable, "-c", killer, str(server.pid)])
-        began = time.monotonic()
-        code = ops.analyze(1_000_000, 1e-4)
+        code = ops.analyze(1_000_000, 1e-4)  # of which the killer leaves few
         assert code != 0, code
-        assert time.monotonic() - began < 10.0
+        assert ops.getTime() < 50.0, ops.getTime()
         child.wait()
         for _ in range(2):
             try:
@@ -143,9 +142,7 @@ def test_a_server_killed_while_idle_is_noticed(wipe: bool) -> None:
         assert not any(advance())
         os.kill(_SESSION.server.pid, signal.SIGKILL)
         time.sleep(0.2)
-        began = time.monotonic()
         assert ops.analyze(5, 0.005) != 0
-        assert time.monotonic() - began < 5.0
         if {wipe}:
             ops.wipe()
             begin()
@@ -201,7 +198,7 @@ def test_a_stranger_who_connects_first_is_turned_away(route: str) -> None:
         ops.element = element
         assert not any(advance())
         stranger, port = strangers[0]
-        stranger.wait(10.0)
+        stranger.wait()
         assert stranger.stdout.read().strip().endswith(("b''", "Connection reset by peer"))
         assert listening() == OWN
         try:
@@ -256,8 +253,8 @@ def test_a_forked_process_builds_its_own_model(route: str) -> None:
         queue = context.Queue()
         child = context.Process(target=work, args=(queue,))
         child.start()
-        code, moved, tags = queue.get(timeout=40)
-        child.join(10)
+        code, moved, tags = queue.get()
+        child.join()
         assert child.exitcode == 0
         assert (code == 0) is (stand.route == "fast")
         assert max(abs(a - b) for a, b in zip(moved, expected)) < 1e-9 and tags == (1,)
@@ -271,7 +268,6 @@ def test_a_forked_process_builds_its_own_model(route: str) -> None:
 
 @pytest.mark.parametrize("route", ROUTES)
 def test_exit_of_a_forked_process_leaves_the_parent_alone(route: str) -> None:
-    began = time.monotonic()
     run(
         """
         begin()
@@ -286,7 +282,6 @@ def test_exit_of_a_forked_process_leaves_the_parent_alone(route: str) -> None:
         """,
         route,
     )
-    assert time.monotonic() - began < LIMIT
 
 
 FAILING = [

@@ -73,7 +73,6 @@ def reactions_under_weight(ops, places, corners):
     return np.array([ops.nodeReaction(tag)[2] for tag in corners])
 
 
-@pytest.mark.meant("may be nonlinear")
 def test_a_box_of_shells(ops):
     places, corners = eccentric_box(ops)
     theirs = 2.0 * np.pi / np.sqrt(ops.eigen(4))

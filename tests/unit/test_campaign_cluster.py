@@ -14,6 +14,7 @@ import pytest
 from frames import Campaign, CampaignError, GroundMotion, full_grid, lumped_mass
 from frames.analysis.cases import BatchProgress
 from lir_element import CoulombFriction, LIRBearing
+from tests.patience import patience
 
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
@@ -71,11 +72,11 @@ def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(tmp_path: Pat
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
     ) as made:
-        client = distributed.Client(made, timeout=5)
+        client = distributed.Client(made, timeout=patience())
 
         def lose(progress: BatchProgress) -> None:
             if progress.done == 4:
-                made.close(timeout=5)
+                made.close(timeout=patience())
 
         with pytest.raises(CampaignError, match="lost: the batches before are kept"):
             campaign.run(client=client, progress=lose)

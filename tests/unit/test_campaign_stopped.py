@@ -12,6 +12,7 @@ import pytest
 from frames import Campaign, GroundMotion, full_grid, lumped_mass
 from frames.analysis.cases import BatchProgress
 from lir_element import CoulombFriction, LIRBearing
+from tests.patience import patience
 
 pytest.importorskip("zarr")
 
@@ -73,7 +74,7 @@ def test_kills_at_random_moments_change_nothing(tmp_path: Path) -> None:
 
     done = subprocess.run(  # noqa: S603  # this interpreter, this text
         [sys.executable, "-W", "ignore", "-c", DRIVER], cwd=tmp_path, capture_output=True,
-        text=True, timeout=240, check=False,
+        text=True, timeout=patience(), check=False,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

@@ -19,6 +19,7 @@ from lir_element import (
     RunStatus,
     VelocityFriction,
 )
+from tests.patience import patience
 
 DEVICE = LIRBearing(
     radius=(0.75, 1.1), slider_height=0.11, slider_radius=0.08, rims=(0.07, 0.11),
@@ -105,7 +106,7 @@ def test_an_analysis_error_out_of_a_pool() -> None:
     with multiprocessing.get_context("fork").Pool(1) as pool:
         result = pool.map_async(failing, [0])
         with pytest.raises(AnalysisError, match="rim") as caught:
-            result.get(timeout=60.0)
+            result.get(timeout=patience())
     assert caught.value.data["u"][-1] == 1.0
 
 

@@ -48,7 +48,7 @@ CALLS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"tag": 1.0}, TypeError, r"tag = 1\.0 must be an integer"),
     ({"tag": 2**31}, ValueError, "tag = 2147483648 is beyond .* choose one up to 2147483647"),
     ({"j": 4}, ValueError, r"node 4 is 0\.2 m above node 1, it must be 0 m or .*0\.085 m.*move it"),
-    ({"j": 6}, ValueError, r"node 6 is -0\.085 m above node 1"),
+    ({"j": 6}, ValueError, r"node 6 is 0\.085 m below node 1"),
     ({"j": 5}, ValueError, r"node 5 lies 0\.01 m beside the bearing's axis.*0\.001 m.*orient="),
     ({"level": "rigid_body"}, ValueError, r"level = 'rigid_body': choose one of \('pendulum'"),
     ({"tangent": "secant"}, ValueError, r"tangent = 'secant': choose one of \('consistent'"),

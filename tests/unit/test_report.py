@@ -19,6 +19,7 @@ from typer.testing import CliRunner
 
 from frames import load
 from frames.command.app import app
+from tests.patience import patience
 
 PROJECT = """
 [project]
@@ -168,7 +169,7 @@ def test_a_browser_shows_it_whole(page: str, tmp_path: Path, width: int) -> None
         [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
          f"--window-size={width},900", f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom",
          file.as_uri()],
-        capture_output=True, text=True, timeout=120, check=True,
+        capture_output=True, text=True, timeout=patience(), check=True,
     )  # fmt: skip
     assert "CONSOLE" not in done.stderr
     found = re.search(r"<title>probe (\d+) (-?\d+) (\d+) (\d+) (\d+)</title>", done.stdout)
@@ -186,7 +187,7 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
         [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu",
          f"--user-data-dir={tmp_path / 'profile'}", f"--print-to-pdf={paper}",
          (results / "report.html").as_uri()],
-        capture_output=True, timeout=120, check=True,
+        capture_output=True, timeout=patience(), check=True,
     )  # fmt: skip
     data = paper.read_bytes()
     assert data.startswith(b"%PDF")

@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from frames import load, save
+from tests.patience import patience
 
 
 def results(value: float = 1.0, count: int = 1000) -> xr.Dataset:
@@ -21,7 +22,7 @@ def script(code: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
     head = "import os, sys, numpy as np, xarray as xr\nfrom frames import load, save\n"
     return subprocess.run(  # noqa: S603
         [sys.executable, "-c", head + code, *arguments],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=patience(), check=False,
     )  # fmt: skip
 
 

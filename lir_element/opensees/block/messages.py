@@ -61,9 +61,9 @@ def bearing_messages(tag: int, design_load: float, placement: Placement) -> dict
         "What to try: run the analysis again up to here, or keep several analyses in one process."
     )
     texts[HINT] = (
-        "a step failed in a model with LIR bearings, whose tangent is unsymmetric. It needs "
-        "system UmfPack, BandGeneral or FullGeneral; a symmetric system (ProfileSPD, BandSPD, "
-        'SparseSYM) only with tangent="symmetric" in bearing_element. '
-        "Algorithm KrylovNewton or smaller steps may help, too."
+        "a step failed in a model with LIR bearings. Try algorithm KrylovNewton or smaller "
+        "steps. Where the system of equations is a symmetric one (ProfileSPD, BandSPD, SparseSYM), "
+        "that is the cause: the bearings, whose tangent is unsymmetric, need UmfPack, BandGeneral "
+        'or FullGeneral, or tangent="symmetric" in bearing_element.'
     )
     return {number: f"WARNING {text}\n" for number, text in texts.items()}

@@ -1,0 +1,199 @@
+"""What OpenSees tells of the laws of its elements: names by its printed model, laws by trial."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import re
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames._types import FloatArray
+
+DASHPOTS = frozenset({
+    "Viscous", "ViscousMaterial", "ViscousDamper", "Maxwell", "MaxwellMaterial",
+    "BilinearOilDamper", "DamperMaterial", "ViscoelasticGap",
+})  # fmt: skip
+"""Types of uniaxial materials whose force depends on speed: not tried, as trials are static."""
+
+DEPARTURE = 0.05
+"""Change of secant stiffness, of that at rest, from which on a law has left its straight line."""
+
+_STIFFENS = 2.0  # secant stiffness over that at rest, from which on a law closes like a gap
+_SPARE_TAGS = itertools.count(2_147_000_000)  # of the copies on which materials are tried
+_STEPS = np.array([0.1, 0.2, 0.5])
+_ENTRY = re.compile(r'\{"name": ')
+_PLAIN = re.compile(r"^\s*(\w+) tag: (\d+)\s*$", re.MULTILINE)
+_EXPONENT = re.compile(r"^\s*Alpha: (\S+)", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Printed:
+    """The model as OpenSees prints it, by tag; entries that it does not print well are left out.
+
+    Attributes
+    ----------
+    uniaxial, solid, sections, elements : mapping
+        Uniaxial materials, those of continua, sections and elements: their entries by tag.
+    """
+
+    uniaxial: Mapping[str, dict[str, Any]]
+    solid: Mapping[str, dict[str, Any]]
+    sections: Mapping[str, dict[str, Any]]
+    elements: Mapping[str, dict[str, Any]]
+
+
+class Law(NamedTuple):
+    """How a uniaxial material answers to a slow pull and push from its unloaded state."""
+
+    kind: str
+    """Type in OpenSees."""
+    stiffness: float
+    """At rest: the larger one of pull and push."""
+    is_linear: bool
+    """Whether the force is proportional to deformation (and speed)."""
+    one_sided: str
+    """How pull differs from push, or what closes; empty if nothing does."""
+    limit: float
+    """Deformation up to which its secant stiffness is that at rest within `DEPARTURE`."""
+    dashpot: float
+    """Force over speed, at rest."""
+
+
+def printed_model(ops: Any) -> Printed:
+    """Read what OpenSees prints of its model.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSeesPy with the current model.
+
+    Returns
+    -------
+    Printed
+        By tag.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.json"
+        ops.printModel("-JSON", "-file", str(path))
+        text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+    return Printed(
+        uniaxial=_plain(_part(text, "uniaxialMaterials")) | _entries(text, "uniaxialMaterials"),
+        solid=_entries(text, "ndMaterials"),
+        sections=_entries(text, "sections"),
+        elements=_entries(text, "elements"),
+    )
+
+
+def _part(text: str, word: str) -> str:
+    # The list of that name; lists begin a line of the printed model and end at the next one.
+    begin = text.find(f'\t"{word}": [')
+    if begin < 0:
+        return ""
+    following = [text.find(f'\t"{other}": [', begin + 1) for other in
+                 ("ndMaterials", "sections", "crdTransformations", "elements")]  # fmt: skip
+    return text[begin : min((place for place in following if place > 0), default=len(text))]
+
+
+def _entries(text: str, word: str) -> dict[str, dict[str, Any]]:
+    # Some classes print what is no JSON among the others: each entry is read for itself.
+    part, decoder, found = _part(text, word), json.JSONDecoder(), {}
+    for match in _ENTRY.finditer(part):
+        with contextlib.suppress(json.JSONDecodeError):
+            entry = decoder.raw_decode(part, match.start())[0]
+            found[str(entry["name"])] = entry
+    return found
+
+
+def _plain(part: str) -> dict[str, dict[str, Any]]:
+    found: dict[str, dict[str, Any]] = {}
+    places = list(_PLAIN.finditer(part))
+    ends = [match.start() for match in places[1:]] + [len(part)]
+    for match, end in zip(places, ends if places else [], strict=True):
+        own = part[match.end() : end].split('{"name"')[0]
+        exponent = _EXPONENT.search(own)
+        found[match[2]] = {"name": match[2], "type": match[1]} | (
+            {"alpha": float(exponent[1])} if exponent else {}
+        )
+    return found
+
+
+def law_of(ops: Any, printed: Printed, tag: str, span: float) -> Law | None:
+    """Find how a uniaxial material answers.
+
+    Parameters
+    ----------
+    ops : module
+        OpenSeesPy with the current model.
+    printed : Printed
+        What it printed.
+    tag : str
+        Of the material.
+    span : float
+        Deformation up to which it is tried: 1 for strains and rotations, the size of the model
+        for springs between nodes.
+
+    Returns
+    -------
+    Law or None
+        None if the printed model does not name it.
+
+    Notes
+    -----
+    OpenSees tries materials on the original, from which later elements are copied. So the trial
+    is made on a copy, which stays in the model under a tag from 2,147,000,000 on; no element has
+    it. Elastic materials are judged by what is printed of them.
+    """
+    entry = printed.uniaxial.get(tag)
+    if entry is None:
+        return None
+    kind = str(entry["type"])
+    ops.testUniaxialMaterial(int(tag))
+    dashpot, at_rest = float(ops.getDampTangent()), float(ops.getTangent())
+    if kind in DASHPOTS:
+        is_linear = not at_rest and not float(entry.get("alpha", 0.0)) - 1.0
+        return Law(kind, at_rest, is_linear, "", 0.0, dashpot)
+    if kind == "ElasticMaterial" and entry["Epos"] == entry["Eneg"]:
+        return Law(kind, float(entry["Epos"]), True, "", np.inf, dashpot)
+    steps = span * np.concatenate([_STEPS * 10.0**power for power in range(-6, 1)])
+    secants = np.array([_secants(ops, int(tag), sign * steps) for sign in (1.0, -1.0)])
+    first = secants[:, 0]
+    stiffness = float(first.max())
+    away = np.abs(secants - first[:, None]) > DEPARTURE * max(stiffness, 1e-300)
+    within = int(np.argmax(away.any(axis=0)))
+    limit = np.inf if not away.any() else float(steps[within - 1]) if within else 0.0
+    doubt = _one_sided(secants, dashpot)
+    return Law(kind, stiffness, not (away.any() or doubt), doubt, limit, dashpot)
+
+
+def _one_sided(secants: FloatArray, dashpot: float) -> str:
+    pull, push = secants[:, 0].tolist()
+    if not secants.any():
+        return "" if dashpot else "has no stiffness"
+    if not pull and not push:
+        return "has no stiffness at rest, and closes like a gap"
+    if abs(pull - push) > DEPARTURE * max(abs(pull), abs(push)):
+        return f"has a stiffness of {pull:.4g} in tension and {push:.4g} in compression"
+    ratio = float(secants.max()) / max(pull, push)
+    return f"stiffens to {ratio:.3g} times what it is at rest" if ratio > _STIFFENS else ""
+
+
+def _secants(ops: Any, tag: int, steps: FloatArray) -> list[float]:
+    # A copy, as an element would have; it cannot be removed again.
+    spare = next(_SPARE_TAGS)
+    ops.uniaxialMaterial("Parallel", spare, tag)
+    ops.testUniaxialMaterial(spare)
+    ops.setStrain(0.0)
+    start, found = float(ops.getStress()), []
+    for step in steps.tolist():
+        ops.setStrain(step)
+        found.append((float(ops.getStress()) - start) / step)
+    return found

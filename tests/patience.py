@@ -1,0 +1,25 @@
+"""How long tests wait: by what this machine takes, as it is loaded, to start Python and import.
+
+No test has a limit in seconds: a machine that is busy, slow or debugged would fail it.
+"""
+
+import functools
+import subprocess  # a fresh interpreter  # noqa: S404
+import sys
+import time
+
+_HANG = 300.0  # starts, that nothing which ends by itself takes
+_LEAST = 600.0  # s, the same: kernels may have to be compiled first
+
+
+def start_up() -> float:
+    """Time a start of Python with the package, now [s]."""
+    began = time.perf_counter()
+    subprocess.run([sys.executable, "-c", "import frames"], check=True)
+    return time.perf_counter() - began
+
+
+@functools.cache
+def patience() -> float:
+    """Return the time after which something hangs [s]."""
+    return max(_LEAST, _HANG * start_up())

@@ -1,0 +1,45 @@
+"""Where a bearing stands in OpenSees: remedies that help."""
+
+import numpy as np
+import pytest
+
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees.placement import place
+
+pytest.importorskip("openseespy")
+
+BEARING = LIRBearing(
+    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
+    friction=CoulombFriction(0.05), interface_friction=0.12,
+)  # fmt: skip
+
+
+def nodes(ops, rise):
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    ops.node(1, 0.0, 0.0, 0.0)
+    ops.node(2, 0.0, 0.0, rise)
+    ops.fix(1, 1, 1, 1, 1, 1, 1)
+
+
+def test_millimetres_are_told_and_the_remedy_helps(ops):
+    nodes(ops, 1e3 * BEARING.height)
+    with pytest.raises(ValueError, match=r"a thousand times .* length_unit=0\.001"):
+        place(ops, 1, 2, BEARING, None, 1.0, 1.0)
+    place(ops, 1, 2, BEARING, None, 0.001, 1e3)
+
+
+def test_swapped_nodes_are_told_and_the_remedy_helps(ops):
+    nodes(ops, BEARING.height)
+    with pytest.raises(ValueError, match="the nodes are swapped, give i=1 and j=2"):
+        place(ops, 2, 1, BEARING, None, 1.0, 1.0)
+    place(ops, 1, 2, BEARING, None, 1.0, 1.0)
+
+
+def test_a_tag_of_numpy_is_taken(ops):
+    from lir_element.opensees import bearing_element
+
+    nodes(ops, 0.0)
+    assert bearing_element(np.int64(5), np.int64(1), np.int64(2), BEARING) in {"fast", "portable"}
+    assert list(ops.getEleTags()) == [5]
+    ops.wipe()
