@@ -58,7 +58,7 @@ def provenance() -> dict[str, str]:
         "Conventions", "source" (version and digest of the sources), "software", "date_created"
         (UTC), "references" (what is to be cited).
     """
-    now = datetime.datetime.now(datetime.timezone.utc)
+    now = datetime.datetime.now(datetime.UTC)
     return {
         "Conventions": "CF-1.8",
         "source": f"lir-dcfp {package_version()}, sources {sources_hash()}",

@@ -85,9 +85,7 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     return np.concatenate(parts)
 
 
-def stack(
-    rows: Sequence[Row], cases: Sequence[Case], digests: Mapping[str, str]
-) -> xr.Dataset:
+def stack(rows: Sequence[Row], cases: Sequence[Case], digests: Mapping[str, str]) -> xr.Dataset:
     """Put rows together (docs/results.md).
 
     Parameters

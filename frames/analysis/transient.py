@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import numpy as np
 
 from frames._errors import AuditWarning
+from frames._fingerprint import motion_digest
+from frames._provenance import provenance
 from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.equilibrium import force_tolerance

@@ -12,6 +12,7 @@ import numpy as np
 
 from frames._errors import CampaignError
 from frames.analysis.batch import time_histories
+from frames.analysis.cases import NOT_BUILT
 from frames.campaign.designs import with_parameters
 from frames.frame import Frame
 from lir_element.errors import AnalysisError, AnalysisWarning
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
 """Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
-
-NOT_BUILT = "not_built"
-"""Status of a run whose model could not be built or set up."""
 
 _PROBE_STEPS = 10
 _TIMING = "seconds of the time loop"

@@ -1,4 +1,4 @@
-"""Results of a store as they are handed out: texts as Python's, nothing of runs that are not done."""
+"""Results of a store as they are handed out: texts as Python's, runs that are not done empty."""
 
 from __future__ import annotations
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames._errors import CampaignError
+from frames.campaign.described import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
 from frames.campaign.layout import digest_of, lay_out
 from frames.campaign.lock import locked
-from frames.campaign.described import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
 from frames.campaign.opened import opened, results_of
 from frames.campaign.plan import listed
 from frames.results.storage import write_whole
