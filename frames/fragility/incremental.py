@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ import pandas as pd
 from frames._errors import FragilityError
 from frames.fragility.hunt_fill import HuntFill
 from frames.fragility.limit_state import LimitState
+from frames.fragility.plans import GIVEN, HUNT, plans_of
 from frames.fragility.runs import IntensityRuns
 from frames.fragility.shown import Shown
 
@@ -44,6 +45,13 @@ class IDA(Shown):
     runs: IntensityRuns
     limit: LimitState
     rules: HuntFill
+
+    def __post_init__(self) -> None:
+        # that the rules chose the intensities goes with the runs, whatever is made of them
+        plans = plans_of(self.runs.table)
+        if GIVEN in plans:
+            table = self.runs.table.assign(plan=[HUNT if p == GIVEN else p for p in plans])
+            object.__setattr__(self, "runs", replace(self.runs, table=table))
 
     def _rows(self) -> list[tuple[str, str]]:
         return [("limit state", self.limit.name), *self.runs._rows()]
