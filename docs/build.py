@@ -106,6 +106,12 @@ ATTRIBUTES = {
     "velocity": "speed along the path [m/s]",
     "status": '"ok", or the name of a status (below) in lower case',
     "lir_dcfp_version": 'installed version; "unknown" where the packages are not installed',
+    "motion_digest": "digest of the samples and the step of the motion",
+    "Conventions": "conventions of the metadata that are followed",
+    "source": "version of the package, and a digest of the sources that numbers depend on",
+    "software": "versions of Python, numpy, scipy and numba",
+    "date_created": "date and time of the run (UTC)",
+    "references": "what is to be cited",
     "message": '"completed", or what happened, when, where, and what to try',
     "failed_at": "time of the failure [s]; only of a run that failed",
     "exceeded": "`slip` or `rim_force` where a bearing passed its limit at the step that ended the "

@@ -81,6 +81,8 @@ from frames.fragility.comparison import compare_fragility as compare_fragility
 from frames.fragility.curve import CollapseFragility as CollapseFragility
 from frames.fragility.curve import Fragility as Fragility
 from frames.fragility.curve import lognormal_fragility as lognormal_fragility
+from frames.fragility.files import load_fragility as load_fragility
+from frames.fragility.files import save_fragility as save_fragility
 from frames.fragility.fitting import fit_capacities as fit_capacities
 from frames.fragility.fitting import fit_stripes as fit_stripes
 from frames.fragility.hazard_curve import HazardCurve as HazardCurve
@@ -257,6 +259,7 @@ __all__ = [
     "isolator_combinations",
     "latin_hypercube",
     "load",
+    "load_fragility",
     "lognormal_fragility",
     "loop_properties",
     "lumped_mass",
@@ -277,6 +280,7 @@ __all__ = [
     "resultant_offsets",
     "rim_engagement",
     "save",
+    "save_fragility",
     "shear_building",
     "slips_of_events",
     "sobol_indices",

@@ -13,6 +13,8 @@ from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning, ModelWarning
+from frames._fingerprint import motion_digest
+from frames._provenance import provenance
 from frames.analysis.batch_run import Kept, Runner
 from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.cases import BatchProgress, grid, named_models, named_motions, tell
@@ -132,7 +134,7 @@ def time_histories(
         rows, is_whole = _all(runner, min(count, len(runs)), tell(progress))
     if not rows:
         raise KeyboardInterrupt
-    data = stack(rows, runs)
+    data = stack(rows, runs, {name: motion_digest(each) for name, each in grounds.items()})
     data.attrs = {
         "title": f"{len(runs)} time histories",
         "status": "ok" if is_whole else "interrupted",
@@ -145,6 +147,7 @@ def time_histories(
         "spectral_radius": float(spectral_radius),
         "seconds": perf_counter() - began,
         "lir_dcfp_version": package_version(),
+        **provenance(),
     }
     if not is_whole:
         stop: AnalysisInterrupted = _Interrupted(_computed(data), data)

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+NOT_BUILT = "not_built"
+"""Status of a campaign's run whose model could not be built or set up."""
+
 _EVERY = 0.5, 30.0
 """Time between two lines of progress on a terminal, and elsewhere [s]."""
 

@@ -86,7 +86,7 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     return np.concatenate([np.ravel(found[name].to_numpy()) for name in layout.names])
 
 
-def stack(rows: Sequence[Row], cases: Sequence[Case]) -> xr.Dataset:
+def stack(rows: Sequence[Row], cases: Sequence[Case], digests: Mapping[str, str]) -> xr.Dataset:
     """Put rows together (docs/results.md).
 
     Parameters
@@ -95,6 +95,8 @@ def stack(rows: Sequence[Row], cases: Sequence[Case]) -> xr.Dataset:
         Of the runs done, in any order.
     cases : sequence of Case
         All of them.
+    digests : mapping of str to str
+        Of the motions by name, before they are scaled.
 
     Returns
     -------
@@ -109,6 +111,7 @@ def stack(rows: Sequence[Row], cases: Sequence[Case]) -> xr.Dataset:
         "model": ("run", _texts(case.model for case in of)),
         "motion": ("run", _texts(case.motion for case in of)),
         "scale": ("run", np.array([case.scale for case in of])),
+        "motion_digest": ("run", _texts(digests[case.motion] for case in of)),
         "term": list(ENERGY_TERMS),
     }
     units = {peak.quantity: peak.unit for row in rows for peak in row.peaks}

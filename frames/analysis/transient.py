@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import numpy as np
 
 from frames._errors import AuditWarning
+from frames._fingerprint import motion_digest
+from frames._provenance import provenance
 from frames.analysis.automatic import mark_other_end, settle
 from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.equilibrium import force_tolerance
@@ -230,6 +232,8 @@ def _run(
         "level": level if isinstance(level, str) else str(dict(level)),
         "features_left_out": ", ".join(features.left_out) or "none",
         "plane_coupling": 0.0 if features.second_direction else plane_coupling(model),
+        "motion_digest": motion_digest(motion),
+        **provenance(),
     }
     if options.method == "direct":
         return _run_from(gravity(model, features, level), model, motion, options, attrs)

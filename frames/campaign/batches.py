@@ -12,6 +12,7 @@ import numpy as np
 
 from frames._errors import CampaignError
 from frames.analysis.batch import time_histories
+from frames.analysis.cases import NOT_BUILT
 from frames.campaign.designs import with_parameters
 from frames.frame import Frame
 from lir_element.errors import AnalysisError, AnalysisWarning
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
 """Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
-
-NOT_BUILT = "not_built"
-"""Status of a run whose model could not be built or set up."""
 
 _PROBE_STEPS = 10
 _TIMING = "seconds of the time loop"
@@ -278,6 +276,7 @@ def _put(arrays: dict[str, Any], at: IntArray, found: xr.Dataset, layout: xr.Dat
 def _recorded(found: xr.Dataset, layout: xr.Dataset, places: list[int]) -> xr.Dataset:
     # The histories alone, with names as texts of any length, which the store takes.
     names = [name for name in found.data_vars if name not in layout.data_vars]
-    data = found[names].drop_vars(["model", "motion", "scale"]).assign_coords(run=places)
+    data = found[names].drop_vars(["model", "motion", "scale", "motion_digest"])
+    data = data.assign_coords(run=places)
     labels = {dim: data[dim].astype(object) for dim in data.dims if data[dim].dtype.kind == "U"}
     return data.assign_coords(labels)

@@ -14,15 +14,13 @@ from frames.analysis.cases import BatchProgress, grid, named_models, named_motio
 from frames.analysis.recording import Recording
 from frames.campaign.batches import Reference, Work, compute
 from frames.campaign.cluster import over_cluster
-from frames.campaign.fingerprint import fingerprint
+from frames.campaign.described import described
 from frames.campaign.plan import Plan
 from frames.campaign.sampling import ParameterSample, whole
-from frames.campaign.store import FORMAT, CampaignStatus, CampaignStore
+from frames.campaign.store import CampaignStatus, CampaignStore
 from frames.frame import Frame
-from lir_element.device.features import Features
 from lir_element.door import require_type
 from lir_element.errors import AnalysisWarning
-from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
 
     from frames.campaign.batches import Batch, Builder, Told
     from frames.motion.ground_motion import GroundMotion
+    from lir_element.device.features import Features
 
 FEWEST, MOST, PARTS = 16, 512, 8
 """Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
@@ -140,6 +139,7 @@ class Campaign:
         workers: int | None = None,
         client: Any = None,
         progress: Told | bool | None = None,
+        accept_other_sources: bool = False,
     ) -> xr.Dataset:
         """Run what is not done yet, and return the results.
 
@@ -152,6 +152,10 @@ class Campaign:
         progress : callable or bool, optional
             Called with a `BatchProgress` of the runs of this call; True writes it to the standard
             error.
+        accept_other_sources : bool
+            Whether a store that other sources or another version of the package began is gone on
+            with: where a change does not touch the numbers. The store keeps from which run on.
+            Everything else must be as it was planned, properties of the bearings included.
 
         Returns
         -------
@@ -161,7 +165,8 @@ class Campaign:
         Raises
         ------
         CampaignError
-            If the store was planned otherwise (each difference is named) or is in use, no model
+            If the store was planned otherwise, or begun by other sources of the package (each
+            difference is named), or is in use, no model
             can be set up, or the cluster is lost.
         OSError
             If the store cannot be written. What was done before stays.
@@ -177,11 +182,11 @@ class Campaign:
         """
         told = tell(progress)
         reference = self._work.reference()
-        described = self._described(reference)
+        plan = described(self._work, reference)
         if not self.store.exists:
-            self.store.create(self._work.plan, described, reference.layout)
+            self.store.create(self._work.plan, plan, reference.layout)
         with self.store.owned():
-            self.store.require_plan(described)
+            self.store.require_plan(plan, accept_other_sources=accept_other_sources)
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
@@ -217,34 +222,6 @@ class Campaign:
     def digest(self) -> str:
         """Return a digest of what the runs reached: `CampaignStore.digest`."""
         return self.store.digest()
-
-    def _described(self, reference: Reference) -> dict[str, Any]:
-        # What must be the same for the store to be gone on with.
-        work, plan = self._work, self._work.plan
-        options = {name: value for name, value in work.options.items() if name != "features"}
-        features = work.options["features"] or Features.all()
-        sample: dict[str, str] = {}
-        if plan.sample is not None:
-            columns = zip(plan.sample.names, plan.sample.values.T, strict=True)
-            sample = {name: fingerprint(values) for name, values in columns}
-        return {
-            "format": FORMAT,
-            "program": package_version(),
-            "runs": plan.runs,
-            "batch": plan.batch,
-            "models": {
-                name: fingerprint(reference.frames[name]) if name in reference.frames else "none"
-                for name in plan.models
-            },
-            "motions": {
-                name: fingerprint([motion.x, motion.y, motion.z, motion.dt])
-                for name, motion in work.motions.items()
-            },
-            "scales": list(plan.scales),
-            "parameters": sample,
-            "options": options | {"features left out": list(features.left_out)},
-            "record": str(work.record) if work.record else "what was reached",
-        }
 
 
 class _Counting:

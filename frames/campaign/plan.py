@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from frames._types import IntArray
     from frames.campaign.sampling import ParameterSample
 
+MOST_LINES = 12
+"""Differences that a message names."""
+
 
 class PlannedRun(NamedTuple):
     """One run: names of its model and motion, its set of parameters, the factor on the motion."""
@@ -109,6 +112,12 @@ def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
         if list(old) != list(new) and sorted(old) == sorted(new):
             found.append(f"{key} are in another order")
     return found
+
+
+def listed(lines: list[str]) -> str:
+    """Return differences line by line, the first ones where there are many."""
+    more = [f"... and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+    return "\n".join(f"  {line}" for line in lines[:MOST_LINES] + more)
 
 
 def _short(value: object) -> str:

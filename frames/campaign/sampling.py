@@ -39,6 +39,8 @@ class ParameterSample:
         The parameters.
     values : ndarray, (n, p)
         A row a set.
+    origin : str
+        How they were drawn, with the seed; kept in a campaign's plan, not compared.
 
     Raises
     ------
@@ -48,6 +50,7 @@ class ParameterSample:
 
     names: tuple[str, ...]
     values: FloatArray
+    origin: str = ""
 
     def __post_init__(self) -> None:
         values = np.array(self.values, dtype=np.float64)
@@ -107,7 +110,7 @@ def full_grid(parameters: Mapping[str, Sequence[float]]) -> ParameterSample:
             msg = f"{name} has a distribution: a grid needs its values, such as [0.04, 0.06]"
             raise CampaignError(msg)
     rows = list(itertools.product(*given.values()))  # type: ignore[arg-type]  # sequences all
-    return ParameterSample(tuple(given), np.array(rows, dtype=np.float64))
+    return ParameterSample(tuple(given), np.array(rows, dtype=np.float64), "full grid")
 
 
 def latin_hypercube(
@@ -146,7 +149,7 @@ def latin_hypercube(
 
     given, size, seed = _checked(parameters), whole("size", size, 1), whole("seed", seed, 0)
     shares = qmc.LatinHypercube(len(given), rng=np.random.default_rng(seed)).random(size)
-    return _at(given, shares)
+    return _at(given, shares, f"Latin hypercube, seed {seed}")
 
 
 def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) -> ParameterSample:
@@ -179,10 +182,11 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
         msg = f"size = {size} of Sobol' points must be a power of 2: {below} or {2 * below}"
         raise CampaignError(msg)
     points = qmc.Sobol(len(given), rng=np.random.default_rng(seed))
-    return _at(given, points.random_base2(size.bit_length() - 1))
+    shares = points.random_base2(size.bit_length() - 1)
+    return _at(given, shares, f"Sobol' points, seed {seed}")
 
 
-def _at(parameters: Mapping[str, Choice], shares: FloatArray) -> ParameterSample:
+def _at(parameters: Mapping[str, Choice], shares: FloatArray, origin: str) -> ParameterSample:
     values = np.empty_like(shares)
     for k, choice in enumerate(parameters.values()):
         if _is_distribution(choice):
@@ -190,7 +194,7 @@ def _at(parameters: Mapping[str, Choice], shares: FloatArray) -> ParameterSample
         else:
             each = np.array(choice, dtype=np.float64)
             values[:, k] = each[(shares[:, k] * len(each)).astype(int)]
-    return ParameterSample(tuple(parameters), values)
+    return ParameterSample(tuple(parameters), values, origin)
 
 
 def _checked(parameters: object) -> dict[str, Choice]:

@@ -13,21 +13,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from frames._errors import CampaignError
+from frames.campaign.described import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
 from frames.campaign.layout import digest_of, lay_out
 from frames.campaign.lock import locked
-from frames.campaign.plan import differences
+from frames.campaign.opened import opened, results_of
+from frames.campaign.plan import listed
 from frames.results.storage import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    import xarray as xr
+
     from frames.campaign.batches import Batch
     from frames.campaign.plan import Plan
 
-FORMAT = 1
 _PLAN, _RUNS, _HISTORIES, _DONE, _LOCK = "plan.json", "runs.zarr", "histories", "done", "lock"
 
 
@@ -101,8 +103,11 @@ class CampaignStore:
         except json.JSONDecodeError as cause:
             msg = f"{self.path / _PLAN} cannot be read: {cause}"
             raise CampaignError(msg) from cause
-        if found.get("format") != FORMAT:
-            msg = f"{self.path} has format {found.get('format')}, this program reads {FORMAT}"
+        if found.get("format") not in READABLE:
+            msg = (
+                f"{self.path} has format {found.get('format')}, this program reads "
+                f"{' and '.join(map(str, READABLE))}: open it with the version that wrote it"
+            )
             raise CampaignError(msg)
         return dict(found)
 
@@ -143,27 +148,50 @@ class CampaignStore:
         finally:
             shutil.rmtree(beside, ignore_errors=True)
 
-    def require_plan(self, described: Mapping[str, Any]) -> None:
+    def require_plan(
+        self, described: Mapping[str, Any], *, accept_other_sources: bool = False
+    ) -> None:
         """Refuse to go on with another plan than that of the store.
 
         Parameters
         ----------
         described : mapping
             What is given now.
+        accept_other_sources : bool
+            Whether the version of the package and its sources may be others than those that began
+            the store; plan.json keeps which ones took over, and after how many runs.
 
         Raises
         ------
         CampaignError
             With a line for each difference.
         """
-        found = differences(self.plan(), json.loads(json.dumps(described)))
-        if found:
-            lines = "\n".join(f"  {line}" for line in found)
+        stored, given = self.plan(), json.loads(json.dumps(described))
+        if stored["format"] != FORMAT:
             msg = (
-                f"{self.path} was planned otherwise: name another store, or give what it was "
-                f"planned with\n{lines}"
+                f"{self.path} has format {stored['format']}, which does not tell the sources that "
+                "it was computed with: open_campaign reads it; to run, name another store"
             )
             raise CampaignError(msg)
+        found, sources = unlike(stored, given)
+        if found:
+            msg = (
+                f"{self.path} was planned otherwise: name another store, or give what it was "
+                f"planned with\n{listed(found)}"
+            )
+            raise CampaignError(msg)
+        if sources and not accept_other_sources:
+            msg = (
+                f"{self.path} was computed by other sources of the package: its runs and new ones "
+                "might not belong together. Name another store; or, if the change does not touch "
+                "the numbers, run(accept_other_sources=True), which is kept in the store\n"
+                f"{listed(sources)}"
+            )
+            raise CampaignError(msg)
+        if sources:
+            taken = {"after runs": self.status().done, "provenance": given["provenance"]}
+            stored.setdefault(TAKEN_OVER, []).append(taken | {k: given[k] for k in SOURCES})
+            write_whole(self.path / _PLAN, json.dumps(stored, indent=1).encode())
 
     @contextmanager
     def owned(self) -> Generator[None, None, None]:
@@ -275,15 +303,10 @@ class CampaignStore:
             If there is no store.
         """
         plan = self.plan()
-        data = _opened(self.path / _RUNS)
-        names: list[str] = data.attrs.pop("results")
-        data = data[names]
-        done = np.zeros(data.sizes["run"], dtype=bool)
+        done = np.zeros(plan["runs"], dtype=bool)
         for number in self.batches_done():
             done[number * plan["batch"] : (number + 1) * plan["batch"]] = True
-        return data.assign_coords(done=("run", done)).assign_attrs(
-            {key: str(plan[key]) for key in ("program", "options", "record")}
-        )
+        return results_of(self.path / _RUNS, plan, done)
 
     def histories(self, run: int) -> xr.Dataset:
         """Return the recorded histories of a run.
@@ -306,7 +329,7 @@ class CampaignStore:
         number = run // self.plan()["batch"]
         if number in self.batches_done():
             for part in (self.path / _HISTORIES / f"{number:06d}").glob("*.zarr"):
-                data = _opened(part)
+                data = opened(part)
                 if run in data["run"].to_numpy():
                     return data.sel(run=run)
         msg = (
@@ -354,11 +377,6 @@ class CampaignStore:
     def _mark(self, number: int) -> dict[str, Any]:
         text = (self.path / _DONE / f"{number:06d}.json").read_text(encoding="utf-8")
         return dict(json.loads(text))
-
-
-def _opened(where: Path) -> xr.Dataset:
-    data: xr.Dataset = xr.open_zarr(where, chunks=None, consolidated=False)
-    return data
 
 
 def open_campaign(path: str | Path) -> CampaignStore:

@@ -10,6 +10,7 @@ from frames.fragility.hunt_fill import HuntFill
 from frames.fragility.incremental import IDA
 from frames.fragility.intensity import Intensity
 from frames.fragility.limit_state import LimitState
+from frames.fragility.plans import CLOUD, HUNT, STRIPES
 from frames.fragility.runs import IntensityRuns, run_at
 from lir_element.door import require_positive, require_type
 
@@ -73,11 +74,11 @@ def ida(
     grounds = named_motions(motions)
     if known is None:
         begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
-        runs = run_at(model, grounds, begin, intensity, options)
+        runs = run_at(model, grounds, begin, intensity, options, HUNT)
     else:
         runs = _checked(known, grounds, intensity)
     while cases := _next_cases(runs, tuple(grounds), rules, state):
-        runs = runs.joined(run_at(model, grounds, cases, intensity, options))
+        runs = runs.joined(run_at(model, grounds, cases, intensity, options, HUNT))
     return IDA(runs, state, rules)
 
 
@@ -146,7 +147,7 @@ def multiple_stripes(
     stripes = [require_positive("level", each, error=FragilityError) for each in levels]
     grounds = named_motions(motions)
     cases = [(motion, level) for motion in grounds for level in stripes]
-    return run_at(model, grounds, cases, intensity, options)
+    return run_at(model, grounds, cases, intensity, options, STRIPES)
 
 
 def cloud_analysis(
@@ -190,4 +191,4 @@ def cloud_analysis(
     grounds = named_motions(motions)
     own = {name: intensity.of(motion) for name, motion in grounds.items()}
     cases = [(name, factor * own[name]) for name in grounds for factor in factors]
-    return run_at(model, grounds, cases, intensity, options)
+    return run_at(model, grounds, cases, intensity, options, CLOUD)

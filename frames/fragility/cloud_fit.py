@@ -10,6 +10,7 @@ import pandas as pd
 
 from frames._errors import FragilityError
 from frames.fragility.curve import CollapseFragility, Fragility
+from frames.fragility.intensity import Intensity, unit_of
 from frames.fragility.likelihood import binomial
 from frames.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
 from lir_element.door import require_positive
@@ -29,7 +30,8 @@ def fit_cloud(
     records: Sequence[str],
     *,
     name: str = "",
-    unit: str = "m/s2",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility | CollapseFragility:
@@ -45,7 +47,9 @@ def fit_cloud(
     records : sequence of str
         Record of each run.
     name, unit : str
-        The limit state, and the unit of the intensity.
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure, so that the curve is compared with its like alone.
     resamples, seed : int
         Resamples of the records, and their seed.
 
@@ -81,7 +85,8 @@ def fit_cloud(
         msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more"
         raise FragilityError(msg)
     common: dict[str, Any] = {
-        "name": name, "unit": unit, "records": tuple(names), "seed": seed,
+        "name": name, "unit": unit_of(unit, intensity), "intensity": intensity,
+        "records": tuple(names), "seed": seed,
         "data": pd.DataFrame({"im": at, "demand": found, "collapsed": fell}),
     }  # fmt: skip
     goal = math.log(bound)

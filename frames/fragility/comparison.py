@@ -11,12 +11,14 @@ from frames._errors import FragilityError
 from frames._types import FloatArray
 from frames.fragility.curve import CollapseFragility, Fragility, checked_confidence
 from frames.fragility.hazard_curve import HazardCurve
+from frames.fragility.intensity import require_one_measure
 from frames.fragility.risk import mean_annual_frequency
+from frames.fragility.shown import Shown
 from lir_element.door import require_type
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison(Shown):
     """A second fragility over a first one, for the same records.
 
     Attributes
@@ -38,6 +40,12 @@ class Comparison:
     resampled_medians: FloatArray
     rates: tuple[float, float] | None
     resampled_rates: FloatArray | None
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [
+            (str(name), f"{row['value']:.3g} ({row['low']:.3g} to {row['high']:.3g})")
+            for name, row in self.to_dataframe().iterrows()
+        ]
 
     def to_dataframe(self, confidence: float = 0.9) -> pd.DataFrame:
         """Return the second over the first, and less the first, with their intervals.
@@ -112,18 +120,16 @@ def compare_fragility(
     Raises
     ------
     FragilityError
-        If the curves are not of the same records, resamples or unit.
+        If the curves are not of the same records, resamples, intensity measure or unit.
 
     Notes
     -----
-    Both curves must be over the same intensity measure; structures of unlike periods are compared
-    by rates.
+    Curves that state no measure are compared by their units alone. Structures of unlike periods are
+    compared by rates, each with the hazard of its own measure (`mean_annual_frequency`).
     """
     for name, curve in (("first", first), ("second", second)):
         require_type(name, curve, (Fragility, CollapseFragility), "a fragility curve")
-    if first.unit != second.unit:
-        msg = f"the curves are in {first.unit} and {second.unit}: take one intensity measure"
-        raise FragilityError(msg)
+    require_one_measure(first, second, ("the first curve", "the second"))
     same = (first.records, first.seed, len(first.parameters)) == (
         second.records, second.seed, len(second.parameters)
     )  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,14 +12,16 @@ import pandas as pd
 
 from frames._errors import FragilityError
 from frames._types import FloatArray
+from frames.fragility.intensity import Intensity, unit_of
+from frames.fragility.shown import Shown
 from lir_element.door import require_between, require_non_negative, require_positive
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Estimate(ABC):
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Estimate(Shown):
     """How a curve was found: what both kinds of curves have in common.
 
     Attributes
@@ -28,6 +30,8 @@ class Estimate(ABC):
         The limit state.
     unit : str
         Unit of the intensity.
+    intensity : Intensity or None
+        Its measure; None where it was not stated.
     method : str
         How it was fitted, with its source.
     records : tuple of str
@@ -48,11 +52,25 @@ class Estimate(ABC):
     seed: int
     parameters: FloatArray
     data: pd.DataFrame
+    intensity: Intensity | None = None
 
     @property
     def lost(self) -> int:
         """Number of resamples that allowed no fit; bands are of the others."""
         return int(np.isnan(self.parameters).any(axis=1).sum())
+
+    def _rows(self) -> list[tuple[str, str]]:
+        measure = "" if self.intensity is None else self.intensity.label
+        found = [
+            ("limit state", self.name), ("intensity", measure), *self._numbers(),
+            ("method", self.method), ("records", str(len(self.records))),
+        ]  # fmt: skip
+        lost = f"{self.lost} of {len(self.parameters)}" if self.lost else ""
+        return [*found, ("resamples without a fit", lost)]
+
+    @abstractmethod
+    def _numbers(self) -> list[tuple[str, str]]:
+        """Return what is shown of its parameters."""
 
     @abstractmethod
     def probability(self, im: npt.ArrayLike) -> FloatArray:
@@ -131,7 +149,7 @@ class Estimate(ABC):
         return np.linspace(0.0, 1.3 * float(self.data[column].max()), count + 1)[1:]
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Fragility(Estimate):
     """A lognormal fragility curve.
 
@@ -151,6 +169,11 @@ class Fragility(Estimate):
     dispersion: float
     covariance: FloatArray
     added: float = 0.0
+
+    def _numbers(self) -> list[tuple[str, str]]:
+        added = f" ({self.added:.3g} of it added)" if self.added else ""
+        return [("median", f"{self.median:.4g} {self.unit}"),
+                ("dispersion", f"{self.dispersion:.3g}{added}")]  # fmt: skip
 
     def probability(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities, in their shape."""
@@ -247,7 +270,7 @@ class Fragility(Estimate):
         )
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class CollapseFragility(Estimate):
     """The curve of a cloud in which some runs collapsed: five parameters.
 
@@ -264,6 +287,9 @@ class CollapseFragility(Estimate):
 
     values: tuple[float, float, float, float, float]
     limit: float
+
+    def _numbers(self) -> list[tuple[str, str]]:
+        return [("median", f"{self.median:.4g} {self.unit}")]
 
     def probability(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities, in their shape."""
@@ -300,7 +326,12 @@ class CollapseFragility(Estimate):
 
 
 def lognormal_fragility(
-    median: float, dispersion: float, *, name: str = "", unit: str = "m/s2"
+    median: float,
+    dispersion: float,
+    *,
+    name: str = "",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
 ) -> Fragility:
     """Return a lognormal curve that is given, not fitted.
 
@@ -311,7 +342,9 @@ def lognormal_fragility(
     dispersion : float
         Standard deviation of the logarithm [-].
     name, unit : str
-        The limit state, and the unit of the intensity.
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure.
 
     Returns
     -------
@@ -329,10 +362,11 @@ def lognormal_fragility(
     >>> curve.probability([2.0, 4.0]).round(3).tolist()
     [0.5, 0.958]
     """
-    middle = require_positive("median", median, unit, error=FragilityError)
+    own = unit_of(unit, intensity)
+    middle = require_positive("median", median, own, error=FragilityError)
     spread = require_positive("dispersion", dispersion, "-", error=FragilityError)
     return Fragility(
-        name=name, unit=unit, method="given", records=(), seed=0,
+        name=name, unit=own, intensity=intensity, method="given", records=(), seed=0,
         parameters=np.array([[middle, spread]]), data=pd.DataFrame({"im": [2.0 * middle]}),
         median=middle, dispersion=spread, covariance=np.zeros((2, 2)),
     )  # fmt: skip

@@ -15,6 +15,7 @@ import pandas as pd
 from frames._errors import FragilityError
 from frames._types import FloatArray
 from frames.fragility.curve import Fragility
+from frames.fragility.intensity import Intensity, unit_of
 from frames.fragility.likelihood import Likely, binomial, censored_lognormal
 from frames.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
 from lir_element.door import require_choice
@@ -31,7 +32,8 @@ def fit_stripes(
     records: Sequence[str],
     *,
     name: str = "",
-    unit: str = "m/s2",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility:
@@ -46,7 +48,9 @@ def fit_stripes(
     records : sequence of str
         Record of each run: runs of one record are resampled together.
     name, unit : str
-        The limit state, and the unit of the intensity.
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure, so that the curve is compared with its like alone.
     resamples : int
         Resamples of the records for the band.
     seed : int
@@ -100,7 +104,8 @@ def fit_stripes(
         "im": levels, "exceeded": np.bincount(level, over), "total": np.bincount(level),
     })  # fmt: skip
     return Fragility(
-        name=name, unit=unit, method="maximum likelihood (Baker 2015)", records=tuple(names),
+        name=name, unit=unit_of(unit, intensity), intensity=intensity,
+        method="maximum likelihood (Baker 2015)", records=tuple(names),
         seed=seed, parameters=resampled(len(names), again, 2, resamples, seed), data=data,
         median=float(median), dispersion=float(dispersion),
         covariance=jacobian @ fitted.covariance @ jacobian.T,
@@ -114,7 +119,8 @@ def fit_capacities(
     censored: npt.ArrayLike | None = None,
     method: Literal["moments", "likelihood"] | None = None,
     name: str = "",
-    unit: str = "m/s2",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility:
@@ -132,7 +138,9 @@ def fit_capacities(
         Mean and standard deviation of the logarithms (of n - 1), or maximum likelihood, which
         takes censored ones; by default the one that the data need.
     name, unit : str
-        The limit state, and the unit of the intensity.
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure, so that the curve is compared with its like alone.
     resamples, seed : int
         Resamples of the records, and their seed.
 
@@ -197,7 +205,8 @@ def fit_capacities(
         msg = f"capacities {at.tolist()} determine no curve: run more records, or higher"
         raise FragilityError(msg)
     return Fragility(
-        name=name, unit=unit, method=f"IDA, {chosen} (Baker 2015)",
+        name=name, unit=unit_of(unit, intensity), intensity=intensity,
+        method=f"IDA, {chosen} (Baker 2015)",
         records=tuple(sorted(map(str, records))), seed=seed,
         parameters=resampled(len(at), fit, 2, resamples, seed),
         data=pd.DataFrame({"capacity": at, "censored": open_}),

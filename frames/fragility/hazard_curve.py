@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 
 from frames._errors import FragilityError
+from frames.fragility.intensity import Intensity, unit_of
+from frames.fragility.shown import Shown
 from lir_element.door import require_positive
 
 if TYPE_CHECKING:
@@ -17,8 +19,8 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class HazardCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class HazardCurve(Shown):
     """Mean annual frequency of exceedance over the intensity, straight between logarithms.
 
     Parameters
@@ -27,13 +29,17 @@ class HazardCurve:
         Rising intensities, of the measure that the fragility is of.
     rate : array_like, shape (n,)
         Falling mean annual frequencies [1/year].
-    unit : str
-        Unit of the intensities.
+    unit : str, optional
+        Unit of the intensities: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure. A fragility curve of another one is refused then; without it units alone are
+        compared.
 
     Raises
     ------
     FragilityError
-        If there are fewer than two points, or they do not rise and fall.
+        If there are fewer than two points, they do not rise and fall, or the unit is not that of
+        the measure.
 
     Examples
     --------
@@ -44,7 +50,8 @@ class HazardCurve:
 
     im: npt.ArrayLike
     rate: npt.ArrayLike
-    unit: str = "m/s2"
+    unit: str = ""
+    intensity: Intensity | None = None
 
     def __post_init__(self) -> None:
         """Check and copy.
@@ -54,6 +61,7 @@ class HazardCurve:
         FragilityError
             If the points make no curve.
         """
+        object.__setattr__(self, "unit", unit_of(self.unit or None, self.intensity))
         im, rate = np.array(self.im, dtype=np.float64), np.array(self.rate, dtype=np.float64)
         if im.ndim != 1 or im.shape != rate.shape or len(im) < 2:
             msg = f"im {im.shape} and rate {rate.shape} must be lists of one length, 2 at least"
@@ -68,8 +76,22 @@ class HazardCurve:
             values.setflags(write=False)
             object.__setattr__(self, name, values)
 
+    def _rows(self) -> list[tuple[str, str]]:
+        (low, high), rate = self.ends, np.asarray(self.rate, dtype=np.float64)
+        measure = "not stated" if self.intensity is None else self.intensity.label
+        return [("intensity", measure), ("from", f"{low:g} to {high:g} {self.unit}"),
+                ("rates", f"{rate[0]:.3g} to {rate[-1]:.3g} 1/year")]  # fmt: skip
+
     @classmethod
-    def power(cls, k0: float, k: float, low: float, high: float, unit: str = "m/s2") -> HazardCurve:
+    def power(
+        cls,
+        k0: float,
+        k: float,
+        low: float,
+        high: float,
+        unit: str = "",
+        intensity: Intensity | None = None,
+    ) -> HazardCurve:
         """Return ``rate = k0 im**-k`` between two intensities (Cornell 1996).
 
         Parameters
@@ -78,8 +100,10 @@ class HazardCurve:
             Rate at an intensity of 1 [1/year], and slope [-].
         low, high : float
             Ends of the curve.
-        unit : str
-            Unit of the intensities.
+        unit : str, optional
+            Unit of the intensities: "m/s2", or that of the measure.
+        intensity : Intensity, optional
+            The measure.
 
         Returns
         -------
@@ -94,7 +118,7 @@ class HazardCurve:
         numbers = {"k0": k0, "k": k, "low": low, "high": high}
         a, b, c, d = (require_positive(n, v, error=FragilityError) for n, v in numbers.items())
         ends = np.array([c, d])
-        return cls(ends, a * ends**-b, unit)
+        return cls(ends, a * ends**-b, unit, intensity)
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,9 @@ import pandas as pd
 from frames._errors import FragilityError
 from frames.fragility.hunt_fill import HuntFill
 from frames.fragility.limit_state import LimitState
+from frames.fragility.plans import GIVEN, HUNT, plans_of
 from frames.fragility.runs import IntensityRuns
+from frames.fragility.shown import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,8 +24,8 @@ if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class IDA:
+@dataclass(frozen=True, eq=False, repr=False)
+class IDA(Shown):
     """An incremental dynamic analysis: runs of each motion from low intensities to the limit.
 
     Parameters
@@ -43,6 +45,16 @@ class IDA:
     runs: IntensityRuns
     limit: LimitState
     rules: HuntFill
+
+    def __post_init__(self) -> None:
+        # that the rules chose the intensities goes with the runs, whatever is made of them
+        plans = plans_of(self.runs.table)
+        if GIVEN in plans:
+            table = self.runs.table.assign(plan=[HUNT if p == GIVEN else p for p in plans])
+            object.__setattr__(self, "runs", replace(self.runs, table=table))
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [("limit state", self.limit.name), *self.runs._rows()]
 
     def curve(self, motion: str, quantity: str) -> pd.DataFrame:
         """Return the curve of a motion.
@@ -96,22 +108,7 @@ class IDA:
         FragilityError
             If the structure does not have the limit's quantity, or no run of a motion succeeded.
         """
-        state = self.limit if limit is None else limit
-        over, table = self.runs.exceeded(state), self.runs.table
-        demand = None if state.quantity is None else self.runs.demand(state.quantity)
-        rows = []
-        for motion in self.runs.motions:
-            own = np.flatnonzero(table["motion"].to_numpy() == motion)
-            own = own[np.argsort(table["im"].to_numpy()[own], kind="stable")]
-            known = own[~np.isnan(over[own])]
-            if not len(known):
-                msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
-                raise FragilityError(msg)
-            im, exceeds = table["im"].to_numpy()[known], over[known] > 0.5
-            values = None if demand is None else demand[known]
-            found = _first_crossing(im, exceeds, values, state.limit)
-            rows.append({**found, "failed": len(own) - len(known)})
-        return pd.DataFrame(rows, index=pd.Index(self.runs.motions, name="motion"))
+        return capacities_of(self.runs, self.limit if limit is None else limit)
 
     def demands_at(self, im: npt.ArrayLike, quantity: str) -> FloatArray:
         """Return the demand of each motion at intensities.
@@ -190,6 +187,43 @@ class IDA:
     def to_dataframe(self) -> pd.DataFrame:
         """Return all runs, in the order in which they were made."""
         return self.runs.to_dataframe()
+
+
+def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
+    """Return the intensity at which each motion first reaches a limit state: `IDA.capacities`.
+
+    Parameters
+    ----------
+    runs : IntensityRuns
+        Runs of each motion up to the limit.
+    limit : LimitState
+        The limit state.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a motion.
+
+    Raises
+    ------
+    FragilityError
+        If the structure does not have the limit's quantity, or no run of a motion succeeded.
+    """
+    over, table = runs.exceeded(limit), runs.table
+    demand = None if limit.quantity is None else runs.demand(limit.quantity)
+    rows = []
+    for motion in runs.motions:
+        own = np.flatnonzero(table["motion"].to_numpy() == motion)
+        own = own[np.argsort(table["im"].to_numpy()[own], kind="stable")]
+        known = own[~np.isnan(over[own])]
+        if not len(known):
+            msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
+            raise FragilityError(msg)
+        im, exceeds = table["im"].to_numpy()[known], over[known] > 0.5
+        values = None if demand is None else demand[known]
+        found = _first_crossing(im, exceeds, values, limit.limit)
+        rows.append({**found, "failed": len(own) - len(known)})
+    return pd.DataFrame(rows, index=pd.Index(runs.motions, name="motion"))
 
 
 def _first_crossing(

@@ -3,20 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from frames._errors import FragilityError
 from frames.hazard.pair_spectra import MEASURES, pair_spectrum
 from frames.motion.baseline import integrated
-from lir_element.door import require_between, require_choice, require_positive
+from lir_element.door import require_between, require_choice, require_positive, require_type
 
 if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "scale": "-"}
 """Kinds of intensity measures, and their units."""
+
+
+class Measured(Protocol):
+    """What is a function of an intensity."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of the intensity."""
+        ...
+
+    @property
+    def intensity(self) -> Intensity | None:
+        """Its measure, None where it was not stated."""
+        ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,3 +136,63 @@ class Intensity:
             msg = f"{motion.name or 'motion'} has no {self.label}: leave it out"
             raise FragilityError(msg)
         return found
+
+
+def unit_of(unit: str | None, intensity: Intensity | None) -> str:
+    """Return the unit of intensities, where it is told by their measure, too.
+
+    Parameters
+    ----------
+    unit : str or None
+        Unit that is stated.
+    intensity : Intensity or None
+        Their measure.
+
+    Returns
+    -------
+    str
+        The one of both; "m/s2" if neither is stated.
+
+    Raises
+    ------
+    FragilityError
+        If both are stated and differ.
+    """
+    if intensity is not None:
+        require_type("intensity", intensity, Intensity, "an Intensity")
+        if unit not in {None, intensity.unit}:
+            msg = f"unit = {unit!r}: {intensity.label} is in {intensity.unit}: convert the numbers"
+            raise FragilityError(msg)
+        return intensity.unit
+    return "m/s2" if unit is None else unit
+
+
+def require_one_measure(
+    first: Measured, second: Measured, names: tuple[str, str] = ("the first", "the second")
+) -> None:
+    """Refuse two things that are of unlike intensities.
+
+    Parameters
+    ----------
+    first, second : Measured
+        Curves, hazards, rates: what has a `unit` and an `intensity`, which is None where it was
+        not stated and is then not compared.
+    names : tuple of str
+        What they are called.
+
+    Raises
+    ------
+    FragilityError
+        If units or measures differ; the message names both.
+    """
+    told = [
+        each.unit if each.intensity is None else f"{each.intensity.label} [{each.unit}]"
+        for each in (first, second)
+    ]
+    stated = first.intensity is not None and second.intensity is not None
+    if first.unit != second.unit or (stated and first.intensity != second.intensity):
+        msg = (
+            f"{names[0]} is over {told[0]}, {names[1]} over {told[1]}: bring them to one unit of "
+            "one intensity measure"
+        )
+        raise FragilityError(msg)

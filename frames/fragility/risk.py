@@ -13,6 +13,8 @@ from frames._errors import FragilityError
 from frames._types import FloatArray
 from frames.fragility.curve import CollapseFragility, Estimate, Fragility, checked_confidence
 from frames.fragility.hazard_curve import HazardCurve
+from frames.fragility.intensity import Intensity, require_one_measure
+from frames.fragility.shown import Shown
 from lir_element.door import require_non_negative, require_positive, require_type
 
 POINTS = 2000
@@ -26,8 +28,8 @@ class RiskWarning(UserWarning):
     """A rate of which much comes from where the hazard is not known."""
 
 
-@dataclass(frozen=True, eq=False)
-class Risk:
+@dataclass(frozen=True, eq=False, repr=False)
+class Risk(Shown):
     """How often a limit state is exceeded.
 
     Attributes
@@ -36,6 +38,8 @@ class Risk:
         The limit state.
     unit : str
         Unit of the intensity.
+    intensity : Intensity or None
+        Its measure, of the curve or of the hazard; None where neither states it.
     rate : float
         Mean annual frequency of exceedance [1/year], of intensities within the hazard curve.
     resampled : ndarray, shape (resamples,)
@@ -53,6 +57,13 @@ class Risk:
     above: float
     im: FloatArray
     contribution: FloatArray
+    intensity: Intensity | None = None
+
+    def _rows(self) -> list[tuple[str, str]]:
+        measure = "" if self.intensity is None else self.intensity.label
+        return [("limit state", self.name), ("intensity", measure),
+                ("rate", f"{self.rate:.3g} 1/year"),
+                ("in 50 years", f"{100.0 * self.probability(50.0):.3g} %")]  # fmt: skip
 
     def probability(self, years: float = 50.0) -> float:
         """Return the probability of at least one exceedance.
@@ -113,7 +124,8 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
     curve : Fragility or CollapseFragility
         The fragility.
     hazard : HazardCurve
-        The hazard, of the same intensity measure.
+        The hazard, of the same intensity measure; where it states none, the engineer answers for
+        it.
 
     Returns
     -------
@@ -123,7 +135,7 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
     Raises
     ------
     FragilityError
-        If the units differ.
+        If measures or units differ.
 
     Warns
     -----
@@ -146,9 +158,7 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
     """
     require_type("curve", curve, (Fragility, CollapseFragility), "a fragility curve")
     require_type("hazard", hazard, HazardCurve, "a HazardCurve")
-    if curve.unit != hazard.unit:
-        msg = f"the curve is in {curve.unit}, the hazard in {hazard.unit}: bring them to one unit"
-        raise FragilityError(msg)
+    require_one_measure(curve, hazard, ("the curve", "the hazard"))
     low, high = hazard.ends
     known = np.asarray(hazard.im, dtype=np.float64)
     im = np.union1d(np.geomspace(low, high, POINTS)[1:-1], known)
@@ -168,7 +178,7 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
             stacklevel=2,
         )
     return Risk(curve.name, curve.unit, rate, np.asarray(resampled), float(rates[-1]), im,
-                np.asarray(probability * density))  # fmt: skip
+                np.asarray(probability * density), curve.intensity or hazard.intensity)  # fmt: skip
 
 
 def _weighted(probability: FloatArray, drops: FloatArray) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,9 +13,12 @@ import pandas as pd
 
 from frames._errors import FragilityError, ModelWarning
 from frames.analysis.batch import time_histories
-from frames.analysis.cases import named_models, named_motions
+from frames.analysis.cases import NOT_BUILT, named_models
 from frames.fragility.intensity import Intensity
 from frames.fragility.limit_state import LimitState
+from frames.fragility.plans import GIVEN, PLAN, plans_of
+from frames.fragility.reading import Sets, motions_of, rows_of
+from frames.fragility.shown import Shown
 from lir_element.door import require_choice, require_type
 from lir_element.errors import AnalysisWarning, RunStatus
 
@@ -47,14 +51,17 @@ def outcome_of(status: str) -> str:
     -------
     str
         `COMPLETE` for "ok" and "inaccurate" (which went to its end), `FAILURE` where the bearing
-        failed, otherwise `UNKNOWN`. A structure that is beyond what it carries ends in Newton's
-        failure, as other things do: state a drift or a rotation as the limit.
+        failed, otherwise `UNKNOWN`, also for "not_built" of a campaign. A structure that is beyond
+        what it carries ends in Newton's failure, as other things do: state a drift or a rotation
+        as the limit.
 
     Raises
     ------
     FragilityError
         If it is no status.
     """
+    if status == NOT_BUILT:
+        return UNKNOWN
     require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
     found = RunStatus[status.upper()]
     if found in {RunStatus.OK, RunStatus.INACCURATE}:
@@ -62,15 +69,17 @@ def outcome_of(status: str) -> str:
     return FAILURE if found.is_bearing_failure else UNKNOWN
 
 
-@dataclass(frozen=True, eq=False)
-class IntensityRuns:
+@dataclass(frozen=True, eq=False, repr=False)
+class IntensityRuns(Shown):
     """Runs of one structure under motions of known intensity.
 
     Parameters
     ----------
     table : pandas.DataFrame
         A row a run: "motion", "scale" [-], "im" (in `intensity.unit`), "outcome", "status",
-        "message", and a column a quantity of `frames.peaks` (SI).
+        "message", a column a quantity of `frames.peaks` (SI); and "plan", how the intensity was
+        chosen: "stripes", "cloud", "hunt" (by the outcome of runs before) or "given", which is also
+        what holds without the column.
     intensity : Intensity
         What "im" is.
     units : mapping of str to str
@@ -104,23 +113,47 @@ class IntensityRuns:
         if not (np.isfinite(im) & (im > 0.0)).all():
             msg = f"im = {im.min():g} {self.intensity.unit} must be positive: scale upwards from 0"
             raise FragilityError(msg)
+        plans_of(self.table)
+
+    def _rows(self) -> list[tuple[str, str]]:
+        counts = Counter(self.table["outcome"]).most_common()
+        return [
+            ("runs", str(len(self.table))), ("motions", str(len(self.motions))),
+            ("intensity", self.intensity.label),
+            ("outcomes", "; ".join(f"{count} {name}" for name, count in counts)),
+            ("intensities chosen by", "; ".join(dict.fromkeys(plans_of(self.table)))),
+        ]  # fmt: skip
 
     @classmethod
     def from_dataset(
-        cls, data: xr.Dataset, motions: object, intensity: Intensity, model: str | None = None
+        cls,
+        data: xr.Dataset,
+        motions: object,
+        intensity: Intensity,
+        model: str | None = None,
+        *,
+        parameters: Sets = None,
+        plan: str = GIVEN,
     ) -> IntensityRuns:
-        """Read the runs of one structure from what `time_histories` handed back.
+        """Read the runs of one structure from what `time_histories` or a campaign handed back.
 
         Parameters
         ----------
         data : xarray.Dataset
-            Of `time_histories`.
+            Of `time_histories` or of a campaign; runs that are not done are left out.
         motions : GroundMotion, or a sequence or mapping of them
-            The motions, unscaled, by the names of `data`.
+            The motions that were run, before the scales of `data`, by the names of `data`. Their
+            digests must be those of the coordinate "motion_digest".
         intensity : Intensity
             The measure.
         model : str, optional
             Which structure; needed where there are several.
+        parameters : int, mapping of str to float, or "all", optional
+            Which set of parameters of a campaign, by its number or its values; needed where there
+            are several. "all" pools them: what they scatter is part of the dispersion then.
+        plan : {"given", "stripes", "cloud", "hunt"}
+            How the intensities were chosen: "hunt" where they followed from outcomes of runs
+            before.
 
         Returns
         -------
@@ -130,21 +163,19 @@ class IntensityRuns:
         Raises
         ------
         FragilityError
-            If there are several structures, or a motion is missing.
+            If there are several structures or sets of parameters, a motion is missing or not the
+            one that was run, or no run is done.
+
+        Warns
+        -----
+        AnalysisWarning
+            If runs of a campaign are not done.
         """
         require_type("intensity", intensity, Intensity, "an Intensity")
-        names = sorted({str(name) for name in data["model"].to_numpy()})
-        if model is None and len(names) > 1:
-            msg = f"{len(names)} structures ({', '.join(names)}): name one as model="
-            raise FragilityError(msg)
-        chosen = names[0] if model is None else model
-        require_choice("model", chosen, names, error=FragilityError)
-        own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == chosen))
-        grounds = named_motions(motions)
+        own = rows_of(data, model, parameters)
+        grounds = motions_of(own, motions)
         used = [str(name) for name in own["motion"].to_numpy()]
-        for name in used:
-            require_choice("motion", name, tuple(grounds), error=FragilityError)
-        each = {name: intensity.of(grounds[name]) for name in dict.fromkeys(used)}
+        each = {name: intensity.of(motion) for name, motion in grounds.items()}
         scale = own["scale"].to_numpy()
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
@@ -155,6 +186,7 @@ class IntensityRuns:
             "outcome": [outcome_of(s) for s in status],
             "status": status,
             "message": [str(m) for m in own["message"].to_numpy()],
+            PLAN: plan,
         } | {q: own["peak"].sel(quantity=q).to_numpy() for q in quantities})  # fmt: skip
         units = dict(zip(quantities, (str(u) for u in own["unit"].to_numpy()), strict=True))
         return cls(table, intensity, units)
@@ -243,7 +275,8 @@ class IntensityRuns:
         if other.intensity != self.intensity:
             msg = f"{other.intensity.label} is not {self.intensity.label}: take one measure"
             raise FragilityError(msg)
-        table = pd.concat([self.table, other.table], ignore_index=True)
+        tables = [each.table.assign(plan=plans_of(each.table)) for each in (self, other)]
+        table = pd.concat(tables, ignore_index=True)
         return IntensityRuns(table, self.intensity, {**self.units, **other.units})
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -262,6 +295,7 @@ def run_at(
     cases: Sequence[tuple[str, float]],
     intensity: Intensity,
     options: Mapping[str, Any],
+    plan: str,
 ) -> IntensityRuns:
     """Run a structure under motions at intensities, all at once.
 
@@ -277,6 +311,8 @@ def run_at(
         The measure.
     options : mapping
         Options of `time_histories`.
+    plan : str
+        How the intensities were chosen.
 
     Returns
     -------
@@ -309,7 +345,7 @@ def run_at(
         # intensities begin low on purpose
         warnings.filterwarnings("ignore", ".*the bearings hardly slide", ModelWarning)
         data = time_histories({name: structure}, motions, cases=wanted, **options)
-    runs = IntensityRuns.from_dataset(data, motions, intensity)
+    runs = IntensityRuns.from_dataset(data, motions, intensity, plan=plan)
     failed = runs.failed
     if len(failed):
         row = failed.iloc[0]

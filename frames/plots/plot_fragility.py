@@ -12,6 +12,7 @@ from matplotlib.ticker import LogLocator
 
 from frames._errors import FragilityError
 from frames.fragility.curve import CollapseFragility, Fragility, checked_confidence
+from frames.fragility.intensity import Measured, require_one_measure
 from frames.fragility.risk import Risk
 from frames.fragility.sensitivity import Tornado
 from frames.plots import plot_style as ps
@@ -44,7 +45,7 @@ def fragility_curves(
     curves: Curve | Sequence[Curve] | Mapping[str, Curve],
     *,
     confidence: float = 0.9,
-    label: str = "intensity",
+    label: str | None = None,
 ) -> Figure:
     """Draw fragility curves with their confidence bands and what they were fitted to.
 
@@ -54,8 +55,8 @@ def fragility_curves(
         The curves, of one intensity measure; by the names of a mapping, else by their own.
     confidence : float
         Confidence of the bands [-]; bands of a curve that was given are not drawn.
-    label : str
-        What the intensity is, as `Intensity.label`.
+    label : str, optional
+        What the intensity is; its measure's `Intensity.label` if None.
 
     Returns
     -------
@@ -65,14 +66,14 @@ def fragility_curves(
     Raises
     ------
     FragilityError
-        If there is none or too many, or their units differ.
+        If there is none or too many, or their measures or units differ.
     """
     named = _named("curves", curves, (Fragility, CollapseFragility), "a fragility curve")
     many = [curve for _, curve in named]
     checked_confidence(confidence)
     figure = ps.new_figure(3.9)
     panel = ps.grid_of(figure, 1, 1)[0][0]
-    size, text = shown_intensity(many[0].unit, label)
+    size, text = shown_intensity(many[0].unit, label or _label_of(many))
     end = max(float(curve.grid(1)[-1]) for curve in many)
     im = np.linspace(0.0, end, CURVE_POINTS + 1)[1:]
     handles: list[Artist] = []
@@ -105,10 +106,17 @@ def _named(what: str, given: Any, kinds: tuple[type, ...], one: str) -> list[tup
     )
     for name, each in pairs:
         require_type(f"{what}[{name!r}]", each, kinds, one)
-    if not 1 <= len(pairs) <= len(ps.PALETTE) or len({each.unit for _, each in pairs}) > 1:
+    if not 1 <= len(pairs) <= len(ps.PALETTE):
         msg = f"{len(pairs)} {what}: give 1 to {len(ps.PALETTE)} of one intensity measure"
         raise FragilityError(msg)
+    for name, each in pairs[1:]:
+        require_one_measure(pairs[0][1], each, (f"{pairs[0][0]!r}", f"{name!r}"))
     return [(name or f"limit state {k}", each) for k, (name, each) in enumerate(pairs, 1)]
+
+
+def _label_of(many: Sequence[Measured]) -> str:
+    stated = [each.intensity.label for each in many if each.intensity is not None]
+    return stated[0] if stated else "intensity"
 
 
 def _data(panel: Axes, curve: Fragility | CollapseFragility, size: float, color: str) -> None:
@@ -128,7 +136,7 @@ def _data(panel: Axes, curve: Fragility | CollapseFragility, size: float, color:
 
 
 def risk_deaggregation(
-    risks: Risk | Sequence[Risk] | Mapping[str, Risk], *, label: str = "intensity"
+    risks: Risk | Sequence[Risk] | Mapping[str, Risk], *, label: str | None = None
 ) -> Figure:
     """Draw which intensities contribute to the mean annual frequency of exceedance.
 
@@ -136,7 +144,7 @@ def risk_deaggregation(
     ----------
     risks : Risk, or a sequence or mapping of up to six
         Of `mean_annual_frequency`, of one intensity measure.
-    label : str
+    label : str, optional
         What the intensity is.
 
     Returns
@@ -147,13 +155,13 @@ def risk_deaggregation(
     Raises
     ------
     FragilityError
-        If there is none or too many, or their units differ.
+        If there is none or too many, or their measures or units differ.
     """
     named = _named("risks", risks, (Risk,), "a Risk")
     many = [one for _, one in named]
     figure = ps.new_figure(3.6)
     panel = ps.grid_of(figure, 1, 1)[0][0]
-    size, text = shown_intensity(many[0].unit, label)
+    size, text = shown_intensity(many[0].unit, label or _label_of(many))
     handles: list[Artist] = []
     for k, (name, one) in enumerate(named):
         look = ps.line_of(k, 0.3)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,9 +14,6 @@ import xarray as xr
 
 from frames.results.kept import require_between_ends, require_recorded
 from frames.results.storage import write_whole
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
 
@@ -93,7 +91,8 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
     Parameters
     ----------
     tables : mapping of str to pandas.DataFrame
-        Tables by name, such as `force_tables` gives.
+        Tables by name, such as `force_tables` gives; also what has a `to_dataframe()`, such as a
+        fragility curve, a rate or an incremental analysis.
     path : str or Path
         A workbook where it ends in ".xlsx" (needs the package openpyxl: ``pip install
         'lir-dcfp[excel]'``), else a folder, which is made. What stood there under the same names
@@ -105,7 +104,14 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
         If a file cannot be written; the message names it.
     ImportError
         If openpyxl is missing.
+    TypeError
+        If tables are not given by name, or one is no table.
     """
+    given: object = tables
+    if not isinstance(given, Mapping):
+        msg = f"tables: give them by name, such as {{'name': ...}}, not a {type(given).__name__}"
+        raise TypeError(msg)
+    tables = {name: _table(name, each) for name, each in tables.items()}
     target = Path(path)
     if target.suffix.lower() == ".xlsx":
         try:
@@ -122,3 +128,12 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
     target.mkdir(parents=True, exist_ok=True)
     for name, table in tables.items():
         write_whole(target / f"{name}.csv", table.to_csv().encode())
+
+
+def _table(name: str, given: Any) -> pd.DataFrame:
+    # A table, or what has one.
+    found = given.to_dataframe() if hasattr(given, "to_dataframe") else given
+    if not isinstance(found, pd.DataFrame):
+        msg = f"tables[{name!r}] must be a pandas.DataFrame, not a {type(given).__name__}"
+        raise TypeError(msg)
+    return found

@@ -33,7 +33,16 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
     OSError
         If the file cannot be written (disk full, no such folder, no permission). The message names
         it; nothing is left behind, and `data` can be saved elsewhere.
+    TypeError
+        If it is no Dataset.
     """
+    given: object = data
+    if not isinstance(given, xr.Dataset):
+        msg = (
+            f"data must be an xarray.Dataset, not a {type(given).__name__}: runs, curves and rates "
+            "of fragility are written by save_fragility, tables by write_tables"
+        )
+        raise TypeError(msg)
     # HDF5 does not survive a write that fails (the process dies at its end): it works in memory
     encoding = _packed(data) if compress else {}
     write_whole(path, data.to_netcdf(None, engine="h5netcdf", encoding=encoding))

@@ -22,7 +22,7 @@ from frames import (
     time_histories,
 )
 from frames.campaign.designs import with_parameters
-from frames.campaign.fingerprint import fingerprint
+from frames._fingerprint import fingerprint
 from frames.campaign.lock import locked
 from frames.campaign.plan import Plan, differences
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction

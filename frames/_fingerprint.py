@@ -1,4 +1,4 @@
-"""What a campaign was planned with, as short digests that tell whether it is the same again."""
+"""Short digests of values by their content: whether it is the same model or motion again."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import hashlib
 from collections.abc import Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import issparse
+
+if TYPE_CHECKING:
+    from frames.motion.ground_motion import GroundMotion
 
 
 def fingerprint(value: object) -> str:
@@ -62,3 +65,26 @@ def _pieces(value: Any) -> Iterator[bytes]:
     else:
         yield from _pieces(vars(value))
     yield b"</>"
+
+
+def motion_digest(motion: GroundMotion) -> str:
+    """Return a digest of the samples of a motion and of its step; its name is not in it.
+
+    Parameters
+    ----------
+    motion : GroundMotion
+        The motion.
+
+    Returns
+    -------
+    str
+        16 hexadecimal digits.
+
+    Examples
+    --------
+    >>> from frames import GroundMotion
+    >>> motion = GroundMotion(x=[0.0, 1.0, 0.0], dt=0.01, name="a")
+    >>> motion_digest(motion) == motion_digest(motion.scaled(2.0))
+    False
+    """
+    return fingerprint([motion.x, motion.y, motion.z, motion.dt])

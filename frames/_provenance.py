@@ -1,0 +1,75 @@
+"""Where results come from: sources that numbers depend on, versions, date, citation."""
+
+from __future__ import annotations
+
+import datetime
+import hashlib
+import platform
+from functools import cache
+from pathlib import Path
+
+import numba
+import numpy as np
+import scipy
+
+from lir_element.results.dataset import package_version
+
+NUMERICAL = (
+    "lir_element/*.py", "lir_element/bundles/**/*.py", "lir_element/device/**/*.py",
+    "lir_element/kernels/**/*.py", "lir_element/results/**/*.py", "frames/*.py",
+    "frames/analysis/**/*.py", "frames/assembly/**/*.py", "frames/kernels/**/*.py",
+    "frames/library/**/*.py", "frames/model/**/*.py", "frames/motion/**/*.py",
+    "frames/results/**/*.py", "frames/campaign/batches.py", "frames/campaign/designs.py",
+)  # fmt: skip
+"""Patterns of the sources that the numbers of a time history depend on."""
+
+CITATION = "The lir-dcfp developers: lir-dcfp, seismic isolation with the LIR-DCFP bearing"
+
+_ROOT = Path(__file__).parents[1]
+
+
+@cache
+def numerical_sources() -> dict[str, str]:
+    """Return a digest of each source that results depend on, as this process found them first.
+
+    Returns
+    -------
+    dict of str to str
+        8 hexadecimal digits by path; ends of lines do not count.
+    """
+    files = sorted({path for pattern in NUMERICAL for path in _ROOT.glob(pattern)})
+    return {
+        path.relative_to(_ROOT).as_posix(): _digest(path.read_bytes().replace(b"\r\n", b"\n"))
+        for path in files
+    }
+
+
+def sources_hash() -> str:
+    """Return one digest of all sources that results depend on, 8 hexadecimal digits."""
+    return _digest("".join(f"{k} {v}\n" for k, v in numerical_sources().items()).encode())
+
+
+def provenance() -> dict[str, str]:
+    """Return what a Dataset says of its origin, as attributes.
+
+    Returns
+    -------
+    dict of str to str
+        "Conventions", "source" (version and digest of the sources), "software", "date_created"
+        (UTC), "references" (what is to be cited).
+    """
+    now = datetime.datetime.now(datetime.UTC)
+    return {
+        "Conventions": "CF-1.8",
+        "source": f"lir-dcfp {package_version()}, sources {sources_hash()}",
+        "software": (
+            f"Python {platform.python_version()}, numpy {np.__version__}, scipy "
+            f"{scipy.__version__}, numba {numba.__version__}"
+        ),
+        "date_created": f"{now:%Y-%m-%dT%H:%M:%SZ}",
+        "references": f"{CITATION}, version {package_version()}",
+    }
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:8]
