@@ -301,8 +301,6 @@ def _of_the_bearing(
     bearing, bounds = parts.bearing(), parts.bounds()
     checks = device_checks(bearing, loads, slip=slip, bounds=bounds, limits=parts.limits())
     checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
-    totals: dict[Bound, float] = {
-        each.bound: each.total_displacement for each in known.equivalent.bounds.values()
     level = _of_bearings(parts)
     allowed: dict[Bound, float] = {
         each.bound: each.allowed_displacement for each in known.equivalent.bounds.values()

@@ -21,8 +21,8 @@ from frames import (
     sobol_sample,
     time_histories,
 )
-from frames.campaign.designs import with_parameters
 from frames._fingerprint import fingerprint
+from frames.campaign.designs import with_parameters
 from frames.campaign.lock import locked
 from frames.campaign.plan import Plan, differences
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction

@@ -90,7 +90,7 @@ def test_hunted_runs_are_refused_by_other_fits(method: str, tmp_path: object) ->
     table.to_csv(f"{tmp_path}/runs.csv", index=False)
     given.append(IntensityRuns(pd.read_csv(f"{tmp_path}/runs.csv"), SA, {"demand": "1"}))
     for each in given:
-        with pytest.raises(FragilityError, match="chosen by the outcome .*method='capacities'"):
+        with pytest.raises(FragilityError, match=r"chosen by the outcome .*method='capacities'"):
             fragility_of(each, LIMIT, method=method)  # type: ignore[arg-type]
 
 
@@ -169,7 +169,7 @@ def test_files_hold_all_of_it(tmp_path: object) -> None:
 
 def test_what_cannot_be_written_is_told(tmp_path: object) -> None:
     curve = lognormal_fragility(2.0, 0.4)
-    with pytest.raises(TypeError, match="not a Fragility: .*save_fragility"):
+    with pytest.raises(TypeError, match=r"not a Fragility: .*save_fragility"):
         save(curve, f"{tmp_path}/x.nc")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="give them by name"):
         write_tables(curve, f"{tmp_path}/tables")  # type: ignore[arg-type]
