@@ -110,7 +110,6 @@ ATTRIBUTES = {
     "Conventions": "conventions of the metadata that are followed",
     "source": "version of the package, and a digest of the sources that numbers depend on",
     "software": "versions of Python, numpy, scipy and numba",
-    "date_created": "date and time of the run (UTC)",
     "references": "what is to be cited",
     "message": '"completed", or what happened, when, where, and what to try',
     "failed_at": "time of the failure [s]; only of a run that failed",

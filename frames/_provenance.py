@@ -49,8 +49,13 @@ def sources_hash() -> str:
     return _digest("".join(f"{k} {v}\n" for k, v in numerical_sources().items()).encode())
 
 
-def provenance() -> dict[str, str]:
-    """Return what a Dataset says of its origin, as attributes.
+def provenance(dated: bool = True) -> dict[str, str]:
+    """Return what results say of their origin, as attributes.
+
+    Parameters
+    ----------
+    dated : bool
+        Whether with the date: what is computed twice from the same is the same without it.
 
     Returns
     -------
@@ -59,6 +64,7 @@ def provenance() -> dict[str, str]:
         (UTC), "references" (what is to be cited).
     """
     now = datetime.datetime.now(datetime.UTC)
+    date = {"date_created": f"{now:%Y-%m-%dT%H:%M:%SZ}"} if dated else {}
     return {
         "Conventions": "CF-1.8",
         "source": f"lir-dcfp {package_version()}, sources {sources_hash()}",
@@ -66,8 +72,8 @@ def provenance() -> dict[str, str]:
             f"Python {platform.python_version()}, numpy {np.__version__}, scipy "
             f"{scipy.__version__}, numba {numba.__version__}"
         ),
-        "date_created": f"{now:%Y-%m-%dT%H:%M:%SZ}",
         "references": f"{CITATION}, version {package_version()}",
+        **date,
     }
 
 

@@ -147,7 +147,7 @@ def time_histories(
         "spectral_radius": float(spectral_radius),
         "seconds": perf_counter() - began,
         "lir_dcfp_version": package_version(),
-        **provenance(),
+        **provenance(dated=False),
     }
     if not is_whole:
         stop: AnalysisInterrupted = _Interrupted(_computed(data), data)

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from frames.analysis.cutting import storey_rows
-from frames.analysis.resultants import RESULTANTS, moving_mass
+from frames.analysis.resultants import moving_mass
 from frames.analysis.static import expand
 from frames.analysis.yielding import part_variables
 from frames.assembly.assemble import node_geometric_stiffness
@@ -103,7 +103,7 @@ def build_dataset(
         ),
         "imbalance": labelled(
             ("time", "resultant"),
-            of(motion.imbalance, len(RESULTANTS)),
+            of(motion.imbalance, len(state.resultants.names)),
             "1",
             "sum of all forces over the weight, of moments over that times half the extent",
         ),
@@ -149,7 +149,7 @@ def build_dataset(
         "node": list(system.node_names),
         "dof": list(DOFS),
         "term": list(ENERGY_TERMS),
-        "resultant": list(RESULTANTS),
+        "resultant": list(state.resultants.names),
         "level": [lv.name for lv in frame.levels],
         **names,
         **bearing_coordinates([name for name, _, _, _ in system.bearings]),

@@ -75,7 +75,11 @@ class Resultants:
         motions, formed, extent = _rigid_motions(state)
         weight = max(float(np.abs(system.load).sum()), 1e-300)
         scale = np.where(np.arange(6) < 3, weight, weight * extent)
-        motions = np.where(formed, motions / scale, np.nan)
+        self.names = tuple(
+            name for name, is_formed in zip(RESULTANTS, formed, strict=True) if is_formed
+        )
+        """Sums that are formed, of `RESULTANTS`."""
+        motions = (motions / scale)[:, formed]
         whole = np.hstack([basis.expand_b, basis.expand_e])
         if state.parts is not None:
             whole = np.hstack([whole, -state.part_shift])
@@ -106,9 +110,9 @@ class Resultants:
 
         Returns
         -------
-        ndarray, (last - first, 6)
+        ndarray, (last - first, len(names))
             Sums of forces over the weight, of moments over weight times half the structure's
-            extent [-]; NaN of those that are not formed.
+            extent [-].
         """
         rows = slice(first, last)
         x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])

@@ -233,7 +233,7 @@ def _run(
         "features_left_out": ", ".join(features.left_out) or "none",
         "plane_coupling": 0.0 if features.second_direction else plane_coupling(model),
         "motion_digest": motion_digest(motion),
-        **provenance(),
+        **provenance(dated=False),
     }
     if options.method == "direct":
         return _run_from(gravity(model, features, level), model, motion, options, attrs)

@@ -48,10 +48,9 @@ def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
     if "imbalance" not in data and "reached_imbalance" not in data:
         return ()
     gaps = largest(data, "imbalance")
-    formed = np.isfinite(gaps.values)
     text, most, doubtful = "equilibrium: supports share in it, not summed up", 0.0, False
-    if formed.any():
-        k = int(np.argmax(np.where(formed, gaps.values, -1.0)))
+    if gaps.values.size:
+        k = int(np.argmax(gaps.values))
         most, name = float(gaps.values[k]), str(data["resultant"].to_numpy()[k])
         doubtful = most > BALANCED
         over = "the weight" if name.startswith("F") else "weight times half the extent"

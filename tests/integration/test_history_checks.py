@@ -97,8 +97,12 @@ def test_from_seven_motions_on_the_mean_counts_below_the_largest(
     assert (seven["status"] == "ok").all()
     moved = seven["reached_displacement"].to_numpy()[:, 0]
     drift = seven["reached_drift"].to_numpy()
+    alone = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
     asce = history_checks(seven, frame, "ASCE 7-22")
-    assert asce.passed
+    assert {c.title for c in asce.failed} == {
+        "gap of uplift over the height of the rims: not evaluated"  # a stick on one bearing
+    }
+    assert history_checks(seven, alone, "ASCE 7-22").passed
     assert one(asce, "isolator displacement").demand == pytest.approx(moved.mean(), rel=1e-12)
     theta = one(asce, "storey drift ratio")
     assert (theta.demand, theta.limit) == pytest.approx((drift.mean(axis=0).max(), 0.02))
@@ -220,7 +224,7 @@ def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(
     assert not one(
         history_checks(unknown, alone, "EN 1998-1"), "time lifted off by over 1 mm"
     ).passed
-    assert history_checks(gone, frame, "ASCE 7-22").passed
+    assert history_checks(gone, alone, "ASCE 7-22").passed
     row = history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings"]
     assert (row["value"], row["worst"], row["run"]) == (pytest.approx(3.0 / 7.0), 3.0, "pulse 1.1")
     assert row["note"] == ""

@@ -21,7 +21,7 @@ _SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and s
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
 _MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
 _MAX_SEARCH, _ENOUGH = 60, 1e-12  # iterations for a torque, and its relative error
-_CHOSEN = 2.25  # m: effective radius for which these are chosen; with the pendulum's time they grow
+_CHOSEN = 2.0  # m: effective radius for which these are chosen; with the pendulum's time they grow
 _LAG = 0.005  # s, of speeds and centres of pressure: steps must not answer each other (a choice)
 _CREEP = 1e-5  # m/s, with which a surface that sticks counts as sliding (a choice)
 
@@ -52,7 +52,7 @@ def torque_of_spin(ratio: float) -> tuple[float, float]:
 
 @kernel
 def own_time(p: Props) -> float:
-    """Return the time of the bearing's pendulum over that of an effective radius of 2.25 m.
+    """Return the time of the bearing's pendulum over that of an effective radius of 2 m.
 
     Times and speeds without a law of their own follow it, so that what is similar moves alike.
     """
