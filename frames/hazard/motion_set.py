@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frames._errors import MotionError
+from frames._errors import MotionError, MotionWarning
 from frames.hazard.fault_axes import angle_of, to_fault
 from frames.hazard.fema_records import fema_p695_records
 from frames.hazard.motion_collection import MotionCollection
 from frames.hazard.motion_folder import read_at2_folder, read_table
+from frames.hazard.plausible import twins
 from frames.hazard.scaling import scaled_so
 from frames.hazard.spectrum import Spectrum
 from lir_element.door import require_choice
@@ -238,8 +240,11 @@ class MotionSet(MotionCollection):
         Warns
         -----
         MotionWarning
-            If a factor is out of the limits, or there are fewer motions than asked for.
+            If a factor is out of the limits, there are fewer motions than asked for, or one
+            record is there twice.
         """
+        for doubt in twins(self):
+            warnings.warn(doubt, MotionWarning, stacklevel=2)
         before = {} if self.scaling is None else self.scaling.factors
         done = scaled_so(
             self, before, spectrum, rule, periods, how, measure, part, damping, limits, least

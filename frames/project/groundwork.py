@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from frames._errors import ModelWarning
 from frames.checks.analysis import equivalent_linear
 from frames.checks.asce7 import ASCE7
 from frames.checks.en1998 import EN1998
@@ -14,6 +16,8 @@ from frames.checks.history_rules import RULES
 from frames.checks.isolation import IsolationSystem
 from frames.checks.motions import period_range
 from frames.checks.nch2745 import NCh2745
+from frames.hazard.plausible import factor_doubts, twins
+from frames.project.plausible import file_doubts, wind_doubts
 from frames.project.schema import OpenSeesModel
 
 if TYPE_CHECKING:
@@ -71,10 +75,18 @@ def groundwork(parts: Parts) -> Groundwork:
         If a section cannot be.
     CheckError, ModelError, MotionError
         If the analysis or the scaling fails.
+
+    Warns
+    -----
+    ModelWarning
+        On values that are probably in another unit, a record that is there twice, and wind that
+        slides the bearings.
     """
     parts.limits(), parts.rules()  # refused before anything is run
+    _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    _warn(wind_doubts(parts.file, system, parts.bounds()))
     code = CODES[parts.file.project.code]()
     equivalent = equivalent_linear(
         system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
@@ -106,9 +118,16 @@ def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinea
     """
     motions, scale = parts.motions(), parts.file.motions.scale
     if scale != "spectrum":
-        return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+        scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+        _warn((*twins(scaled), *factor_doubts(scale, scaled)))
+        return scaled
     rule = RULES[parts.file.project.code]
     return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
+
+
+def _warn(doubts: tuple[str, ...]) -> None:
+    for doubt in doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
 
 
 def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:

@@ -14,6 +14,9 @@ _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*
 _POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
 
 
+_LEAST_IN_MM = 20.0  # a smaller length without a unit was probably meant in m
+
+
 @cache
 def _units() -> pint.UnitRegistry[float]:
     return pint.UnitRegistry()
@@ -48,7 +51,7 @@ def si(value: object, unit: str, example: str) -> float:
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if unit:
-            msg = f'has no unit: write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
+            msg = f"has no unit: {_written(value, unit, example)}"
             raise ValueError(msg)
         return _finite(float(value))
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
@@ -59,6 +62,8 @@ def si(value: object, unit: str, example: str) -> float:
     if unit and not given:
         msg = f'has no unit: write it as "{example}"'
         raise ValueError(msg)
+    if unit == "m/s^2" and given in {"g", "G"}:  # elsewhere the gram
+        given = "standard_gravity"
     try:
         factor = _units().Quantity(1.0, given or "dimensionless").to(unit or "dimensionless")
     except pint.UndefinedUnitError as cause:
@@ -68,6 +73,13 @@ def si(value: object, unit: str, example: str) -> float:
         msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
         raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
+
+
+def _written(value: float, unit: str, example: str) -> str:
+    # A number with its unit; of lengths that are too short for mm, m.
+    if unit == "m" and abs(value) < _LEAST_IN_MM:
+        return f'write "{value:g} m" or "{1e3 * value:g} mm" if that is meant'
+    return f'write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
 
 
 def _finite(number: float) -> float:
