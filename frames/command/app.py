@@ -146,6 +146,12 @@ def report(
         parts = _parts(file)
         known = groundwork(parts)
         found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        if (results / "interrupted.nc").is_file():
+            text = (
+                f"warning: {results / 'interrupted.nc'} is of a later run that was interrupted: "
+                "the report is of the whole run before it"
+            )
+            err.print(text, markup=False, highlight=False, soft_wrap=True)
         written = write_judgement(found, results, file.read_text(encoding="utf-8"))
         _told_of(found, written, results)
 

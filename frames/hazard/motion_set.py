@@ -67,7 +67,7 @@ class MotionSet(MotionCollection):
         table : str
             The table there, comma separated with a line of titles. Columns: "name"; "x", "y",
             "z", file names (empty where there is none), PEER AT2 or columns of text; for the
-            latter "unit" (g, m/s2, cm/s2) and "dt" [s] (empty: times are in the first column).
+            latter "unit" (g, m/s2, cm/s2, gal) and "dt" [s] (empty: times are in the first column).
             All others are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y",
             "near_fault" and "pulse" (yes or no), and so on.
 

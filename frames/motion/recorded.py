@@ -93,7 +93,7 @@ class RecordedMotion(MotionContents):
         x, y, z : int, str, path or (path, int), optional
             Where each component is: a column of `path`, counted from 0; a file of its own, with
             one column besides the times; or a file and its column.
-        unit : {"g", "m/s2", "cm/s2"}
+        unit : {"g", "m/s2", "cm/s2", "gal"}
             Unit of the accelerations in the files.
         time : int, optional
             Column of the times [s] in each file. Give it or `dt`.

@@ -13,7 +13,7 @@ pytest.importorskip("typer")
 
 from typer.testing import CliRunner
 
-from frames import GroundMotion, MotionSet, MotionWarning, Spectrum
+from frames import GroundMotion, MotionSet, MotionWarning, Spectrum, load
 from frames.command.app import app
 from frames.hazard.motion_folder import read_table
 from frames.motion.plausible import record_doubts
@@ -215,3 +215,15 @@ def test_what_lacks_a_strike_names_the_column() -> None:
     lacking = MotionSet({"a": motion}, {"a": {"near_fault": True}})
     with pytest.raises(ValueError, match=r"strike = None.* column strike of motions\.csv"):
         lacking.fault_normal()
+
+
+def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "a.txt", [0.0, 100.0, 0.0])
+    motion = GroundMotion.from_columns(x=tmp_path / "a.txt", dt=0.01, unit="gal")
+    assert motion.peak["x"] == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("lazy", [False, True])
+def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"nope\.nc is no file: give one that save"):
+        load(tmp_path / "nope.nc", lazy=lazy)
