@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames._errors import CheckError
 from frames.checks.check import Bound, Check, Checks
-from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.equivalent import Judge, enter_system, held_by, secant, settle
 from frames.checks.levels import MCE_R
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
@@ -146,7 +146,7 @@ class ASCE7:
             return t
 
         start = system.gravity * s_m1 / 10.0
-        t, rounds = settle(step, start, _SYMBOLS)
+        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)

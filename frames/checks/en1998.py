@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames._errors import CheckError
 from frames.checks.check import Bound, Checks
-from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.equivalent import Judge, enter_system, held_by, secant, settle
 from frames.checks.levels import DESIGN
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
@@ -120,7 +120,7 @@ class EN1998:
             return t
 
         start = 0.1 * max(p.effective_radius for p in system.pendulums)
-        t, rounds = settle(step, start, _SYMBOLS)
+        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("d_dc"))
         self._torsion(t, system)

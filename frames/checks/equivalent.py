@@ -15,9 +15,11 @@ if TYPE_CHECKING:
     from typing import Literal
 
     from frames.checks.isolation import IsolationSystem
+    from frames.hazard.spectrum import Spectrum
 
 _MOST_ROUNDS = 500
 _SETTLED = 1e-12
+_NOTHING = 1e-9  # m
 
 
 def enter_system(system: IsolationSystem) -> Trace:
@@ -60,8 +62,15 @@ def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: st
     t(symbols.period, f"2 * pi * sqrt(W / ({k} * g))", "s", source=source)
 
 
+def held_by(system: IsolationSystem, spectrum: Spectrum) -> str:
+    """Return peak acceleration and friction in words, for the message of `settle`."""
+    peak = float(spectrum.acceleration(spectrum.reach[0])) / system.gravity
+    friction = system.strength / system.seismic_weight
+    return f" (peak acceleration {peak:.3g} g, friction {friction:.3g} of the weight)"
+
+
 def settle(
-    step: Callable[[float], Trace], start: float, symbols: Symbols
+    step: Callable[[float], Trace], start: float, symbols: Symbols, held: str = ""
 ) -> tuple[Trace, tuple[Iteration, ...]]:
     """Find the displacement at which stiffness and damping give that displacement.
 
@@ -73,6 +82,8 @@ def settle(
         First assumption [m].
     symbols : Symbols
         What the calculation calls displacement, stiffness, damping and period.
+    held : str
+        Peak acceleration and friction in words, for a message.
 
     Returns
     -------
@@ -84,7 +95,7 @@ def settle(
     Raises
     ------
     CheckError
-        If they do not agree after 500 rounds.
+        If they do not agree after 500 rounds, or nothing slides.
     """
     rounds: list[Iteration] = []
     assumed = start
@@ -97,6 +108,13 @@ def settle(
         rounds.append(Iteration(assumed, k, beta, period, found))
         if abs(found - assumed) <= _SETTLED * found:
             return t, tuple(rounds)
+        if found < _NOTHING:
+            msg = (
+                f"nothing slides at this hazard: the displacement falls below {_NOTHING:g} m, as "
+                "the acceleration at short periods over its damping factor is below the friction"
+                f"{held}: look at the unit of the spectrum (0.25 g are 2.45 m/s2), or lower it"
+            )
+            raise CheckError(msg)
         assumed = found
     msg = (
         f"the displacement does not settle: {assumed:.4g} m after {_MOST_ROUNDS} rounds; the "

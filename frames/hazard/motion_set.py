@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frames._errors import MotionError
+from frames._errors import MotionError, MotionWarning
 from frames.hazard.fault_axes import angle_of, to_fault
 from frames.hazard.fema_records import fema_p695_records
 from frames.hazard.motion_collection import MotionCollection
 from frames.hazard.motion_folder import read_at2_folder, read_table
+from frames.hazard.plausible import twins
 from frames.hazard.scaling import scaled_so
 from frames.hazard.spectrum import Spectrum
 from lir_element.door import require_choice
@@ -65,7 +67,7 @@ class MotionSet(MotionCollection):
         table : str
             The table there, comma separated with a line of titles. Columns: "name"; "x", "y",
             "z", file names (empty where there is none), PEER AT2 or columns of text; for the
-            latter "unit" (g, m/s2, cm/s2) and "dt" [s] (empty: times are in the first column).
+            latter "unit" (g, m/s2, cm/s2, gal) and "dt" [s] (empty: times are in the first column).
             All others are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y",
             "near_fault" and "pulse" (yes or no), and so on.
 
@@ -238,8 +240,11 @@ class MotionSet(MotionCollection):
         Warns
         -----
         MotionWarning
-            If a factor is out of the limits, or there are fewer motions than asked for.
+            If a factor is out of the limits, there are fewer motions than asked for, or one
+            record is there twice.
         """
+        for doubt in twins(self):
+            warnings.warn(doubt, MotionWarning, stacklevel=2)
         before = {} if self.scaling is None else self.scaling.factors
         done = scaled_so(
             self, before, spectrum, rule, periods, how, measure, part, damping, limits, least

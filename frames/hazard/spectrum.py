@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import MotionError
+from frames._errors import MotionError, MotionWarning
 from frames.hazard import damping_factors as df
 from frames.hazard import spectral_shapes as sh
 from frames.hazard.elastic_spectrum import ElasticSpectrum
@@ -19,6 +20,12 @@ if TYPE_CHECKING:
 
 LARGEST_IN_G = 10.0
 """Spectral acceleration that no code asks for [g]: what is larger was given in another unit."""
+
+LARGEST_PARAMETER = 5.0
+"""S_MS and S_M1 that no site has [g]."""
+
+LONGEST_CORNER = 1.3
+"""S_M1 / S_MS above what sites have, the softest included [s]."""
 
 
 @dataclass(frozen=True, repr=False, slots=True)
@@ -72,6 +79,11 @@ class Spectrum(ElasticSpectrum):
         ------
         MotionError
             If a parameter is out of its bounds.
+
+        Warns
+        -----
+        MotionWarning
+            If s_m1 / s_ms is above 1.3 s, as where they are exchanged.
         """
         short, long = _in_g("s_ms", s_ms), _in_g("s_m1", s_m1)
         late = require_positive("t_l", t_l, "s", error=MotionError)
@@ -82,6 +94,13 @@ class Spectrum(ElasticSpectrum):
                 "order of s_ms and s_m1, both in g"
             )
             raise MotionError(msg)
+        if corner > LONGEST_CORNER:
+            msg = (
+                f"T_S = s_m1 / s_ms = {long:g} / {short:g} = {corner:.3g} s, usual are 0.3 to 1.2 "
+                "s: s_ms and s_m1 are probably exchanged, which changes the displacement at long "
+                f"periods by a factor of {corner:.3g}; give s_ms at short periods, s_m1 at 1 s"
+            )
+            warnings.warn(msg, MotionWarning, stacklevel=2)
         constants = {"S_MS": short, "S_M1": long, "T_0": 0.2 * corner, "T_S": corner, "T_L": late}
         label = name or f"ASCE 7 MCE_R, S_MS = {short:g} g, S_M1 = {long:g} g"
         return cls("ASCE 7-22", label, "asce7", "ASCE 7", tuple(constants.items()))
@@ -316,7 +335,7 @@ def _in_g(name: str, value: float) -> float:
         name,
         require_positive(name, value, "g", remedy="give it in g", error=MotionError),
         0.0,
-        LARGEST_IN_G,
+        LARGEST_PARAMETER,
         "g",
         remedy=f"give it in g ({value:g} m/s2 are {value / STANDARD_GRAVITY:.3g} g)",
         error=MotionError,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
+from frames._errors import MotionWarning
 from frames.motion import changes
 from frames.motion.components import AXES
 from frames.motion.contents import MotionContents
+from frames.motion.plausible import record_doubts
 from frames.motion.records import (
     AccelerationTrace,
     ColumnLayout,
@@ -58,7 +61,8 @@ class RecordedMotion(MotionContents):
         Warns
         -----
         MotionWarning
-            If the ground still moves at the end of a component.
+            If the ground still moves at the end of a component, its time step gives it
+            displacements that no ground has, or it was cut in its strong phase.
         """
         traces, label = at2_traces(x, y, z)
         return cls._from_traces(traces, label if name is None else name, scale)
@@ -89,7 +93,7 @@ class RecordedMotion(MotionContents):
         x, y, z : int, str, path or (path, int), optional
             Where each component is: a column of `path`, counted from 0; a file of its own, with
             one column besides the times; or a file and its column.
-        unit : {"g", "m/s2", "cm/s2"}
+        unit : {"g", "m/s2", "cm/s2", "gal"}
             Unit of the accelerations in the files.
         time : int, optional
             Column of the times [s] in each file. Give it or `dt`.
@@ -119,7 +123,8 @@ class RecordedMotion(MotionContents):
         Warns
         -----
         MotionWarning
-            If the ground still moves at the end of a component.
+            If the ground still moves at the end of a component, its time step gives it
+            displacements that no ground has, or it was cut in its strong phase.
 
         Examples
         --------
@@ -145,4 +150,6 @@ class RecordedMotion(MotionContents):
         x, y, z = (arrays.get(axis) for axis in AXES)
         motion = cls._made(x, y, z, common_step(traces), name)
         motion._warn_of_drift(recorded=True)
+        for doubt in record_doubts(arrays, motion.dt):
+            warnings.warn(f"{name}: {doubt}", MotionWarning, stacklevel=3)
         return motion._with(changes.scaled(motion._given(), scale))

@@ -29,7 +29,7 @@ TIME_TOLERANCE = 0.02
 """How far a printed time may lie off the even grid, as a part of the step [-]: times are rounded,
 while a sample that is missing puts every later one off by a whole step."""
 
-UNITS = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01}
+UNITS = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01, "gal": 0.01}
 """Units that `read_columns` accepts, and what one of them is in m/s2."""
 
 _AT2_UNITS = {
@@ -155,7 +155,7 @@ class ColumnLayout(NamedTuple):
 
     Attributes
     ----------
-    unit : {"g", "m/s2", "cm/s2"}
+    unit : {"g", "m/s2", "cm/s2", "gal"}
         Unit of the accelerations.
     time : int or None
         Column of the times [s], counted from 0; they must be evenly spaced.

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from frames._errors import ModelWarning
 from frames.checks.analysis import equivalent_linear
 from frames.checks.asce7 import ASCE7
 from frames.checks.en1998 import EN1998
@@ -14,7 +16,10 @@ from frames.checks.history_rules import RULES
 from frames.checks.isolation import IsolationSystem
 from frames.checks.motions import period_range
 from frames.checks.nch2745 import NCh2745
+from frames.hazard.plausible import factor_doubts, twins
+from frames.project.plausible import file_doubts, wind_doubts
 from frames.project.schema import OpenSeesModel
+from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from frames.checks.outcome import EquivalentLinear
@@ -71,10 +76,18 @@ def groundwork(parts: Parts) -> Groundwork:
         If a section cannot be.
     CheckError, ModelError, MotionError
         If the analysis or the scaling fails.
+
+    Warns
+    -----
+    ModelWarning
+        On values that are probably in another unit, a record that is there twice, and wind that
+        slides the bearings.
     """
     parts.limits(), parts.rules()  # refused before anything is run
+    _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    _warn(wind_doubts(parts.file, system, parts.bounds()))
     code = CODES[parts.file.project.code]()
     equivalent = equivalent_linear(
         system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
@@ -106,9 +119,16 @@ def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinea
     """
     motions, scale = parts.motions(), parts.file.motions.scale
     if scale != "spectrum":
-        return type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+        scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+        _warn((*twins(scaled), *factor_doubts(scale, scaled)))
+        return scaled
     rule = RULES[parts.file.project.code]
     return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
+
+
+def _warn(doubts: tuple[str, ...]) -> None:
+    for doubt in doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
 
 
 def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
@@ -146,6 +166,7 @@ def inputs_of(parts: Parts, known: Groundwork) -> dict[str, str]:
         for name, motion in known.motions.items()
     ]  # fmt: skip
     found["motions"] = _digest(b"".join(samples))
+    found["version of lir-dcfp"] = package_version()
     levels = parts.rules().levels
     if len(levels) > 1:
         found["levels"] = _digest(repr([(one.name, one.factor) for one in levels]).encode())

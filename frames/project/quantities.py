@@ -8,10 +8,13 @@ from functools import cache
 from typing import Annotated
 
 import pint
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
+
+
+_LEAST_IN_MM = 20.0  # a smaller length without a unit was probably meant in m
 
 
 @cache
@@ -48,7 +51,7 @@ def si(value: object, unit: str, example: str) -> float:
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if unit:
-            msg = f'has no unit: write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
+            msg = f"has no unit: {_written(value, unit, example)}"
             raise ValueError(msg)
         return _finite(float(value))
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
@@ -59,6 +62,8 @@ def si(value: object, unit: str, example: str) -> float:
     if unit and not given:
         msg = f'has no unit: write it as "{example}"'
         raise ValueError(msg)
+    if unit == "m/s^2" and given in {"g", "G"}:  # elsewhere the gram
+        given = "standard_gravity"
     try:
         factor = _units().Quantity(1.0, given or "dimensionless").to(unit or "dimensionless")
     except pint.UndefinedUnitError as cause:
@@ -68,6 +73,13 @@ def si(value: object, unit: str, example: str) -> float:
         msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
         raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
+
+
+def _written(value: float, unit: str, example: str) -> str:
+    # A number with its unit; of lengths that are too short for mm, m.
+    if unit == "m" and abs(value) < _LEAST_IN_MM:
+        return f'write "{value:g} m" or "{1e3 * value:g} mm" if that is meant'
+    return f'write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
 
 
 def _finite(number: float) -> float:
@@ -82,6 +94,35 @@ def _kind(unit: str, example: str) -> tuple[BeforeValidator, WithJsonSchema]:
     return BeforeValidator(lambda value: si(value, unit, example)), WithJsonSchema(schema)
 
 
+def positive(number: float) -> float:
+    """Return a number above zero [-, SI], or raise a ValueError."""
+    if not number > 0.0:
+        msg = "must be greater than 0: give its size"
+        raise ValueError(msg)
+    return number
+
+
+def not_negative(number: float) -> float:
+    """Return a number of at least zero [-, SI], or raise a ValueError."""
+    if number < 0.0:
+        msg = "must be at least 0: give its size"
+        raise ValueError(msg)
+    return number
+
+
+def part_of_side(number: float) -> float:
+    """Return an eccentricity over a side of the plan [-], or raise a ValueError."""
+    if abs(number) >= _LARGEST_ECCENTRICITY:
+        meant = f', as "{number:g} %" if per cent are meant' if abs(number) >= 1.0 else ""
+        msg = f"must be between -0.5 and 0.5, a part of the side of the plan: give 0.03{meant}"
+        raise ValueError(msg)
+    return number
+
+
+_LARGEST_ECCENTRICITY = 0.5  # there the mass lies at the edge
+
+Positive, NotNegative = AfterValidator(positive), AfterValidator(not_negative)
+
 Length = Annotated[float, *_kind("m", "175 mm")]
 Force = Annotated[float, *_kind("N", "150 kN")]
 Pressure = Annotated[float, *_kind("Pa", "30 MPa")]
@@ -92,3 +133,4 @@ Time = Annotated[float, *_kind("s", "5 ms")]
 Acceleration = Annotated[float, *_kind("m/s^2", "3.5 m/s2")]
 SpeedRate = Annotated[float, *_kind("s/m", "100 s/m")]
 Ratio = Annotated[float, *_kind("", "0.05")]
+Eccentricity = Annotated[Ratio, AfterValidator(part_of_side)]

@@ -72,14 +72,14 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
         msg = f"{file}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as cause:
-        msg = f"{file} is no TOML: {cause}"
+        msg = f"{file}: TOML syntax error: {cause}"
         raise ProjectError(msg) from cause
     try:
         return kind.model_validate(data)
     except ValidationError as cause:
         lines: dict[str, str] = {}  # of the ways that a key may be given, the first
         for error in cause.errors():
-            lines.setdefault(".".join(_place(error)), _line(file.name, data, error, kind, hint))
+            lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
         raise ProjectError("\n".join(lines.values())) from cause
 
 
@@ -103,11 +103,31 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Section], hin
         near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
         meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
         return f"{name}: {key} is not known{meant}"
+    if kind.startswith("union_tag"):
+        return _of_a_kind(name, key, error)
+    if kind in _TABLES:
+        return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
     text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
     value = error["input"]
     if isinstance(value, (dict, list)):
         return f"{name}: {key}: {text}"
     return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+
+
+_TABLES = {"model_type", "model_attributes_type", "dict_type"}
+"""Kinds of errors where a section was expected."""
+
+
+def _of_a_kind(name: str, key: str, error: Any) -> str:
+    # A section whose kind, or code, is missing or not known.
+    told = error.get("ctx", {})
+    which = str(told.get("discriminator", "kind")).strip("'")
+    where = "project.code" if which == "code" else f"{key}.{which}"
+    known = told.get("expected_tags", "'moment frame', 'shear building', 'opensees'")
+    choices = str(known).replace("'", '"')
+    if "tag" in told:
+        return f'{name}: {where} = "{told["tag"]}" is not known: choose one of {choices}'
+    return f"{name}: {where} is missing: choose one of {choices}"
 
 
 def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -> list[str]:

@@ -10,9 +10,12 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from frames.project.quantities import (
     Acceleration,
     AreaMass,
+    Eccentricity,
     Force,
     Length,
     Mass,
+    NotNegative,
+    Positive,
     Pressure,
     Ratio,
     SpeedRate,
@@ -21,6 +24,8 @@ from frames.project.quantities import (
 )
 
 Pair = tuple[Ratio, Ratio]
+Size = Annotated[Length, Positive]
+Count = Annotated[int, Field(ge=1)]
 CodeName = Literal["ASCE 7-22", "EN 1998", "NCh2745"]
 
 
@@ -41,25 +46,25 @@ class MomentFrame(Section):
     """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
 
     kind: Literal["moment frame"]
-    bays: tuple[int, int]
-    bay_width: tuple[Length, Length]
+    bays: tuple[Count, Count]
+    bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
-    storey_height: Length
-    floor_load: AreaMass
-    eccentricity: Pair = (0.0, 0.0)
+    storey_height: Size
+    floor_load: Annotated[AreaMass, Positive]
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
 class ShearBuilding(Section):
     """``[structure]`` of kind "shear building": rigid floors on storey springs, which tilt."""
 
     kind: Literal["shear building"]
-    bays: tuple[int, int]
-    bay_width: tuple[Length, Length]
-    storey_mass: tuple[Mass, ...] = Field(min_length=1)
-    storey_stiffness: tuple[Stiffness, ...] = Field(min_length=1)
-    storey_height: Length
-    base_mass: Mass | None = None
-    eccentricity: Pair = (0.0, 0.0)
+    bays: tuple[Count, Count]
+    bay_width: tuple[Size, Size]
+    storey_mass: tuple[Annotated[Mass, Positive], ...] = Field(min_length=1)
+    storey_stiffness: tuple[Annotated[Stiffness, Positive], ...] = Field(min_length=1)
+    storey_height: Size
+    base_mass: Annotated[Mass, NotNegative] | None = None
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
 class OpenSeesModel(Section):
@@ -68,8 +73,8 @@ class OpenSeesModel(Section):
     kind: Literal["opensees"]
     script: Path
     base_nodes: tuple[int, ...] = Field(min_length=1)
-    length_unit: Length = 1.0
-    force_unit: Force = 1.0
+    length_unit: Size = 1.0
+    force_unit: Annotated[Force, Positive] = 1.0
 
 
 Structure = Annotated[MomentFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")]
@@ -80,7 +85,7 @@ class Above(Section):
 
     R: float = Field(gt=0.0)
     importance: float = Field(default=1.0, gt=0.0)
-    wind_shear: Force = 0.0
+    wind_shear: Annotated[Force, NotNegative] = 0.0
 
 
 class Friction(Section):
@@ -108,14 +113,14 @@ class Asce7Spectrum(Section):
     code: Literal["ASCE 7-22"]
     s_ms: float = Field(gt=0.0)
     s_m1: float = Field(gt=0.0)
-    t_l: Time = 8.0
+    t_l: Annotated[Time, Positive] = 8.0
 
 
 class En1998Spectrum(Section):
     """``[spectrum]`` of EN 1998-1."""
 
     code: Literal["EN 1998"]
-    a_g: Acceleration
+    a_g: Annotated[Acceleration, Positive]
     ground_type: Literal["A", "B", "C", "D", "E"]
     kind: Literal[1, 2] = 1
     importance: float = Field(default=1.0, gt=0.0)
@@ -202,7 +207,7 @@ class Analysis(Section):
     """``[analysis]``: how time histories are run, and whether uplift voids them."""
 
     level: Literal["pendulum", "contact"] = "pendulum"
-    dt: Time | None = None
+    dt: Annotated[Time, Positive] | None = None
     workers: int | None = Field(default=None, ge=1)
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
     uplift_allowed: bool | None = None

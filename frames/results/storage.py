@@ -154,9 +154,14 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
 
     Raises
     ------
+    FileNotFoundError
+        If there is no such file.
     OSError
-        If there is no such file, or it is none.
+        If it holds no results.
     """
+    if not Path(path).is_file():
+        msg = f"{path} is no file: give one that save, or `lir run`, has written"
+        raise FileNotFoundError(msg)
     if lazy:
         return xr.open_dataset(path, engine="h5netcdf")
     with xr.open_dataset(path, engine="h5netcdf") as data:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from lir_element.device.bearing_checks import check_bearing
+from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
 from lir_element.door import as_pair, frozen_pair, require_positive
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
@@ -44,8 +45,8 @@ class LIRBearing(Specification):
         Height of the whole inner slider on its axis, h [m].
     slider_radius : float
         Radius of the inner slider in plan [m].
-    friction : CoulombFriction or VelocityFriction, or a pair of them
-        Low friction of the surfaces, bottom and top.
+    friction : CoulombFriction, VelocityFriction or float, or a pair of them
+        Low friction of the surfaces, bottom and top; a number is CoulombFriction(number) [-].
     interface_friction : float
         Friction coefficient mu_h of the plane interface [-]; ``math.inf`` fuses the two sliders
         (a plain DCFP).
@@ -121,6 +122,7 @@ class LIRBearing(Specification):
     def __post_init__(self) -> None:
         for name in ("radius", "friction", "plate_thickness", "rims", "slider_mass"):
             object.__setattr__(self, name, frozen_pair(name, getattr(self, name)))
+        object.__setattr__(self, "friction", as_laws(self.friction))
         inertia: object = self.slider_inertia
         if isinstance(inertia, (tuple, list, np.ndarray)):
             pairs = tuple(

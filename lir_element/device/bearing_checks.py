@@ -173,7 +173,7 @@ def _check_friction(bearing: Specification) -> None:
     for law in pair:
         if not isinstance(law, (CoulombFriction, VelocityFriction)):
             msg = (
-                f"friction = {law!r}: give CoulombFriction(mu) or "
+                f"friction = {law!r}: give a number as 0.05, CoulombFriction(mu) or "
                 "VelocityFriction(f_max, f_min, rate), or a pair (bottom, top) of them"
             )
             raise TypeError(msg)

