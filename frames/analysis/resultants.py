@@ -73,7 +73,7 @@ class Resultants:
     def __init__(self, state: AtRestMoving) -> None:
         system, basis = state.system, state.basis
         motions, formed, extent = _rigid_motions(state)
-        weight = max(float(np.abs(system.load).sum()), 1e-300)
+        weight = float(abs(motions[:, 2] @ system.load)) or float(np.abs(system.load).sum()) or 1.0
         scale = np.where(np.arange(6) < 3, weight, weight * extent)
         self.names = tuple(
             name for name, is_formed in zip(RESULTANTS, formed, strict=True) if is_formed
