@@ -62,9 +62,10 @@ def histories_at_levels(
     }
     places = [(level, bound) for level in levels for bound in given.bounds]
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
+    record = Recording.everything() if given.histories == "all" else Recording(every=None)
     data = time_histories(
         models, motions, cases=cases, level=given.level, dt=given.dt, workers=given.workers,
-        progress=progress, record=Recording(every=None),
+        progress=progress, record=record,
     )  # fmt: skip
     found: LevelRuns = {level.name: {} for level in levels}
     for k, (level, bound) in enumerate(places):

@@ -212,6 +212,7 @@ class Analysis(Section):
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
     uplift_allowed: bool | None = None
     least_gap: Length | None = None
+    histories: Literal["governing", "all"] = "governing"
 
 
 class ProjectFile(Section):

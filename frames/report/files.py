@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from frames.project.level_runs import LevelRuns
 
 
+_ENDS = 2  # steps of a run that keeps its first and its last one alone
+
+
 def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     """Write what a run gave.
 
@@ -52,7 +55,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         stale.unlink(missing_ok=True)
     written = {label: folder / f"runs-{label}.nc" for label in _labelled(run)}
     for label, path in written.items():
-        save(_labelled(run)[label][2], path)
+        data = _labelled(run)[label][2]
+        save(data, path, compress=data.sizes.get("time", 0) > _ENDS)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
     kept = [*write_judgement(run, folder, source), *written.values(), governing]
