@@ -138,8 +138,8 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
         raise_to(reached.axis, reached.axis_at, 0, abs(x), t)
         raise_to(reached.axis, reached.axis_at, 1, abs(y), t)
         raise_to(reached.axis, reached.axis_at, 2, abs(z), t)
-        shift_x = p.lever[0] * u[4] + p.lever[1] * u[10]
-        shift_y = -p.lever[0] * u[3] - p.lever[1] * u[9]
+        shift_x = -p.lever[0] * u[4] - p.lever[1] * u[10]  # C2 - C1: x_j - l2 e_j - x_i - l1 e_i
+        shift_y = p.lever[0] * u[3] + p.lever[1] * u[9]
         s = state.slip_total
         slip = math.sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2])
         gap = 0.0

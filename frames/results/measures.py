@@ -298,7 +298,10 @@ def lateral_capacity(data: xr.Dataset) -> FloatArray:
 
 
 def centre_shift(data: xr.Dataset) -> FloatArray:
-    """Return how far rotations of the nodes move the spheres' centres (time, bearing, 2) [m]."""
+    """Return how far rotations of the nodes move the upper centre over the lower (time, bearing, 2).
+
+    In m. With ``C1 = x_i + l1 e_i``, ``C2 = x_j - l2 e_j`` and ``e = (r_y, -r_x, 1)``.
+    """
     if (data["bearing_node"] < 0).any():
         msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
         raise ValueError(msg)
@@ -307,8 +310,8 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
     for end, name in enumerate(("bottom", "top")):
         place = data["bearing_node"].isel(end=end).to_numpy()
         lever = data["lever"].sel(surface=name).to_numpy()
-        total[..., 0] += lever * turns[:, place, 1]
-        total[..., 1] -= lever * turns[:, place, 0]
+        total[..., 0] -= lever * turns[:, place, 1]
+        total[..., 1] += lever * turns[:, place, 0]
     return total
 
 

@@ -170,11 +170,29 @@ def test_plate_rotation_is_that_of_the_spheres_centres():
     data = time_history(frame, PULSE, dt=DT)
     turns = data["node_displacement"].sel(node="base-0-0", dof="ry")
     shift = centre_shift(data)[:, 0, 0]
-    assert_allclose(shift, 1.0 * turns, rtol=0.0, atol=1e-15)  # the ground does not turn
+    assert_allclose(shift, -1.0 * turns, rtol=0.0, atol=1e-15)  # the ground does not turn
     finding = found(data)["plate_rotation"]
     largest = np.linalg.norm(data["bearing_displacement"][..., :2], axis=-1).max()
     size = np.linalg.norm(centre_shift(data), axis=-1).max()
     assert_allclose(finding.number, size / largest, rtol=1e-12)
+
+
+def test_centres_lie_where_the_axial_force_says():
+    """Where a bearing is pressed, the centres' distance is beyond L + s by its force over k."""
+    frame = moment_frame((1, 1), 3, bearing=device())
+    data = time_history(frame, PULSE, dt=DT)
+    stiffness = device().resolved()["axial_stiffness"]
+    moved, length = data["bearing_displacement"].to_numpy(), data["length"].to_numpy()
+    slip, force = (data[name].to_numpy() for name in ("interface_slip_size", "axial_force"))
+
+    def off(across) -> float:
+        square = (across**2).sum(axis=-1) + (length - moved[..., 2]) ** 2 - slip**2
+        beyond = np.sqrt(square) - length - force / stiffness
+        return float(np.abs(beyond[force > 0.0]).max())
+
+    shift, level = centre_shift(data), moved[..., :2]
+    assert off(level) > 10.0 * off(level + shift)
+    assert off(level - shift) > 1.5 * off(level)  # the other sign is worse than none
 
 
 def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
