@@ -1,0 +1,163 @@
+"""Peaks of every run from its histories, by definitions of docs/results.md and docs/conventions.md."""
+
+import numpy as np
+
+SAME_PLACE = 1e-3  # m
+PRESSED = 0.05  # share of the load at rest below which a resultant's offset does not count
+
+
+def peaks(data, statics):
+    """Return what each run reached, by name as the package has it, (n_runs, ...)."""
+    count = len(data["run"])
+    rows = [of_run(one(data, k), statics) for k in range(count)]
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
+def one(data, k):
+    """Return the histories of a run, without what fills it up."""
+    time = data["time"]
+    time = time if time.ndim == 1 else time[k]
+    force = data["axial_force"][k]
+    until = int(np.isfinite(force).all(axis=-1).sum())  # a run that ended early is filled by NaN
+    found = {"time": time[:until]}
+    for name in (
+        "axial_force", "bearing_displacement", "bearing_force", "interface_slip",
+        "interface_slip_size", "interface_eccentricity", "rim_force", "slider_displacement",
+        "node_displacement", "node_acceleration", "base_shear", "storey_shear", "energy",
+        "ground_acceleration",
+    ):  # fmt: skip
+        found[name] = data[name][k][:until]
+    return found
+
+
+def plan(values):
+    """Return sizes in plan of vectors."""
+    return np.sqrt(values[..., 0] ** 2 + values[..., 1] ** 2)
+
+
+def of_run(run, statics):
+    """Return what one run reached."""
+    time, force = run["time"], run["axial_force"]
+    moved, slip = plan(run["bearing_displacement"]), run["interface_slip_size"]
+    lifted = force <= 0.0
+    begins = lifted.copy()
+    begins[1:] &= ~lifted[:-1]
+    steps = np.diff(time, prepend=time[0])
+    offset = run["interface_eccentricity"] / statics["slider_radius"]
+    pressed = force > PRESSED * statics["static_axial_force"]
+    means, drifts, lines = floors(run, statics)
+    kinetic = run["energy"]
+    found = {
+        "displacement": moved.max(0), "displacement_left": moved[-1],
+        "displacement_along": np.abs(run["bearing_displacement"]).max((0, 1)),
+        "force": plan(run["bearing_force"]).max(0),
+        "axial_force": force.max(0), "axial_tension": -force.min(0),
+        "slip": slip.max(0), "slip_left": slip[-1],
+        "sliding": plan(run["slider_displacement"]).max(0),
+        "rim_force": run["rim_force"].max((0, 2)),
+        "rims_met": (run["rim_force"] > 0.0).any((0, 2)).astype(float),
+        "eccentricity": np.where(pressed, offset, 0.0).max(0),
+        "time_lifted": (steps[:, None] * lifted).sum(0), "uplifts": float(begins.sum()),
+        "gap": gaps(run, statics, lifted).max(0),
+        "base_shear": plan(run["base_shear"]).max(),
+        "storey_shear": plan(run["storey_shear"]).max(0),
+        "floor_plan": plan(means).max(0), "drift": drifts.max(0), "line_drift": lines.max(0),
+        "energy_input": np.abs(kinetic[:, 0]).max(),
+        "energy_gap": np.abs(kinetic[:, 0] - kinetic[:, 1:].sum(1)).max(),
+        "until": time[-1],
+    }  # fmt: skip
+    return found | {f"{k}_at": time[v] for k, v in {
+        "displacement": moved.argmax(0), "base_shear": plan(run["base_shear"]).argmax(),
+        "axial_force": force.argmax(0),
+    }.items()}  # fmt: skip
+
+
+def floors(run, statics):
+    """Return accelerations of levels by mass, drifts of their means, and drifts of lines."""
+    level, mass = statics["level_node"], statics["node_mass"]
+    place, heights = statics["node_position"], statics["level_height"]
+    moves, pushed = run["node_displacement"][..., :2], run["node_acceleration"]
+    means, centres = [], []
+    for k in range(len(heights)):
+        on = level == k
+        share = mass[on, :2] / mass[on, :2].sum(0) if mass[on, 0].sum() > 0.0 else 1.0 / on.sum()
+        means.append((pushed[:, on, :2] * share).sum(1))
+        centres.append(moves[:, on].mean(1))
+    drifts, lines = [], []
+    for k in range(1, len(heights)):
+        rise = heights[k] - heights[k - 1]
+        drifts.append(plan(centres[k] - centres[k - 1]) / rise)
+        low = np.flatnonzero(level == k - 1)
+        for up in np.flatnonzero(level == k):
+            under = np.hypot(*(place[low, :2] - place[up, :2]).T)
+            if len(low) and under.min() < SAME_PLACE:
+                lines.append(plan(moves[:, up] - moves[:, low[under.argmin()]]) / rise)
+    return np.stack(means, 1), np.array(drifts).T, np.array(lines).T
+
+
+def gaps(run, statics, lifted):
+    """Return how far bearings are open.
+
+    From the place of the upper sphere's centre over the lower one: each centre lies on its plate's
+    axis, which turns with its node (a small rotation tilts it by (r_y, -r_x)).
+    """
+    ends, lever = statics["bearing_node"], statics["lever"]
+    turns = run["node_displacement"][..., 3:5]
+    across = run["bearing_displacement"][..., :2].copy()
+    for end, sign in ((0, -1.0), (1, -1.0)):  # C2 - C1 = (x_j - l_2 e_j) - (x_i + l_1 e_i)
+        turn = turns[:, ends[:, end]]
+        across[..., 0] += sign * lever[:, end] * turn[..., 1]
+        across[..., 1] -= sign * lever[:, end] * turn[..., 0]
+    down = statics["length"] - run["bearing_displacement"][..., 2]
+    square = (across**2).sum(-1) + down**2
+    closed = np.sqrt(np.maximum(square - run["interface_slip_size"] ** 2, 0.0))
+    return np.where(lifted, np.maximum(statics["length"] - closed, 0.0), 0.0)
+
+
+COMPARED = (
+    "displacement", "displacement_left", "displacement_along", "force", "axial_force",
+    "axial_tension", "slip", "slip_left", "sliding", "rim_force", "rims_met", "eccentricity",
+    "time_lifted", "uplifts", "gap", "base_shear", "storey_shear", "floor_plan", "drift",
+    "line_drift", "energy_input", "until", "displacement_at", "base_shear_at", "axial_force_at",
+)  # fmt: skip
+
+
+def compare(project, tally):
+    """Hold what runs reached against their histories, and the governing run against its row."""
+    name = "peaks of all runs, from histories"
+    tally.category(name, 2e-6, "histories are kept in single precision, 6e-8 of each value; drifts"
+                   " and gaps are small differences of such")  # fmt: skip
+    balance = "base shear, as the sum of the bearings"
+    tally.category(balance, 1e-4, "sums of single precision, of forces that cancel")
+    floor = {"gap": 1e-3, "drift": 2e-3, "line_drift": 2e-3, "slip": 1e-3, "slip_left": 1e-3,
+             "displacement_left": 1e-2, "eccentricity": 1e-2, "axial_tension": 1e4}  # fmt: skip
+    found = {}
+    for level, each in project.runs.items():
+        for bound, data in each.items():
+            own = found[level, bound] = peaks(data, project.governing)
+            for quantity in COMPARED:
+                reported = data[f"reached_{quantity}"].copy()
+                beyond(data, quantity, reported, own[quantity], tally)
+                tally.same(name, f"{level} {bound} {quantity}", reported, own[quantity],
+                           floor.get(quantity, 0.0))  # fmt: skip
+            standing = project.governing["node_mass"].shape and "bearing_force" in data
+            if standing:
+                total = np.nansum(data["bearing_force"], axis=2)
+                size = np.nanmax(np.abs(data["base_shear"]))
+                off = np.nanmax(np.abs(total - np.nan_to_num(data["base_shear"])))
+                tally.same(balance, f"{level} {bound}", 1.0, 1.0 + off / size)
+    return found
+
+
+def beyond(data, quantity, reported, own, tally):
+    """Take the step that ended a run, which is in no history, from what was reached."""
+    kind = {"slip": "slip_exceeded", "rim_force": "rim_overrun"}.get(quantity)
+    if kind is None:
+        return
+    names = list(map(str, data["bearing"]))
+    for k, status in enumerate(data["status"]):
+        where = str(data["failed_where"][k])
+        if status == kind:
+            b = next(i for i, n in enumerate(names) if f'"{n}"' in where or n == where)
+            if reported[k, b] > own[k, b]:
+                own[k, b] = reported[k, b]

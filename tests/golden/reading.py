@@ -1,0 +1,165 @@
+"""What a project's folder holds: its file, its motions, tables, histories and its report.
+
+Nothing of the package is imported: numbers that the package wrote are read as they lie in the files.
+"""
+
+import csv
+import html.parser
+import re
+import tomllib
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+GRAVITY = 9.80665
+UNITS = {
+    "m": 1.0, "cm": 1e-2, "mm": 1e-3, "kg": 1.0, "t": 1e3, "N": 1.0, "kN": 1e3, "MN": 1e6,
+    "Pa": 1.0, "MPa": 1e6, "m/s2": 1.0, "kN/mm": 1e6, "s/m": 1.0, "s": 1.0, "kg/m2": 1.0, "%": 1e-2,
+}  # fmt: skip
+
+
+def si(value):
+    """Return a value of the project's file in SI units."""
+    if isinstance(value, str):
+        found = re.fullmatch(r"\s*([-+0-9.eE]+)\s*(\S+)\s*", value)
+        return float(found[1]) * UNITS[found[2]] if found and found[2] in UNITS else value
+    if isinstance(value, list):
+        return [si(each) for each in value]
+    if isinstance(value, dict):
+        return {key: si(each) for key, each in value.items()}
+    return value
+
+
+class Bearing:
+    """The bearing of a project's file, by the formulas of docs/theory.md, section 2."""
+
+    def __init__(self, given):
+        radius = given["radius"]
+        self.R = np.array(radius if isinstance(radius, list) else [radius, radius])
+        self.h, self.a = given["slider_height"], given["slider_radius"]
+        self.L = self.R.sum() - self.h
+        self.capacity = given["capacity"]
+        self.rim = self.capacity * self.R / self.L  # sliding at which rims are met
+        law = given["friction"]
+        named = law if isinstance(law, dict) else {"f_max": law, "f_min": law}
+        self.fast, self.slow = named["f_max"], named["f_min"]
+        self.inner = given["interface_friction"]
+        self.overlap = self.a  # slip at which the overlap ends, unless given
+        caps = self.R - np.sqrt(self.R**2 - self.a**2)
+        self.low = 0.5 * (self.h + caps[0] - caps[1])  # height of the interface over the vertex
+
+    def share(self, friction):
+        """Return the sliding force over the load."""
+        return friction * self.R.sum() / self.L
+
+
+class Project:
+    """A project and what its run wrote."""
+
+    def __init__(self, folder):
+        self.folder, self.results = Path(folder), Path(folder) / "results"
+        raw = tomllib.loads((self.results / "project.toml").read_text(encoding="utf-8"))
+        self.file = si(raw)
+        self.code = raw["project"]["code"]
+        self.bearing = Bearing(self.file["bearing"])
+        bounds = self.file["bounds"]
+        outer, inner = bounds["friction"], bounds.get("interface", bounds["friction"])
+        self.outer = {"lower": outer[0], "nominal": 1.0, "upper": outer[1]}
+        self.inner = {"lower": inner[0], "nominal": 1.0, "upper": inner[1]}
+        self.limits = self.file.get("limits", {})
+        self.analysis = self.file.get("analysis", {})
+        self.governing = netcdf(self.results / "governing.nc")
+        self.runs = {}  # by level, then bound
+        for path in sorted(self.results.glob("runs-*.nc")):
+            level, _, bound = path.stem.removeprefix("runs-").rpartition("-")
+            self.runs.setdefault(level, {})[bound] = netcdf(path)
+        order = ("lower", "nominal", "upper")
+        self.runs = {
+            level: {bound: each[bound] for bound in order if bound in each}
+            for level, each in sorted(self.runs.items())
+        }
+
+    def table(self, name):
+        """Return the rows of a table as mappings."""
+        with (self.results / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def text(self, name):
+        """Return a text file of the results."""
+        return (self.results / name).read_text(encoding="utf-8")
+
+
+class Data(dict):
+    """Variables of a netCDF file by name, with its attributes."""
+
+    attrs: dict
+
+
+def netcdf(path):
+    """Read a netCDF file by HDF5 alone."""
+    data = Data()
+    with h5py.File(path) as file:
+        data.attrs = {key: plain(value) for key, value in file.attrs.items()}
+        for name, variable in file.items():
+            values = variable[()]
+            if values.dtype == object:
+                values = np.array([plain(each) for each in values.ravel()]).reshape(values.shape)
+            elif values.dtype.kind == "f":
+                values = values.astype(float)
+            data[name] = values
+    return data
+
+
+def plain(value):
+    """Return bytes as text, arrays of one number as that."""
+    if isinstance(value, bytes):
+        return value.decode()
+    if isinstance(value, np.ndarray) and value.size == 1:
+        return plain(value.ravel()[0])
+    return value
+
+
+class Tables(html.parser.HTMLParser):
+    """The tables of a report: each with the heading it stands under, its head and its rows."""
+
+    def __init__(self):
+        super().__init__()
+        self.heading, self.tables, self.row, self.cell, self.depth = "", [], None, None, ""
+
+    def handle_starttag(self, tag, attrs):
+        """Begin a heading, a table, a row or a cell."""
+        if tag == "h2":
+            self.depth = "h2"
+            self.heading = ""
+        elif tag == "table":
+            self.tables.append((self.heading, []))
+        elif tag == "tr":
+            self.row = []
+        elif tag in {"td", "th"}:
+            self.cell = ""
+
+    def handle_endtag(self, tag):
+        """End it."""
+        if tag == "h2":
+            self.depth = ""
+        elif tag in {"td", "th"} and self.cell is not None:
+            self.row.append(" ".join(self.cell.split()))
+            self.cell = None
+        elif tag == "tr" and self.row is not None:
+            self.tables[-1][1].append(self.row)
+            self.row = None
+
+    def handle_data(self, data):
+        """Take text up."""
+        if self.depth == "h2":
+            self.heading += data
+        if self.cell is not None:
+            self.cell += data
+
+
+def tables_of(text):
+    """Return the tables of a report as (heading, head, rows)."""
+    parser = Tables()
+    parser.feed(text)
+    return [(heading.strip(), rows[0], rows[1:]) for heading, rows in parser.tables if rows]
