@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 PROPOSAL = "no code: a proposal"
 """Clause of tests that no code has."""
 
+_ALIKE = 1e-6  # of displacements at two bounds
 _LEAST_SLIP = 0.25  # of the slip that holds: tested though runs slip less
 _STEPS = (0.25, 0.50, 0.67, 1.00)
 _TESTS = {"ASCE 7-22": "ASCE 7-22 17.8.2.2", "EN 1998": "EN 15129 8.3.4", "NCh2745": "NCh2745 14"}
@@ -153,7 +154,7 @@ def programme_of_tests(
     if equivalent.code not in _TESTS:
         msg = f"code of the analysis {equivalent.code!r}: there are tests of {', '.join(_TESTS)}"
         raise CheckError(msg)
-    result = max(equivalent.bounds.values(), key=lambda each: each.total_displacement)
+    result = _governing(equivalent)
     ends = [system if bounds is None else bounded(system, end, bounds) for end in ENDS]
     rows = []
     for title, bearing, places in _kinds(system):
@@ -163,6 +164,14 @@ def programme_of_tests(
         rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
+
+
+def _governing(equivalent: EquivalentLinear) -> BoundResult:
+    # At the bound of the largest displacement; of alike ones, as where the spectrum asks for the
+    # same displacement whatever the period, the one of the shorter period: its tests are faster.
+    least = (1.0 - _ALIKE) * equivalent.total_displacement
+    found = [each for each in equivalent.bounds.values() if each.total_displacement >= least]
+    return min(found, key=lambda each: each.period)
 
 
 def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:

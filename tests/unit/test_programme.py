@@ -162,6 +162,19 @@ def test_type_tests_of_en15129_by_hand() -> None:
     assert list(own["vertical load [N]"])[-3:-1] == [900e3, 300e3]
 
 
+def test_of_alike_displacements_the_faster_tests_are_made() -> None:
+    """Beyond T_D, eta at its least, both bounds ask for one displacement: not round-off decides."""
+    own, bounds = system(), PropertyBounds(PropertyFactors(1.0, 1.25))
+    for more in np.linspace(1.0, 1.01, 5):
+        spectrum = Spectrum.en1998(3.6 * more, "B")
+        found = equivalent_linear(own, spectrum, code=EN1998(), bounds=bounds)
+        low, high = found["lower"], found["upper"]
+        assert high.displacement == pytest.approx(low.displacement, rel=1e-12)
+        assert high.period < 0.95 * low.period
+        tests = programme_of_tests(found, own, bounds=bounds).set_index("what")
+        assert tests["period [s]"]["D3, dynamic"] == pytest.approx(high.period, rel=1e-9)
+
+
 def test_tests_of_nch2745_by_hand() -> None:
     found, table = programme(NCh2745(), Spectrum.nch2745("III", 3))
     t = max(found.bounds.values(), key=lambda each: each.total_displacement).trace
