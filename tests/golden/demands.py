@@ -1,0 +1,337 @@
+"""Tables of demands, bearings, friction and tests, from what the runs reached and the project's file."""
+
+import math
+
+import codes
+import numpy as np
+
+MEAN_FROM = 7
+LEVELS = {  # name: factor on the motions, and what is judged
+    "ASCE 7-22": {"": "all"}, "EN 1998": {"": "all"},
+    "NCh2745": {"design": "superstructure", "maximum": "isolation"},
+}  # fmt: skip
+ROWS = {
+    "isolator displacement": ("displacement", 1), "displacement left": ("displacement_left", 1),
+    "interface slip": ("slip", 1), "interface slip left": ("slip_left", 1),
+    "rim force": ("rim_force", 1), "largest axial force": ("axial_force", 1),
+    "least axial force": ("axial_tension", -1), "uplifts, all bearings": ("uplifts", 1),
+    "time lifted": ("time_lifted", 1), "gap of uplift": ("gap", 1), "base shear": ("base_shear", 1),
+    "storey shear": ("storey_shear", 1), "storey drift ratio": ("drift", 1),
+    "storey drift ratio, worst line": ("line_drift", 1),
+    "floor acceleration in plan": ("floor_plan", 1),
+}  # fmt: skip
+
+
+class Suite:
+    """How the runs at one level and bound count."""
+
+    def __init__(self, project, data, peaks):
+        self.data, self.peaks = data, peaks
+        status = np.array(list(map(str, data["status"])))
+        own = project.analysis.get("uplift_allowed", project.code == "ASCE 7-22")
+        gap = project.analysis.get("least_gap", 1e-3)
+        self.parted = peaks["gap"] > gap
+        self.stopped = status != "ok"
+        self.failed = self.stopped | (self.parted.any(axis=1) & (not own))
+        self.uplift_allowed, self.least_gap = own, gap
+        self.mean = len(status) >= MEAN_FROM
+        self.void = bool(self.failed.any())
+
+    def value(self, column):
+        """Return mean or largest; of failed runs what they reached."""
+        column = column[np.isfinite(column)]
+        return float(column.mean() if self.mean else column.max())
+
+    def of(self, name):
+        """Return the value of each place, (m,)."""
+        values = self.reached(name)
+        return np.array([self.value(column) for column in values.T])
+
+    def reached(self, name):
+        """Return what runs reached, (n_runs, m)."""
+        values = self.peaks[name]
+        return values.reshape(len(values), -1).astype(float)
+
+    def names(self, name):
+        """Return the names of a quantity's places."""
+        kind = name.removesuffix("_left")
+        if kind in {"base_shear", "uplifts"}:
+            return [""]
+        key = {"drift": "storey", "storey_shear": "storey", "line_drift": "line",
+               "floor_plan": "level"}.get(kind, "bearing")  # fmt: skip
+        return list(map(str, self.data[key]))
+
+
+def suites(project):
+    """Return the suites by level, then bound."""
+    found = {}
+    for (level, bound), peaks in project.peaks.items():
+        found.setdefault(level, {})[bound] = Suite(project, project.runs[level][bound], peaks)
+    return found
+
+
+def compare(project, tally):
+    """Hold the tables against what is found; return the suites."""
+    found = suites(project)
+    _demands(project, found, tally)
+    _bearings(project, tally)
+    _friction(project, tally)
+    _programme(project, found, tally)
+    return found
+
+
+def _demands(project, found, tally):
+    name = "demands: statistics over motions"
+    tally.category(name, 1e-4, "of peaks from histories, in single precision")
+    for row in project.table("demands"):
+        level = row["level"] if project.code == "NCh2745" else ""
+        quantity, sign = ROWS[row["quantity"]]
+        best = (-math.inf, "")
+        worst = -math.inf
+        for bound, suite in found[level].items():
+            column = next(key for key in row if key.startswith(f"{bound}, "))
+            left = quantity.endswith("_left")
+            values = suite.reached(quantity)
+            if left:
+                values = np.where(suite.stopped[:, None], np.nan, values)
+            if left and suite.void and suite.stopped.any():
+                each = np.full(values.shape[1], np.nan)
+            else:
+                each = np.array([suite.value(c) for c in values.T])
+            largest = np.nan if np.isnan(each).all() else sign * np.nanmax(each)
+            tally.same(name, f"{level} {row['quantity']} {bound}", row[column] or np.nan, largest,
+                       floor_of(quantity))  # fmt: skip
+            said = f"{'mean' if suite.mean else 'largest'} of"
+            tally.words(name, f"{level} {bound} statistic", column.split(", ")[1][: len(said)]
+                        if ":" not in column else said, said)  # fmt: skip
+            if not np.isnan(each).all() and np.nanmax(each) > best[0]:
+                best = float(np.nanmax(each)), suite.names(quantity)[int(np.nanargmax(each))]
+            if not np.isnan(values).all():
+                worst = max(worst, float(np.nanmax(values)))
+        last = next(key for key in row if key.startswith("worst of all"))
+        finite = math.isfinite
+        tally.same(name, f"{level} {row['quantity']} envelope", row["envelope of these"] or np.nan,
+                   sign * best[0] if finite(best[0]) else np.nan, floor_of(quantity))  # fmt: skip
+        tally.same(name, f"{level} {row['quantity']} worst", row[last] or np.nan,
+                   sign * worst if finite(worst) else np.nan, floor_of(quantity))  # fmt: skip
+        if best[0] > 0.0 and row["where"] != best[1]:
+            near(found[level], quantity, row["where"], best, tally, name)
+
+
+def near(each, quantity, reported, best, tally, name):
+    """Allow the name of another place that reached as much, to single precision."""
+    values = [s.of(quantity)[s.names(quantity).index(reported)] for s in each.values()]
+    tally.same(name, f"where {quantity}: {reported} for {best[1]}", max(values), best[0],
+               floor_of(quantity))  # fmt: skip
+
+
+def floor_of(quantity):
+    """Return the size below which differences of a quantity are round-off of single precision."""
+    return {"gap": 0.1, "slip": 1e-3, "slip_left": 1e-3, "displacement_left": 1e-2,
+            "axial_tension": 1e4, "drift": 1e-3, "line_drift": 1e-3}.get(quantity, 0.0)  # fmt: skip
+
+
+def _bearings(project, tally):
+    name = "table of bearings"
+    tally.category(name, 1e-4, "of peaks from histories; average loads beside those at rest")
+    columns = {
+        "displacement [m]": ("displacement", 1), "slip [m]": ("slip", 1),
+        "rim force [N]": ("rim_force", 1), "largest load [N]": ("axial_force", 1),
+        "least load [N]": ("axial_tension", -1),
+    }  # fmt: skip
+    statics = project.governing
+    for k, row in enumerate(project.table("bearings")):
+        for column, (quantity, sign) in columns.items():
+            reached = [peaks[quantity][:, k].max() for peaks in project.peaks.values()]
+            tally.same(name, f"{row['bearing']} {column}", row[column], sign * max(reached),
+                       floor_of(quantity))  # fmt: skip
+        top = statics["node_position"][statics["bearing_node"][k, 1]]
+        tally.same(name, f"{row['bearing']} place", [row["x [m]"], row["y [m]"]], top[:2])
+        tally.same(name, f"{row['bearing']} load at rest, by the weight", 1.0, 1.0 + abs(
+            float(row["average load [N]"]) - statics["static_axial_force"][k]
+        ) / statics["static_axial_force"].max() * 1e-2)  # friction holds some at rest
+    total = sum(float(row["average load [N]"]) for row in project.table("bearings"))
+    tally.same(name, "sum of the loads", total, float(statics["weight"]))
+
+
+def _friction(project, tally):
+    name = "table of friction"
+    tally.category(name, 1e-12, "products of numbers of the file")
+    b = project.bearing
+    own = {"bottom surface": b.fast, "top surface": b.fast, "bottom surface, slow": b.slow,
+           "top surface, slow": b.slow}  # fmt: skip
+    for row in project.table("friction"):
+        what = row["friction coefficient"]
+        for bound in ("lower", "nominal", "upper"):
+            value = project.inner[bound] * b.inner
+            if what in own:
+                value = project.outer[bound] * own[what]
+            tally.same(name, f"{what} {bound}", row[bound], value)
+
+
+class Tests:
+    """Numbers that the programme of tests is made of."""
+
+    def __init__(self, project, found):
+        most = max(each["total"] for each in project.linear.values())
+        alike = [each for each in project.linear.values() if each["total"] > (1.0 - 1e-6) * most]
+        own = min(alike, key=lambda each: each["period"])  # alike: the faster tests
+        self.own, self.b, self.system = own, project.bearing, own["system"]
+        self.moved, self.total = own.get("moved", own["centre"]), own["total"]
+        self.slow = 0.05  # m/s
+        level = "maximum" if project.code == "NCh2745" else ""
+        self.loads, self.slip, self.envelope = asked(project, found[level])
+        self.average = self.system.P.mean()
+        self.impact = impact_speed(project)
+
+    def force(self, load, moved, alone, ends):
+        """Return the lateral force with friction at a bound: (surfaces, interface)."""
+        outer, inner = ends
+        b = self.b
+        if alone:
+            return inner * b.inner * load
+        if moved <= b.capacity:
+            return load * (moved / b.L + outer * b.share(b.fast))
+        return load * math.tan(math.asin(b.capacity / b.L) + math.atan(inner * b.inner))
+
+
+def asked(project, suites_):
+    """Return the loads that are checked, the slip, and the displacement's envelope."""
+    b = project.bearing
+    system = next(iter(project.linear.values()))["system"]
+    loads = list(system.P)
+    given = project.file["spectrum"]
+    if "s_ms" in given and not unknown_loads(project):
+        part = 0.2 * given["s_ms"]
+        loads += [*(system.P * (1.2 + part)), *(system.P * (0.9 - part))]
+    void = any(suite.void for suite in suites_.values())
+    for suite in suites_.values():
+        loads.append(suite.of("axial_force").max())
+        loads.append(-suite.of("axial_tension").max())
+    slip = max(suite.of("slip").max() for suite in suites_.values())
+    moved = max(suite.of("displacement").max() for suite in suites_.values())
+    if void:
+        slip = b.overlap
+    elif project.code == "EN 1998":
+        slip = max(slip, 1.2 * moved - b.capacity)
+    loads = [load for load in loads if load > 0.0]
+    return (min(loads), max(loads)), slip, moved
+
+
+def unknown_loads(project):
+    """Say whether the bearings' own loads are not known, as the standing of tests has it."""
+    return any("not evaluated" in row["standing"] for row in project.table("programme"))
+
+
+def impact_speed(project):
+    """Return the largest speed with which a rim is first met in the governing run."""
+    data = project.governing
+    speed = np.hypot(*np.moveaxis(data["bearing_velocity"][..., :2], -1, 0))
+    found = []
+    for k in range(data["rim_force"].shape[1]):
+        for side in (0, 1):
+            met = np.flatnonzero(data["rim_force"][:, k, side] > 0.0)
+            if len(met):
+                found.append(speed[max(met[0] - 1, 0), k])
+    return max(found) if found else None
+
+
+def _programme(project, found, tally):
+    name = "programme of tests"
+    tally.category(name, 2e-3, "loads of combinations as multiples of those on average: the frame's"
+                   " equilibrium is nearly linear")  # fmt: skip
+    d = Tests(project, found)
+    project.tests = d
+    words = {"ASCE 7-22": _of_asce, "EN 1998": _of_en, "NCh2745": _of_nch}[project.code]
+    plan = [*words(d, project), *_of_all(d)]
+    rows = project.table("programme")
+    tally.same(name, "number of tests", len(rows), len(plan))
+    hidden = unknown_loads(project)
+    for row, (what, moved, load, cycles, speed, alone) in zip(rows, plan, strict=True):
+        tally.words(name, "test", row["what"], what)
+        unknown = hidden and ("largest load" in what or "least load" in what)
+        load = math.nan if unknown else load
+        ends = [(project.outer[e], project.inner[e]) for e in ("lower", "upper")]
+        forces = [math.nan if math.isnan(moved) else d.force(load, moved, alone, e) for e in ends]
+        if what == "wind":
+            wind = project.file.get("superstructure", {}).get("wind_shear", 0.0)
+            forces = 2 * [wind / len(d.system.P) or math.nan]
+        own = {
+            "displacement [m]": moved, "vertical load [N]": load, "cycles": cycles,
+            "peak speed [m/s]": speed,
+            "period [s]": 2.0 * math.pi * moved / speed if speed > 0.0 else math.nan,
+            "least force [N]": forces[0], "largest force [N]": forces[1],
+        }  # fmt: skip
+        for column, value in own.items():
+            tally.same(name, f"{what}: {column}", row[column] or math.nan, value)
+
+
+def _steps(d, steps):
+    for word, load in (("average", d.average), ("largest", d.loads[1]), ("least", d.loads[0])):
+        for title, moved, period in steps:
+            speed = 2.0 * math.pi * moved / period
+            yield f"increments, {word} load, {title}", moved, load, 3, speed, False
+
+
+def _harmonic(d, moved):
+    return 2.0 * math.pi * moved / d.own["period"]
+
+
+def _of_asce(d, project):
+    nan, given = math.nan, project.file["spectrum"]
+    yield "production, each bearing", 0.67 * d.moved, d.average, 3, d.slow, False
+    yield "wind", nan, d.average, 20, nan, False
+    yield from _steps(
+        d, [(f"{s:g} D_M", s * d.moved, d.own["period"]) for s in (0.25, 0.5, 0.67, 1.0)]
+    )
+    for title, moved in (("D_M", d.moved), ("D_TM", d.total)):
+        yield f"maximum displacement, {title}", moved, d.average, 3, _harmonic(d, moved), False
+    count = max(10.0, 30.0 * given["s_m1"] / (given["s_ms"] * d.own["factor"]))
+    moved = 0.75 * d.moved
+    yield "many cycles, 0.75 D_M", moved, d.average, math.ceil(count), _harmonic(d, moved), False
+    yield "static, largest load, D_TM", d.total, d.loads[1], 1, d.slow, False
+    yield "static, least load, D_TM", d.total, d.loads[0], 1, d.slow, False
+
+
+def _of_en(d, project):
+    fast = _harmonic(d, d.total)
+    yield "S, service", math.nan, d.average, 20, 0.1 * d.slow, False
+    for title, share, load, speed in (
+        ("P1, benchmark", 1.0, d.average, d.slow), ("D1, dynamic", 0.25, d.average, fast),
+        ("D2, dynamic", 0.5, d.average, fast), ("D3, dynamic", 1.0, d.average, fast),
+        ("P2, integrity of the liner", 1.0, d.average, d.slow),
+        ("D4, seismic, largest load", 1.0, d.loads[1], fast),
+        ("D5, seismic, least load", 1.0, d.loads[0], fast),
+        ("B, both directions", 1.0, d.average, fast),
+    ):  # fmt: skip
+        yield title, share * d.total, load, 3, speed, False
+
+
+def _of_nch(d, project):
+    design, period = d.own["design"], d.own["T_D"]
+    yield "wind", math.nan, d.average, 20, math.nan, False
+    steps = [("0.2 D_D", 0.2 * design, period), ("0.5 D_D", 0.5 * design, period)]
+    steps += [("D_D", design, period), ("D_M", d.moved, d.own["period"])]
+    yield from _steps(d, steps)
+    speed = _harmonic(d, d.total)
+    yield "maximum displacement, D_TM", d.total, d.average, 3, speed, False
+    many = d.own["D_TD"]
+    yield "many cycles, D_TD", many, d.average, 10, 2.0 * math.pi * many / period, False
+    yield "static, largest load, D_TM", d.total, d.loads[1], 1, d.slow, False
+    yield "static, least load, D_TM", d.total, d.loads[0], 1, d.slow, False
+
+
+def _of_all(d):
+    b = d.b
+    holds = b.L * b.inner - b.fast * b.R.sum()
+    slip = max(d.total - b.capacity, d.slip, 0.25 * min(b.overlap, max(holds, 0.0)))
+    speed = d.impact
+    if speed is None:
+        beyond = d.total**2 - b.capacity**2
+        speed = _harmonic(d, math.sqrt(beyond) if beyond > 0.0 else d.total)
+    for word, load in (("largest", d.loads[1]), ("least", d.loads[0])):
+        for pace, at in (("slow", d.slow), ("fast", speed)):
+            yield f"interface alone, {word} load, {pace}", slip, load, 3, at, True
+    for word, load in (("average", d.average), ("largest", d.loads[1])):
+        yield f"impact and return, {word} load", b.capacity + slip, load, 3, speed, False
+    yield "after the impacts", min(d.moved, 0.9 * b.capacity), d.average, 3, d.slow, False
