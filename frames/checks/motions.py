@@ -39,7 +39,8 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
     Parameters
     ----------
     equivalent : EquivalentLinear
-        Its effective periods at all its bounds count.
+        Its effective periods at all its bounds count; of NCh2745, which has two levels, the
+        shortest is T_D and the longest T_M.
     rule : str
         Of `PERIOD_RANGES`; that of the analysis' code if empty.
 
@@ -55,8 +56,9 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
         If the rule is not known.
     """
     low, high = PERIOD_RANGES[_rule(equivalent, rule)]
-    periods = [each.period for each in equivalent.bounds.values()]
-    return low * min(periods), high * max(periods)
+    each = equivalent.bounds.values()
+    design = [e.trace.value("T_D") if "T_D" in e.trace else e.period for e in each]
+    return low * min(design), high * max(e.period for e in each)
 
 
 def motion_checks(

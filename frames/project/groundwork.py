@@ -110,7 +110,7 @@ def scaled_motions(parts: Parts, spectrum: Spectrum, equivalent: EquivalentLinea
         The target.
     equivalent : EquivalentLinear
         Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
-        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 to 1.25; to be confirmed.
+        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 T_D to 1.25 T_M; to be confirmed.
 
     Returns
     -------

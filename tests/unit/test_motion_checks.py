@@ -12,6 +12,7 @@ from frames import (
     GroundMotion,
     IsolationSystem,
     MotionSet,
+    NCh2745,
     PropertyBounds,
     PropertyFactors,
     Spectrum,
@@ -23,19 +24,24 @@ from frames import (
 from lir_element import CoulombFriction, LIRBearing
 
 TARGET = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
 
 
 @pytest.fixture(scope="module")
-def linear() -> EquivalentLinear:
+def linear(system: IsolationSystem) -> EquivalentLinear:
+    return equivalent_linear(system, TARGET, bounds=BOUNDS)
+
+
+@pytest.fixture(scope="module")
+def system() -> IsolationSystem:
     bearing = LIRBearing(
         radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
         friction=CoulombFriction(0.06), interface_friction=0.25,
     )  # fmt: skip
-    system = IsolationSystem(
+    return IsolationSystem(
         bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
         positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
     )  # fmt: skip
-    return equivalent_linear(system, TARGET, bounds=PropertyBounds(PropertyFactors(0.8, 1.2)))
 
 
 def motions(count: int = 7, **facts: Any) -> MotionSet:
@@ -55,6 +61,15 @@ def test_the_range_of_periods_spans_the_bounds(linear: EquivalentLinear) -> None
     assert period_range(linear, "NCh2745")[0] == pytest.approx(0.5 * min(periods))
     with pytest.raises(CheckError, match="rule"):
         period_range(linear, "ASCE 7-05")
+
+
+def test_of_two_levels_the_range_begins_at_the_design_period(system: IsolationSystem) -> None:
+    spectrum = Spectrum.nch2745("II", 3)
+    linear = equivalent_linear(system, spectrum, code=NCh2745(), bounds=BOUNDS)
+    design = [each.trace.value("T_D") for each in linear.bounds.values()]
+    most = [each.period for each in linear.bounds.values()]
+    assert min(design) < 0.99 * min(most)
+    assert period_range(linear) == pytest.approx((0.5 * min(design), 1.25 * max(most)))
 
 
 def test_the_mean_spectrum_is_least_where_it_is_said(linear: EquivalentLinear) -> None:
