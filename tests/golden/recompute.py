@@ -11,9 +11,11 @@ was reported and not recomputed. The exit code is 1 where something disagrees.
 import json
 import sys
 
+import checks
 import codes
 import demands
 import histories
+import motions
 from reading import Project
 from tally import Tally
 
@@ -24,6 +26,8 @@ def review(folder):
     project.peaks = histories.compare(project, tally)
     project.linear = codes.compare(project, tally)
     project.suites = demands.compare(project, tally)
+    motions.compare(project, tally)
+    checks.compare(project, tally)
     return tally
 
 

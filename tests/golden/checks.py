@@ -1,0 +1,370 @@
+"""Demand, limit, ratio and verdict of every check, from what was found of histories and codes."""
+
+import math
+
+import demands
+import motions
+import numpy as np
+
+DRIFT = {"ASCE 7-22": 0.020, "NCh2745": 0.003}
+LEAST_MOTIONS = {"ASCE 7-22": 7, "EN 1998": 3, "NCh2745": 3}
+RIMS_FROM = {"ASCE 7-22": 0.60, "EN 1998": 1.0, "NCh2745": 1.0}
+OWN = "no code: limit of the project"
+
+
+class Device:
+    """The bearing at a bound, or with bounds of both kinds where `bound` is None."""
+
+    def __init__(self, project, bound=None):
+        b = project.bearing
+        up, low = (bound, bound) if bound else ("upper", "lower")
+        self.b = b
+        self.fast, self.slow = b.fast * project.outer[up], b.slow * project.outer[low]
+        self.inner = b.inner * project.inner[low]
+        self.inner_up = b.inner * project.inner[up]
+        self.share = b.share(self.fast)
+        self.holds = b.L * self.inner - self.fast * b.R.sum()
+        self.most = max(min(b.overlap, self.holds), 0.0)
+
+    def overlap_pressure(self, load, slip):
+        """Return a load over the overlap of two circles of the slider's radius."""
+        return load / lens(self.b.a, slip) if slip < 2.0 * self.b.a else math.inf
+
+    def liner_pressure(self, k, load, slip):
+        """Return a load over the part of a liner that is centred on its resultant."""
+        off = 2.0 * abs(self.b.R[k] * (slip / self.b.L + self.share - self.fast))
+        return self.overlap_pressure(load, off)
+
+    def rim_height(self):
+        """Return half of the height that has place for rims between the plates."""
+        b, free = self.b, []
+        heights = b.low, b.h - b.low
+        between = b.h
+        for k in (0, 1):
+            r, d = b.R[k], b.rim[k]
+            # the rim stands where the slider's edge is when it is tilted by asin(d / R)
+            face = r * math.sin(math.asin(d / r) + math.asin(b.a / r))
+            between -= r - math.sqrt(r**2 - face**2)
+            free.append(heights[k] - (r - math.sqrt(r**2 - b.a**2)))
+        return 0.5 * max(min(between / 2.0, *free), 0.0)
+
+
+def lens(a, s):
+    """Return the area that two circles of radius a share, their centres s apart."""
+    half = math.acos(s / (2.0 * a))
+    return a * a * (2.0 * half - math.sin(2.0 * half))
+
+
+class Found:
+    """Demands and limits of one row of the table of checks."""
+
+    def __init__(self, project, row):
+        self.p, self.row = project, row
+        self.bound, self.level = row["bound"], row["level"]
+        self.subject = row["subject"]
+        self.limits, self.code = project.limits, project.code
+        level = self.level if project.code == "NCh2745" else ""
+        each = project.suites.get(level, {})
+        self.suite = each.get(self.bound)
+        self.each = each
+        self.linear = project.linear.get(self.bound)
+        self.d = Device(project, self.bound or None)
+        self.whole = Device(project)
+        self.own = row["clause"] == OWN
+
+    def worst(self, values, limits=None):
+        """Return demand and limit of the largest ratio."""
+        values = np.atleast_1d(np.asarray(values, float))
+        limits = np.broadcast_to(limits, values.shape)
+        k = int(np.argmax(values / limits))
+        return float(values[k]), float(limits[k])
+
+    def slips(self):
+        """Return the slip of each bearing that counts."""
+        slip = self.suite.of("slip")
+        if self.code == "EN 1998":
+            slip = np.maximum(slip, 1.2 * self.suite.of("displacement") - self.p.bearing.capacity)
+        return slip
+
+    def least(self, key):
+        """Return a least value of the equivalent-linear analysis of ASCE 7-22."""
+        return (self.linear or {}).get(key, 0.0)
+
+    def of(self, name, key):
+        """Return what is reached, over a limit of the project by its name."""
+        return self.worst(self.suite.of(name), self.limits.get(key, {"eccentricity": 0.8}.get(key)))
+
+    def lifted(self, name):
+        """Return a quantity of runs and bearings where these lift off."""
+        return np.where(self.suite.reached("time_lifted") > 0.0, self.suite.reached(name), 0.0)
+
+
+def restoring(f):
+    """F of the second half of the displacement."""
+    return f.linear["restoring"]
+
+
+def interface(f):
+    """The interface at its lower bound over the surfaces at their upper one."""
+    b = f.p.bearing
+    return b.inner * f.p.inner["lower"], b.share(b.fast) * f.p.outer["upper"]
+
+
+def displacement(f):
+    """Displacement against rims and slip."""
+    moved = f.suite.of("displacement") * (1.2 if f.code == "EN 1998" else 1.0)
+    return f.worst(np.maximum(moved, f.least("D_least")), f.d.b.capacity + f.d.most)
+
+
+def engaged(f):
+    """Where a rim is met, over the displacement of histories."""
+    moved = displacement(f)[0]
+    return f.d.b.capacity / moved, share_of(f)
+
+
+def share_of(f):
+    """Return the share from which on rims may be met."""
+    return f.limits["rim_engagement"] if f.own else RIMS_FROM[f.code]
+
+
+def engaged_linear(f):
+    """Where a rim is met, over the displacement of the equivalent-linear analysis."""
+    return f.p.bearing.capacity / f.linear["allowed"], share_of(f)
+
+
+def pressure(f):
+    """Largest load over the overlap at the largest slip."""
+    load = f.suite.of("axial_force")
+    values = [f.d.overlap_pressure(n, s) for n, s in zip(load, f.slips(), strict=True)]
+    return f.worst(values, f.limits["interface_pressure"])
+
+
+def liner(f):
+    """Largest load over a liner around its resultant: of runs, or of the bearing alone."""
+    if f.row["symbol"] == "p":
+        load = f.suite.of("axial_force")
+        pairs = list(zip(load, f.slips(), strict=True))
+        values = [max(f.d.liner_pressure(k, n, s) for k in (0, 1)) for n, s in pairs]
+        return f.worst(values, f.limits["liner_pressure"])
+    k = ["bottom surface", "top surface"].index(f.subject)
+    t = f.p.tests
+    return f.whole.liner_pressure(k, t.loads[1], t.slip), f.limits["liner_pressure"]
+
+
+def gap_over_rims(f):
+    """Gap over the height of the rims; the worst run."""
+    return f.worst(f.lifted("gap").max(0), f.limits.get("rim_height", f.d.rim_height()))
+
+
+def landing(f):
+    """Pressure of a landing: of the runs in which a bearing lifts off."""
+    force, slip = f.suite.reached("axial_force"), f.suite.reached("slip")
+    lifted = f.suite.reached("time_lifted") > 0.0
+    values = [
+        f.d.overlap_pressure(force[i, k], slip[i, k]) for i, k in zip(*np.nonzero(lifted), strict=True)
+    ]  # fmt: skip
+    return max(values), f.limits.get("interface_pressure", 90e6)
+
+
+def landing_force(f):
+    """Largest axial force of runs in which a bearing lifts off."""
+    return f.lifted("axial_force").max(), f.limits["axial_force"]
+
+
+def drift(f):
+    """Worst drift of storeys and lines, grown as the base shear must."""
+    shear = f.suite.of("base_shear")[0]
+    more = max(f.least("V_least") / shear, 1.0)
+    theta = max(f.suite.of("drift").max(), f.suite.of("line_drift").max())
+    return theta * more, f.limits["drift"] if f.own else DRIFT[f.code]
+
+
+def base_shear(f):
+    """Mean or largest base shear, at least that of the equivalent-linear analysis."""
+    return max(f.suite.of("base_shear")[0], f.least("V_least")), f.limits["base_shear"]
+
+
+def storey_shear(f):
+    """Shear of the lowest storey over R_I, to be at least V_s."""
+    return f.suite.of("storey_shear")[0] / f.linear["R_I"], f.linear["V_s"]
+
+
+def lifted_for(f):
+    """Longest time of a bearing in a run that parts by more than counts as contact."""
+    time = f.suite.reached("time_lifted")
+    return np.where(f.suite.parted, time, 0.0).max(), 0.0
+
+
+def holds(f):
+    """What the interface carries until a rim is met, over what it holds."""
+    load = f.p.tests.loads[f.subject == "N_max"]
+    margin = f.limits.get("margin", 1.2)
+    return load * f.whole.share, f.whole.inner * load / margin
+
+
+def slips_before(f):
+    """Rim force at which the interface slips, one rim alone or both."""
+    b, w = f.p.bearing, f.whole
+    tilt = math.sqrt(1.0 - (b.capacity / b.L) ** 2)
+    moment = f.p.tests.loads[1] * (b.L * w.inner_up - w.slow * b.R.sum()) / tilt
+    k = ["bottom rim", "top rim"].index(f.subject)
+    if f.limits.get("rims_together", False):
+        return moment * b.R[k] / (b.R**2).sum(), f.limits["rim_strength"]
+    return moment / b.R[k], f.limits["rim_strength"]
+
+
+def resultant(f):
+    """Offset of the resultant between the sliders: rims free, then each alone."""
+    b, w, s = f.p.bearing, f.whole, f.p.tests.slip
+    levers = b.R[0] - b.low, b.R[1] - (b.h - b.low)
+    free = levers[0] * (s / b.L + w.share) - b.R[0] * w.fast
+    bottom = levers[1] * w.inner_up - w.slow * b.R[1]
+    top = levers[0] * w.inner_up - w.slow * b.R[0]
+    most = max(map(abs, (free, free - s, bottom - s, top - s, bottom, top)))
+    return most / b.a, f.limits.get("eccentricity", 0.8)
+
+
+def lateral(f):
+    """Lateral force at which the interface slips at the rim's tilt."""
+    b = f.p.bearing
+    if f.row["symbol"] == "H":
+        return f.of("force", "lateral_force")
+    tilt = b.capacity / b.L
+    across = tilt + f.whole.inner_up * math.sqrt(1.0 - tilt**2)
+    return f.p.tests.loads[1] * across, f.limits["lateral_force"]
+
+
+def on_overlap(f):
+    """Pressure on the sliders' overlap: of runs, or of the bearing alone."""
+    if f.row["symbol"] == "p":
+        return pressure(f)
+    t = f.p.tests
+    return f.whole.overlap_pressure(t.loads[1], t.slip), f.limits["interface_pressure"]
+
+
+def recentring_energy(f):
+    """E_S over E_H of the worst bearing, EN 15129."""
+    s, d = f.linear["system"], f.linear["centre"]
+    k = f.p.bearing and int(np.argmax(s.P * 0.0))
+    k = s.names.index(f.subject) if f.subject in s.names else k
+    return s.P[k] * d**2 / (2.0 * s.L), 0.25 * s.P[k] * s.mu * d
+
+
+def recentring(f):
+    """Displacement over half of the largest residual one, EN 1998-2."""
+    s = f.linear["system"]
+    return f.linear["centre"], 0.5 * s.mu * s.L
+
+
+RULES = {
+    "restoring force": restoring, "interface holds before the rim": interface,
+    "pairs of motions": motions.pairs, "mean spectrum of the motions": motions.mean,
+    "mean spectrum of the motions at the period 0": motions.mean_at_zero,
+    "near-fault pairs that are not turned to the fault": motions.turned,
+    "number of motions": lambda f: (len(f.suite.failed), LEAST_MOTIONS[f.code]),
+    "runs that failed": lambda f: (f.suite.failed.sum(), 0.0),
+    "isolator displacement": displacement,
+    "slip over the overlap": lambda f: f.worst(f.slips(), f.d.b.overlap),
+    "slip over the one that holds": lambda f: f.worst(f.slips(), f.d.holds),
+    "slip left": lambda f: f.worst(f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)),
+    "rim force": lambda f: f.of("rim_force", "rim_strength"),
+    "resultant between the sliders, over their radius": lambda f: f.of("eccentricity", "eccentricity"),
+    "lateral force of a bearing": lateral, "lateral force that the bearing passes on": lateral,
+    "displacement left": lambda f: f.of("displacement_left", "displacement_left"),
+    "largest axial force": lambda f: f.of("axial_force", "axial_force"),
+    "pressure on the sliders' overlap": on_overlap,
+    "pressure on the liner around its resultant": liner,
+    "gap of uplift over the height of the rims": gap_over_rims,
+    "gap of uplift": lambda f: f.worst(f.lifted("gap").max(0), f.limits["uplift_gap"]),
+    "pressure of a landing on the sliders": landing,
+    "axial force with a landing": landing_force, "base shear": base_shear,
+    "storey shear of time histories": storey_shear, "storey drift ratio": drift,
+    "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
+    "interface holds until a rim is met": holds,
+    "slip that holds": lambda f: (f.p.tests.slip, f.whole.holds),
+    "interface slips before the rim breaks": slips_before,
+    "resultant between the sliders": resultant,
+    "recentring, energy": recentring_energy, "recentring, displacement": recentring,
+}  # fmt: skip
+SUITE = {"restoring force", "interface holds before the rim", "number of motions",
+         "runs that failed", "recentring, energy", "recentring, displacement"}  # fmt: skip
+OF_RUN = {"gap of uplift over the height of the rims", "gap of uplift", "axial force with a landing",
+          "pressure of a landing on the sliders"}  # fmt: skip
+
+
+def rule_of(title):
+    """Return how a check's demand and limit are found."""
+    if title in RULES:
+        return RULES[title]
+    if title.startswith("displacement where a rim engages"):
+        return engaged if title.endswith("of histories") else engaged_linear
+    return lifted_for if title.startswith("time lifted off by over") else None
+
+
+def ratio_of(demand, limit, relation):
+    """Return the utilisation: what must be smaller over the other."""
+    below, above = (demand, limit) if relation == "<=" else (limit, demand)
+    if above > 0.0:
+        return max(below / above, 0.0)
+    return 0.0 if below <= 0.0 else math.inf
+
+
+def compare(project, tally):
+    """Hold every row of the table of checks against what is found."""
+    name, verdicts = "demands and limits of checks", "ratios and verdicts of checks"
+    spectra = "mean spectra of motions"
+    tally.category(name, 3e-4, "peaks in single precision; loads of combinations as multiples")
+    tally.category(spectra, 4e-3, "a peak between samples: 40 points of a period miss 0.3 %")
+    tally.category(verdicts, 1e-9, "quotients of the table's own numbers")
+    hidden = demands.unknown_loads(project)
+    failed = 0
+    for row in project.table("checks"):
+        title, _, ending = row["title"].partition(": not evaluated")
+        label = f"{row['title']} {row['subject']} {row['bound']} {row['level']}"
+        found, rule = Found(project, row), rule_of(title)
+        demand, limit = float(row["demand"]), float(row["limit"])
+        if rule is None:
+            tally.unknown(name, label)
+            continue
+        own, allowed = rule(found)
+        missing = row["title"].endswith(": not evaluated")
+        own = math.inf if missing and row["relation"] == "<=" else own
+        of = spectra if "spectrum" in title else name
+        tally.same(of, f"{label} demand", demand, own, demands.floor_of(row["symbol"]))
+        if not (missing and hidden and title.startswith("interface holds")):
+            tally.same(of, f"{label} limit", limit, allowed)
+        void = _void(found, title)
+        tally.words(verdicts, f"{label} void", bool(row["void"]), void)
+        ratio = math.inf if void else ratio_of(demand, limit, row["relation"])
+        tally.same(verdicts, f"{label} ratio", row["ratio"], ratio)
+        word = "ok" if ratio <= 1.0 + 1e-9 else "FAILS"
+        tally.words(verdicts, f"{label} verdict", row["verdict"], word)
+        tally.words(verdicts, f"{label} passed", row["passed"], word == "ok")
+        failed += word == "FAILS"
+    _facts(project, failed, tally, verdicts)
+
+
+def _void(found, title):
+    if found.suite is None or title in SUITE or found.row["symbol"] in {"eta", "n"}:
+        return False
+    if title in OF_RUN or title.startswith("time lifted off"):
+        return bool(found.suite.stopped.any())
+    return found.suite.void
+
+
+def _facts(project, failed, tally, name):
+    import json
+
+    facts = json.loads(project.text("run.json"))
+    tally.same(name, "number of checks", facts["checks"], len(project.table("checks")))
+    tally.same(name, "number that fail", len(facts["failed"]), failed)
+    tally.words(name, "passed", facts["passed"], failed == 0)
+    largest = max(
+        (peaks["displacement"].max(), level, bound, k)
+        for (level, bound), peaks in project.peaks.items()
+        for k in [int(peaks["displacement"].max(1).argmax())]
+    )
+    motion = project.runs[largest[1]][largest[2]]["motion"][largest[3]]
+    level = largest[1] or ("MCE_R" if project.code == "ASCE 7-22" else "design")
+    case = f"{motion}, {largest[2]} bound, {level} level"
+    tally.words(name, "governing case", facts["governing_case"], case)
