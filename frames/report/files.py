@@ -160,6 +160,7 @@ def _facts(run: ProjectRun) -> dict[str, object]:
         "checks": len(run.checks),
         "failed": [str(check) for check in run.checks.failed],
         "governing_case": run.governing_case,
+        "fixed_base_period": _fixed_base_period(run),
         "inputs": dict(run.inputs),
         "runs": {
             label: {
@@ -172,6 +173,15 @@ def _facts(run: ProjectRun) -> dict[str, object]:
             for label, (level, bound, data) in _labelled(run).items()
         },
     }
+
+
+def _fixed_base_period(run: ProjectRun) -> float | None:
+    # Of the structure whose base is held, too, as its formulas have it [s]; None without them.
+    for each in run.equivalent.bounds.values():
+        for symbol in ("T_fb", "T_f"):
+            if symbol in each.trace:
+                return each.trace.value(symbol)
+    return None
 
 
 def _labelled(run: ProjectRun) -> dict[str, tuple[str, Bound, xr.Dataset]]:

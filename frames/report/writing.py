@@ -85,6 +85,7 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         demands=_table(headed(run.demands), "quantity"),
         void=void_said(run.demands),
         levels=_levels(run),
+        level=f"the level {run.rules.levels[0].name!r}",
         audit=run.governing.attrs["audit"].splitlines(),
         pictures=pictures(run),
         source=source,

@@ -16,6 +16,7 @@ import codes
 import demands
 import histories
 import motions
+import report
 from reading import Project
 from tally import Tally
 
@@ -28,6 +29,7 @@ def review(folder):
     project.suites = demands.compare(project, tally)
     motions.compare(project, tally)
     checks.compare(project, tally)
+    report.compare(project, tally)
     return tally
 
 

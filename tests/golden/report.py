@@ -1,0 +1,344 @@
+"""Every table of the report: its cells beside the tables of the folder, or what is recomputed."""
+
+import math
+
+import checks
+import motions
+import numpy as np
+import reading
+from reading import GRAVITY
+
+FACTORS = {"mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "MPa": 1e-6, "%": 1e2, "kN/m": 1e-3, "t": 1e-3,
+           "kJ": 1e-3}  # fmt: skip
+GROUND_PERIODS = np.geomspace(0.05, 12.0, 120)
+
+
+def compare(project, tally):
+    """Hold each table of the report against the folder's tables."""
+    tally.category("tables of the report", 0.0, "to the last of the four digits that are printed")
+    tally.category("limits of the procedure", 0.0, "to the last printed digit")
+    tally.category("measures of motions", 0.0, "to the last printed digit, peaks of spectra aside")
+    tally.category("periods of spectra's peaks", 0.05, "next of the 120 periods, 4.7 % apart")
+    tables = reading.tables_of(project.text("report.html"))
+    seen = []
+    for heading, head, rows in tables:
+        kind = _kind(heading, head)
+        seen.append(kind)
+        if kind is None:
+            tally.unknown("tables of the report", f"{heading}: {head[0]}")
+        else:
+            kind(project, head, rows, tally)
+    wanted = [_model, _loads, _modes, _device, _bearings, _friction, _motions, _linear, _limits,
+              _demands, _checks, _programme]  # fmt: skip
+    for kind in wanted:
+        tally.words("tables of the report", f"table {kind.__name__} is there", kind in seen, True)
+
+
+def _kind(heading, head):
+    named = {
+        ("Structure", "mass"): _model, ("Structure", "bearing"): _loads,
+        ("Structure", "mode"): _modes, ("Bearings", "bearing"): _bearings,
+        ("Bearings", "effective radius"): _device,
+        ("Bearings", "friction coefficient"): _friction, ("Motions", "motion"): _motions,
+        ("Equivalent-linear analysis", "bound"): _linear,
+        ("Equivalent-linear analysis", "check"): _limits, ("Time histories", "quantity"): _demands,
+        ("Time histories", "members"): _members, ("Checks", "check"): _checks,
+        ("Test programme", "test"): _programme,
+    }  # fmt: skip
+    return named.get((heading, head[0]))
+
+
+def shown(tally, label, text, value, factor=1.0, category="tables of the report"):
+    """Compare a cell of four digits with a number in SI units."""
+    value = float(value) if value not in {"", None} else math.nan
+    if not math.isfinite(value):
+        tally.words(category, label, text in {"-", "", "inf", "∞", "nan"}, True)
+        return
+    tally.printed(category, label, text, value, factor)
+    if text not in {"", "-"}:
+        digits = 0.5000001 * 10.0 ** (math.floor(math.log10(abs(value * factor) or 1.0)) - 3)
+        off = abs(float(text.split(" ")[0].replace("−", "-")) - value * factor)
+        tally.words(category, f"{label}: four digits of {value * factor!r}", off <= digits, True)
+
+
+def _model(project, head, rows, tally):
+    statics = project.governing
+    mass = statics["node_mass"][:, 0].sum()
+    found = {tuple(row)[0]: row[1] for row in [head, *rows]}
+    tally.printed("tables of the report", "mass", found["mass"], 1e-3 * mass)
+    tally.printed("tables of the report", "weight", found["permanent vertical load"],
+                  1e-3 * float(statics["weight"]))  # fmt: skip
+    tally.printed("tables of the report", "carried", found["carried by the bearings"],
+                  1e-3 * float(statics["weight"]))  # fmt: skip
+    period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
+    tally.printed("tables of the report", "pendulum", found["period on the bearings"], period)
+    held = [float(row["period, held [s]"]) for row in project.table("modes")][:3]
+    for text, value in zip(found["periods, bearings held"].split(","), held, strict=False):
+        tally.printed("tables of the report", "held", text.strip(), value)
+
+
+def _loads(project, head, rows, tally):
+    own = {row["bearing"]: float(row["average load [N]"]) for row in project.table("bearings")}
+    area = math.pi * project.bearing.a**2
+    place = {title: k for k, title in enumerate(head)}
+    period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
+    for row in rows:
+        if row[0] in own:
+            load = own[row[0]]
+            tally.printed("tables of the report", "load", row[place["axial force"]], 1e-3 * load)
+            tally.printed("tables of the report", "pressure", row[place["pressure"]],
+                          1e-6 * load / area)  # fmt: skip
+            tally.printed("tables of the report", "pendulum", row[place["pendulum"]], period)
+
+
+def _device(project, head, rows, tally):
+    b = project.bearing
+    found = {row[0]: row[1] for row in [head, *rows]}
+    own = {
+        "effective radius": b.L, "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
+        "lateral capacity": b.capacity, "sliding force / load": b.share(b.fast),
+        "slip that holds": b.L * b.inner - b.fast * b.R.sum(), "slider_height": b.h,
+        "slider_radius": b.a, "interface_friction": b.inner, "capacity": b.capacity,
+        "slip_capacity": b.overlap,
+    }  # fmt: skip
+    for name, value in own.items():
+        tally.printed("tables of the report", name, found[name], value)
+
+
+def _from_csv(project, name, head, rows, tally, names=None):
+    # Cells beside those of a table of the folder, columns by their titles without unit.
+    own = project.table(name)
+    tally.same("tables of the report", f"rows of {name}", len(rows), len(own))
+    for row, given in zip(rows, own, strict=True):
+        columns = {title.partition(" [")[0]: (title, value) for title, value in given.items()}
+        for title, text in zip(head, row, strict=True):
+            plain, _, unit = title.partition(" [")
+            unit = unit.removesuffix("]")
+            if names and title == head[0]:
+                tally.words("tables of the report", f"{name} {text}", text, names(given))
+                continue
+            if plain not in columns:
+                tally.unknown("tables of the report", f"{name}: {title}")
+                continue
+            full, value = columns[plain]
+            factor = FACTORS.get(unit, 1.0) if f"[{unit}]" != full.partition(" ")[2] else 1.0
+            factor = 1.0 if full.endswith(f"[{unit}]") else factor
+            factor = _factor_of_row(given, title, factor)
+            label = f"{name} {row[0]} {title}"
+            if _number(value):
+                shown(tally, label, text, value, factor)
+            elif plain in {"unit"}:
+                tally.words("tables of the report", label, text, UNIT.get(value, value))
+            elif plain == "clause":
+                tally.words("tables of the report", label, text.removesuffix(" *"), value)
+            elif plain not in {"bearing", "friction coefficient", "test"}:
+                tally.words("tables of the report", label, text if text != "-" else "", " ".join(
+                    value.split()))  # fmt: skip
+
+
+UNIT = {"m": "mm", "N": "kN", "N m": "kN m"}
+
+
+def _factor_of_row(given, title, factor):
+    # Rows that name their unit are shown in mm and kN.
+    if "unit" in given and title not in {"members"}:
+        return FACTORS.get(UNIT.get(given["unit"], ""), 1.0)
+    return factor
+
+
+def _number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _modes(project, head, rows, tally):
+    _from_csv(project, "modes", head, rows, tally)
+
+
+def _bearings(project, head, rows, tally):
+    _from_csv(project, "bearings", head, rows, tally, lambda row: row["bearing"])
+
+
+def _friction(project, head, rows, tally):
+    _from_csv(project, "friction", head, rows, tally, lambda row: row["friction coefficient"])
+
+
+def _linear(project, head, rows, tally):
+    own = project.table("equivalent-linear")
+    for row, given in zip(rows, own, strict=True):
+        values = list(given.values())
+        for title, text, value in zip(head[1:], row[1:], values[1:], strict=True):
+            unit = title.partition("[")[2].removesuffix("]")
+            if value == "":
+                tally.words("tables of the report", title, text, "")
+            else:
+                shown(tally, f"linear {row[0]} {title}", text, value, FACTORS.get(unit, 1.0))
+
+
+def _demands(project, head, rows, tally):
+    _from_csv(project, "demands", head, rows, tally, lambda row: row["quantity"])
+
+
+def _members(project, head, rows, tally):
+    own = project.table("members")
+    for row, given in zip(rows, own, strict=True):
+        factor = FACTORS[UNIT[given["unit"]]]
+        tally.words("tables of the report", "members", row[0], given["group"])
+        for title, text in zip(head[1:], row[1:], strict=True):
+            source = given.get(title)
+            if title in {"smallest", "largest"}:
+                shown(tally, f"members {row[0]} {title}", text, source, factor)
+            elif title == "unit":
+                tally.words("tables of the report", "members unit", text, UNIT[source])
+            else:
+                tally.words("tables of the report", f"members {title}", text, source)
+
+
+def _programme(project, head, rows, tally):
+    k = iter(project.table("programme"))
+    _from_csv(project, "programme", head, rows, tally,
+              lambda row: f"{row['test']} {row['what']}")  # fmt: skip
+    del k
+
+
+def _checks(project, head, rows, tally):
+    own = project.table("checks")
+    tally.same("tables of the report", "rows of checks", len(rows), len(own))
+    for row, given in zip(rows, own, strict=True):
+        label = f"check {given['title']} {given['subject']} {given['bound']}"
+        for title, text in (("title", row[0]), ("subject", row[1]), ("bound", row[2]),
+                            ("level", row[3]), ("verdict", row[8])):  # fmt: skip
+            tally.words("tables of the report", label, text, " ".join(given[title].split()))
+        tally.words("tables of the report", label, row[9].removesuffix(" *"), given["clause"])
+        star = given["standing"].startswith("to be confirmed")
+        tally.words("tables of the report", f"{label} star", row[9].endswith("*"), star)
+        void = bool(given["void"])
+        sign = "" if void else {"<=": "≤", ">=": "≥"}[given["relation"]]
+        tally.words("tables of the report", label, row[5], sign)
+        for text, value in ((row[4], given["demand"]), (row[6], given["limit"])):
+            _said(tally, label, text.removesuffix(" reached"), float(value))
+        if not void and math.isfinite(float(given["ratio"])):
+            tally.printed("tables of the report", f"{label} ratio", row[7], float(given["ratio"]))
+
+
+def _said(tally, label, text, value, category="tables of the report"):
+    # A number with its unit.
+    text = text.replace("−", "-").replace("²", "2")
+    number, _, unit = text.partition(" ")
+    if not math.isfinite(value):
+        tally.words(category, label, number.strip("-") in {"∞", "inf"}, True)
+        return
+    factor = FACTORS.get(unit, 1.0)
+    tally.printed(category, label, number, value, factor)
+
+
+def _limits(project, head, rows, tally):
+    # What of the equivalent-linear analysis does not count among the checks.
+    name = "limits of the procedure"
+    for row in rows:
+        own = _limit(project, row)
+        label = f"{row[0]} {row[1]} {row[2]}"
+        if own is None:
+            tally.unknown(name, label)
+            continue
+        demand, limit = own
+        if row[0].startswith("no uplift"):  # loads of combinations: nearly multiples
+            value = 1e3 * float(row[4].split(" ")[0].replace("−", "-"))
+            size = max(abs(demand), project.linear[row[2]]["system"].P.max())
+            tally.words(name, label, abs(value - demand) < 2e-3 * size, True)
+            demand = value  # its sign may be decided by what is nearly a multiple
+        else:
+            _said(tally, f"{label} demand", row[4], demand, name)
+            _said(tally, f"{label} limit", row[6], limit, name)
+        relation = "<=" if row[5] == "≤" else ">="
+        ratio = checks.ratio_of(demand, limit, relation)
+        word = "ok" if ratio <= 1.0 + 1e-9 else "does not apply"
+        tally.words(name, f"{label} verdict", row[8], word)
+
+
+def _limit(project, row):
+    import codes
+
+    title, subject, bound = row[:3]
+    e, above = project.linear.get(bound), codes.above_of(project)
+    if e is None:
+        return None
+    moved, s = e.get("moved", e["centre"]), e["system"]
+    if title == "rims free at the total displacement":
+        return e["each"].max() * (1.2 if project.code == "EN 1998" else 1.0), project.bearing.capacity
+    if title == "stiffness over that at 0.2 D_M":
+        return e["k"], e["k_02"] / 3.0
+    if title == "stiffness over that at 0.2 d_dc":
+        return e["k"], e["k_02"] / 2.0
+    if title.startswith("no uplift") and "not evaluated" not in title:
+        part = 0.2 * project.file["spectrum"]["s_ms"]
+        share = 1.2 + part if title.endswith("maximum") else 0.9 - part
+        return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
+    simple = {
+        "effective period": (e["period"], 5.0), "effective damping": (e["damping"], 0.30),
+        "restoring force": e["restoring"],
+        "period over fixed base": (e["period"], 3.0 * above["T_fb"] if above and above["T_fb"] else 0.0),
+        "storeys": (len(above["w"]) if above else 0, 4.0),
+        "height": (above["h"][-1] if above else 0.0, 19.8),
+    }  # fmt: skip
+    del moved
+    return simple.get(title)
+
+
+def overturning(e, above):
+    """Return axial loads of the bearings from V_st at heights by C_vx, 100 and 30 %."""
+    s, exponent = e["system"], 14.0 * e["damping"] * above["T_fb"]
+    share = above["w"] * above["h"] ** exponent
+    moment = e["V_st"] * (share @ above["h"]) / share.sum()
+    x, y = np.abs(s.x - s.x.mean()), np.abs(s.y - s.y.mean())
+    one, two = moment * x / (x**2).sum(), moment * y / (y**2).sum()
+    return np.maximum(one + 0.3 * two, 0.3 * one + two)
+
+
+def _motions(project, head, rows, tally):
+    name = "measures of motions"
+    found = project.motions
+    for k, (row, motion) in enumerate(zip(rows, found.motions, strict=True)):
+        cells = dict(zip(head, row, strict=True))
+        a = found.factors[k] * motion.axes["x"]
+        if "factor" in cells:  # the factor that was used; the rule's is compared with it elsewhere
+            data = next(iter(next(iter(project.runs.values())).values()))
+            ground = np.nanmax(np.abs(data["ground_acceleration"][k][:, 0]))
+            factor = ground / np.abs(motion.axes["x"]).max()
+            tally.printed(name, f"{motion.name} factor", cells["factor"], factor)
+            a = factor * motion.axes["x"]
+        for title, value in measures(a, motion.dt).items():
+            tally.printed(name, f"{motion.name} {title}", cells[title], value)
+        periods = spectrum_peaks(a, motion.dt)
+        for title, value in zip(("Tp [s]", "T pulse [s]"), periods, strict=True):
+            tally.same("periods of spectra's peaks", f"{motion.name} {title}", cells[title], value)
+
+
+def measures(a, dt):
+    """Return peaks, intensities and durations of one component."""
+    between = 0.5 * dt * (a[:-1] ** 2 + a[1:] ** 2)
+    arias = np.concatenate([[0.0], math.pi / (2.0 * GRAVITY) * np.cumsum(between)])
+    time = dt * np.arange(len(a))
+    # exact integrals of an acceleration that is linear between its samples
+    v = np.concatenate([[0.0], np.cumsum(0.5 * dt * (a[:-1] + a[1:]))])
+    d = np.concatenate([[0.0], np.cumsum(dt * v[:-1] + dt**2 * (2.0 * a[:-1] + a[1:]) / 6.0)])
+    at = np.interp(np.array([0.05, 0.75, 0.95]) * arias[-1], arias, time)
+    power, f = np.abs(np.fft.rfft(a)) ** 2, np.fft.rfftfreq(len(a), dt)
+    band = (f >= 0.25) & (f <= 20.0)
+    size = np.abs(a)
+    return {
+        "PGA [m/s2]": size.max(), "PGV [m/s]": np.abs(v).max(), "PGD [m]": np.abs(d).max(),
+        "Arias [m/s]": arias[-1], "CAV [m/s]": (0.5 * dt * (size[:-1] + size[1:])).sum(),
+        "D5-75 [s]": at[1] - at[0], "D5-95 [s]": at[2] - at[0],
+        "Tm [s]": (power[band] / f[band]).sum() / power[band].sum(),
+    }  # fmt: skip
+
+
+def spectrum_peaks(a, dt):
+    """Return the periods of the largest pseudo-acceleration and pseudo-velocity."""
+    u = np.array([np.abs(motions.oscillator(a, dt, t)).max() for t in GROUND_PERIODS])
+    w = 2.0 * math.pi / GROUND_PERIODS
+    return GROUND_PERIODS[(w**2 * u).argmax()], GROUND_PERIODS[(w * u).argmax()]
