@@ -306,6 +306,8 @@ def ratio_of(demand, limit, relation):
     below, above = (demand, limit) if relation == "<=" else (limit, demand)
     if above > 0.0:
         return max(below / above, 0.0)
+    if above < 0.0:
+        return above / below if below < 0.0 else math.inf
     return 0.0 if below <= 0.0 else math.inf
 
 

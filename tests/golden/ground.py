@@ -8,6 +8,7 @@ of a project's file says what it wants:
 """
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -63,3 +64,8 @@ def acceleration(seed, seconds, dt, share, axis):
     peak = {"x": 1.0, "y": 0.5, "z": 0.02}[axis] * (PULSE[0] + (PULSE[1] - PULSE[0]) * share)
     moved = moved + peak * bell * np.sin(np.pi * turn)
     return np.diff(moved, 2) / dt**2
+
+
+if __name__ == "__main__":
+    own = Path(sys.argv[1])
+    write(own / "motions", asked((own / "project.toml").read_text(encoding="utf-8")))

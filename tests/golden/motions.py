@@ -120,6 +120,7 @@ class Set:
             self.factors = self.factors * needed
         else:
             self.factors = np.full(len(self.motions), float(given["scale"]))
+        self.used = self.factors.copy()
         self.mean = (self.factors[:, None] * self.raw).mean(axis=0)
 
 
@@ -146,6 +147,7 @@ def compare(project, tally):
                 peak = np.unravel_index(np.abs(own).argmax(), own.shape)
                 factor = ground[known][peak] / own[peak]
                 tally.same(name, f"{level} {bound} {motion.name}", factor, more * found.factors[k])
+                found.used[k] = factor / more
                 off = np.abs(ground[known] - factor * own).max() / np.abs(ground[known]).max()
                 tally.same(used, f"{level} {bound} {motion.name} samples", 1.0, 1.0 + off)
 

@@ -305,11 +305,8 @@ def _motions(project, head, rows, tally):
         cells = dict(zip(head, row, strict=True))
         a = found.factors[k] * motion.axes["x"]
         if "factor" in cells:  # the factor that was used; the rule's is compared with it elsewhere
-            data = next(iter(next(iter(project.runs.values())).values()))
-            ground = np.nanmax(np.abs(data["ground_acceleration"][k][:, 0]))
-            factor = ground / np.abs(motion.axes["x"]).max()
-            tally.printed(name, f"{motion.name} factor", cells["factor"], factor)
-            a = factor * motion.axes["x"]
+            tally.printed(name, f"{motion.name} factor", cells["factor"], found.used[k])
+            a = found.used[k] * motion.axes["x"]
         for title, value in measures(a, motion.dt).items():
             tally.printed(name, f"{motion.name} {title}", cells[title], value)
         periods = spectrum_peaks(a, motion.dt)

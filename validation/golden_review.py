@@ -1,0 +1,230 @@
+"""Golden review: ten projects run by `lir run`, every number recomputed without the package.
+
+    python -m validation.golden_review [FOLDER] [--only 01 05]
+
+Each project of tests/golden/projects is run in a folder of its own (kept where FOLDER names one), with
+artificial motions that tests/golden/ground.py writes. Then tests/golden/recompute.py, which imports nothing of
+the packages, reads the files and compares: peaks from histories, statistics, equivalent-linear analyses, checks, spectra and
+factors of the motions, and each table of the report. A table is printed; the exit code is 1 where something disagrees.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+HERE = Path(__file__).resolve().parents[1]
+GOLDEN = HERE / "tests" / "golden"
+_RUN = "from frames.command.entry import main; main()"
+_RAN = (0, 1)  # exit codes of `lir run` that leave results: checks pass, or some fail
+
+
+class Review(NamedTuple):
+    """What the comparison of one project found.
+
+    Attributes
+    ----------
+    counts : dict of str to int
+        Number of values compared, by category.
+    worst : dict of str to float
+        Largest relative difference of those that agree.
+    tolerances : dict of str to (float, str)
+        Tolerance, and its reason.
+    bad : list
+        Category, label, reported, found and difference of what disagrees.
+    missing : list
+        Category and label of what was reported and not recomputed.
+    """
+
+    counts: dict[str, int]
+    worst: dict[str, float]
+    tolerances: dict[str, tuple[float, str]]
+    bad: list[list[str]]
+    missing: list[list[str]]
+
+
+def projects() -> list[Path]:
+    """Return the projects' files.
+
+    Returns
+    -------
+    list of Path
+        By number.
+    """
+    return sorted((GOLDEN / "projects").glob("*.toml"))
+
+
+def prepared(project: Path, folder: Path) -> Path:
+    """Write a project with its motions into a folder.
+
+    Parameters
+    ----------
+    project : Path
+        One of `projects`.
+    folder : Path
+        Where; made anew.
+
+    Returns
+    -------
+    Path
+        The project's own folder.
+    """
+    own = folder / project.stem
+    shutil.rmtree(own, ignore_errors=True)
+    own.mkdir(parents=True)
+    shutil.copy(project, own / "project.toml")
+    for script in project.parent.glob("*.py"):
+        shutil.copy(script, own)
+    _script("ground.py", own)
+    return own
+
+
+def review(own: Path) -> Review:
+    """Run a prepared project and recompute what it reports.
+
+    Parameters
+    ----------
+    own : Path
+        Of `prepared`.
+
+    Returns
+    -------
+    Review
+        The comparison.
+
+    Raises
+    ------
+    RuntimeError
+        If `lir run` leaves no results, or they cannot be read.
+    """
+    done = _python(["-c", _RUN, "run"], own)
+    if done.returncode not in _RAN:
+        msg = f"{own.name}: lir run ended with {done.returncode}: {done.stderr[-2000:]}"
+        raise RuntimeError(msg)
+    return recomputed(own)
+
+
+def recomputed(own: Path) -> Review:
+    """Recompute what the run of a project reports, from the files that it left.
+
+    Parameters
+    ----------
+    own : Path
+        The project's folder.
+
+    Returns
+    -------
+    Review
+        The comparison.
+
+    Raises
+    ------
+    RuntimeError
+        If the files cannot be read.
+    """
+    return Review(**json.loads(_script("recompute.py", own, "--json", fails=(0, 1))))
+
+
+def _script(name: str, *given: object, fails: tuple[int, ...] = (0,)) -> str:
+    # A script of tests/golden, in a process of its own that has not the packages on its path.
+    done = _python([str(GOLDEN / name), *map(str, given)], Path(tempfile.gettempdir()), alone=True)
+    if done.returncode not in fails or (0 not in fails and not done.stdout):
+        msg = f"{name} ended with {done.returncode}: {done.stderr[-2000:]}"
+        raise RuntimeError(msg)
+    if not done.stdout and 1 in fails:
+        msg = f"{name} printed nothing: {done.stderr[-2000:]}"
+        raise RuntimeError(msg)
+    return done.stdout
+
+
+def _python(
+    command: list[str], folder: Path, *, alone: bool = False
+) -> subprocess.CompletedProcess[str]:
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    if not alone:
+        environment["PYTHONPATH"] = str(HERE)
+    return subprocess.run(  # noqa: S603  (this Python, our own files)
+        [sys.executable, *command], cwd=folder, env=environment, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+
+
+def table(reviews: dict[str, Review]) -> str:
+    """Return the comparisons of all projects by category.
+
+    Parameters
+    ----------
+    reviews : dict of str to Review
+        By project.
+
+    Returns
+    -------
+    str
+        A line a category: values, worst relative difference of those that agree, how many do not,
+        the tolerance and its reason; then what disagrees, and what was not recomputed.
+    """
+    counts: dict[str, int] = defaultdict(int)
+    worst: dict[str, float] = defaultdict(float)
+    bad: dict[str, int] = defaultdict(int)
+    why: dict[str, tuple[float, str]] = {}
+    for each in reviews.values():
+        why |= each.tolerances
+        for name, count in each.counts.items():
+            counts[name] += count
+            worst[name] = max(worst[name], each.worst.get(name, 0.0))
+        for name, *_ in each.bad:
+            bad[name] += 1
+    lines = [f"{'category':44}{'values':>8}{'worst':>9}{'off':>5}  tolerance"]
+    for name, count in counts.items():
+        tolerance, reason = why[name]
+        size = f"{tolerance:.0e}, " if tolerance else ""
+        lines.append(f"{name:44}{count:8d}{worst[name]:9.1e}{bad[name]:5d}  {size}{reason}")
+    total, off = sum(counts.values()), sum(bad.values())
+    lines.append(f"{total} values of {len(reviews)} projects, {off} disagree")
+    for project, each in reviews.items():
+        lines += (f"{project}: DISAGREES {' | '.join(row)}" for row in each.bad[:20])
+        lines += (f"{project}: not recomputed: {' | '.join(row)}" for row in each.missing[:20])
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run and review all projects, or some.
+
+    Parameters
+    ----------
+    arguments : list of str, optional
+        Of the command line.
+
+    Returns
+    -------
+    int
+        1 where a number disagrees.
+    """
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("folder", nargs="?", type=Path)
+    parser.add_argument("--only", nargs="+", default=[])
+    given = parser.parse_args(arguments)
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary) if given.folder is None else given.folder.resolve()
+        chosen = [p for p in projects() if not given.only or p.stem[:2] in given.only]
+        reviews = {}
+        for project in chosen:
+            own = prepared(project, folder)
+            reviews[project.stem] = each = review(own)
+            print(f"{project.stem}: {sum(each.counts.values())} values, {len(each.bad)} disagree")
+            if given.folder is None:
+                shutil.rmtree(own)
+    print(table(reviews))
+    return int(any(each.bad or each.missing for each in reviews.values()))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
