@@ -298,10 +298,7 @@ def lateral_capacity(data: xr.Dataset) -> FloatArray:
 
 
 def centre_shift(data: xr.Dataset) -> FloatArray:
-    """Return how far rotations of the nodes move the upper centre over the lower (time, bearing, 2).
-
-    In m. With ``C1 = x_i + l1 e_i``, ``C2 = x_j - l2 e_j`` and ``e = (r_y, -r_x, 1)``.
-    """
+    """Return how far turns of nodes move the spheres' centres C2 - C1 (time, bearing, 2) [m]."""
     if (data["bearing_node"] < 0).any():
         msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
         raise ValueError(msg)
@@ -310,6 +307,7 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
     for end, name in enumerate(("bottom", "top")):
         place = data["bearing_node"].isel(end=end).to_numpy()
         lever = data["lever"].sel(surface=name).to_numpy()
+        # C1 = x_i + l_1 e_i and C2 = x_j - l_2 e_j, with the plates' axes e = (r_y, -r_x, 1)
         total[..., 0] -= lever * turns[:, place, 1]
         total[..., 1] += lever * turns[:, place, 0]
     return total

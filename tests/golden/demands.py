@@ -1,8 +1,7 @@
-"""Tables of demands, bearings, friction and tests, from what the runs reached and the project's file."""
+"""Tables of demands, bearings, friction and tests, from what runs reached and the file says."""
 
 import math
 
-import codes
 import numpy as np
 
 MEAN_FROM = 7
@@ -147,9 +146,15 @@ def _bearings(project, tally):
                        floor_of(quantity))  # fmt: skip
         top = statics["node_position"][statics["bearing_node"][k, 1]]
         tally.same(name, f"{row['bearing']} place", [row["x [m]"], row["y [m]"]], top[:2])
-        tally.same(name, f"{row['bearing']} load at rest, by the weight", 1.0, 1.0 + abs(
-            float(row["average load [N]"]) - statics["static_axial_force"][k]
-        ) / statics["static_axial_force"].max() * 1e-2)  # friction holds some at rest
+        tally.same(
+            name,
+            f"{row['bearing']} load at rest, by the weight",
+            1.0,
+            1.0
+            + abs(float(row["average load [N]"]) - statics["static_axial_force"][k])
+            / statics["static_axial_force"].max()
+            * 1e-2,
+        )  # friction holds some at rest
     total = sum(float(row["average load [N]"]) for row in project.table("bearings"))
     tally.same(name, "sum of the loads", total, float(statics["weight"]))
 

@@ -55,7 +55,9 @@ def acceleration(seed, seconds, dt, share, axis):
     size = frequency / (1.0 + frequency * CORNER) / (1.0 + (frequency / 8.0) ** 2)
     size *= np.sqrt(np.gradient(frequency) / frequency) / (2.0 * np.pi * frequency) ** 2
     phase = random.uniform(0.0, 2.0 * np.pi, len(frequency))
-    waves = (size[:, None] * np.sin(2.0 * np.pi * frequency[:, None] * time + phase[:, None])).sum(0)
+    waves = (size[:, None] * np.sin(2.0 * np.pi * frequency[:, None] * time + phase[:, None])).sum(
+        0
+    )
     envelope = np.where((time > 0.0) & (time < seconds), np.sin(np.pi * time / seconds) ** 3, 0.0)
     moved = 3.0 * waves * envelope * (0.6 if axis == "z" else 1.0)
     period = 1.8 + 1.4 * share  # s

@@ -1,4 +1,4 @@
-"""Peaks of every run from its histories, by definitions of docs/results.md and docs/conventions.md."""
+"""Peaks of every run from its histories, by the definitions of docs/results.md."""
 
 import numpy as np
 

@@ -22,9 +22,7 @@ class Motion:
     def __init__(self, folder, row, turn):
         self.name, self.dt = row["name"], float(row["dt"])
         unit = UNIT[row["unit"]]
-        self.axes = {
-            axis: unit * np.loadtxt(folder / row[axis]) for axis in "xyz" if row.get(axis)
-        }
+        self.axes = {axis: unit * np.loadtxt(folder / row[axis]) for axis in "xyz" if row.get(axis)}
         self.near = row.get("near_fault") == "yes"
         self.azimuths = [float(row[key]) for key in ("azimuth_x", "azimuth_y") if row.get(key)]
         self.strike = float(row["strike"]) if row.get("strike") else None
@@ -116,7 +114,9 @@ class Set:
             mean = (self.factors[:, None] * self.raw).mean(axis=0)
             needed = (self.part * self.target / mean).max()
             if self.zero:
-                needed = max(needed, self.zero * self.at_zero / (self.factors @ self.still) * len(self.still))
+                needed = max(
+                    needed, self.zero * self.at_zero / (self.factors @ self.still) * len(self.still)
+                )
             self.factors = self.factors * needed
         else:
             self.factors = np.full(len(self.motions), float(given["scale"]))

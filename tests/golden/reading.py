@@ -1,6 +1,6 @@
 """What a project's folder holds: its file, its motions, tables, histories and its report.
 
-Nothing of the package is imported: numbers that the package wrote are read as they lie in the files.
+Nothing of the package is imported: its numbers are read as they lie in the files.
 """
 
 import csv

@@ -3,9 +3,9 @@
     python recompute.py FOLDER [--json]
 
 FOLDER holds a project as `lir run` leaves it: motions, and results/ with the histories of all runs
-(``[analysis] histories = "all"``). Nothing of the package is imported. Printed is a table by category: number of
-values compared, worst relative difference, tolerance with its reason; then what disagrees, and what
-was reported and not recomputed. The exit code is 1 where something disagrees.
+(``[analysis] histories = "all"``). Nothing of the package is imported. Printed is a table by
+category: number of values compared, worst relative difference, tolerance with its reason; then what
+disagrees, and what was reported and not recomputed. The exit code is 1 where something disagrees.
 """
 
 import json

@@ -64,7 +64,7 @@ def shown(tally, label, text, value, factor=1.0, category="tables of the report"
 def _model(project, head, rows, tally):
     statics = project.governing
     mass = statics["node_mass"][:, 0].sum()
-    found = {tuple(row)[0]: row[1] for row in [head, *rows]}
+    found = {row[0]: row[1] for row in [head, *rows]}
     tally.printed("tables of the report", "mass", found["mass"], 1e-3 * mass)
     tally.printed("tables of the report", "weight", found["permanent vertical load"],
                   1e-3 * float(statics["weight"]))  # fmt: skip
@@ -198,10 +198,8 @@ def _members(project, head, rows, tally):
 
 
 def _programme(project, head, rows, tally):
-    k = iter(project.table("programme"))
     _from_csv(project, "programme", head, rows, tally,
               lambda row: f"{row['test']} {row['what']}")  # fmt: skip
-    del k
 
 
 def _checks(project, head, rows, tally):
@@ -266,9 +264,11 @@ def _limit(project, row):
     e, above = project.linear.get(bound), codes.above_of(project)
     if e is None:
         return None
-    moved, s = e.get("moved", e["centre"]), e["system"]
+    s = e["system"]
     if title == "rims free at the total displacement":
-        return e["each"].max() * (1.2 if project.code == "EN 1998" else 1.0), project.bearing.capacity
+        return e["each"].max() * (
+            1.2 if project.code == "EN 1998" else 1.0
+        ), project.bearing.capacity
     if title == "stiffness over that at 0.2 D_M":
         return e["k"], e["k_02"] / 3.0
     if title == "stiffness over that at 0.2 d_dc":
@@ -277,14 +277,14 @@ def _limit(project, row):
         part = 0.2 * project.file["spectrum"]["s_ms"]
         share = 1.2 + part if title.endswith("maximum") else 0.9 - part
         return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
+    held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {
         "effective period": (e["period"], 5.0), "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
-        "period over fixed base": (e["period"], 3.0 * above["T_fb"] if above and above["T_fb"] else 0.0),
+        "period over fixed base": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),
     }  # fmt: skip
-    del moved
     return simple.get(title)
 
 
