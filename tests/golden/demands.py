@@ -101,6 +101,8 @@ def _demands(project, found, tally):
             tally.same(name, f"{level} {row['quantity']} {bound}", row[column] or np.nan, largest,
                        floor_of(quantity))  # fmt: skip
             said = f"{'mean' if suite.mean else 'largest'} of"
+            if len(suite.failed) == 1 and not suite.void:
+                said = "1 run"
             tally.words(name, f"{level} {bound} statistic", column.split(", ")[1][: len(said)]
                         if ":" not in column else said, said)  # fmt: skip
             if not np.isnan(each).all() and np.nanmax(each) > best[0]:
@@ -126,7 +128,7 @@ def near(each, quantity, reported, best, tally, name):
 
 def floor_of(quantity):
     """Return the size below which differences of a quantity are round-off of single precision."""
-    return {"gap": 0.1, "slip": 1e-3, "slip_left": 1e-3, "displacement_left": 1e-2,
+    return {"gap": 0.1, "g": 0.1, "slip": 1e-3, "slip_left": 1e-3, "displacement_left": 1e-2,
             "axial_tension": 1e4, "drift": 1e-3, "line_drift": 1e-3}.get(quantity, 0.0)  # fmt: skip
 
 
