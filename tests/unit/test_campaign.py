@@ -9,8 +9,11 @@ from scipy.stats import lognorm, uniform
 from frames import (
     Campaign,
     CampaignError,
+    FragilityError,
     Frame,
     GroundMotion,
+    Intensity,
+    IntensityRuns,
     ModelError,
     ParameterSample,
     Recording,
@@ -26,6 +29,7 @@ from frames.campaign.designs import with_parameters
 from frames.campaign.lock import locked
 from frames.campaign.plan import Plan, differences
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element.errors import AnalysisWarning
 
 zarr = pytest.importorskip("zarr")
 
@@ -328,3 +332,85 @@ def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:
     told.clear()
     small(tmp_path / "store").run(progress=told.append)
     assert [(p.done, p.total) for p in told] == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_a_store_of_other_sources_is_refused_or_taken_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from frames._provenance import numerical_sources
+    from frames.campaign import described
+
+    first = small(tmp_path / "store")
+    first.run()
+    whole = first.digest()
+    next((tmp_path / "store").rglob("000002.json")).unlink()
+    other = numerical_sources() | {"lir_element/device/specification.py": "0" * 8}
+    monkeypatch.setattr(described, "numerical_sources", lambda: other)
+    with pytest.raises(CampaignError, match=r"other sources(.|\n)*specification.py.* is 00000000"):
+        small(tmp_path / "store").run()
+    data = small(tmp_path / "store").run(accept_other_sources=True)
+    assert data.attrs["sources_accepted"].startswith("after 13 runs: lir-dcfp")
+    small(tmp_path / "store").run()  # they are the store's now
+    assert small(tmp_path / "store").digest() == whole
+
+
+def test_another_default_of_a_bearing_is_refused_whatever_is_accepted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small(tmp_path / "store").run()
+    usual = LIRBearing.resolved
+    monkeypatch.setattr(
+        LIRBearing, "resolved", lambda own: usual(own) | {"rim_overrun": 0.02 * own.slider_radius}
+    )
+    with pytest.raises(CampaignError, match=r"bearings: .*rim_overrun\" was 0.008, is 0.0016"):
+        small(tmp_path / "store").run(accept_other_sources=True)
+
+
+def test_rows_without_a_mark_are_empty(tmp_path: Path) -> None:
+    small(tmp_path / "store").run()
+    next((tmp_path / "store").rglob("000002.json")).unlink()
+    data = open_campaign(tmp_path / "store").results()
+    gone = ~data["done"].to_numpy()
+    assert gone.tolist() == [k // 3 == 2 for k in range(16)]
+    assert set(data["status"].to_numpy()[gone]) == {""}
+    assert np.isnan(data["reached_displacement"].to_numpy()[gone]).all()
+    assert not np.isnan(data["reached_displacement"].to_numpy()[~gone]).any()
+    assert np.isnan(data["reached_displacement"].isel(run=7).to_numpy()).all()
+    assert data["model"].to_numpy().astype(str).dtype.kind == "U"
+    assert data["quantity"].to_numpy().astype(str).dtype.kind == "U"
+    assert data["status"].to_numpy().astype(str)[0] == "ok"
+
+
+def test_fragility_takes_the_motions_that_were_run_and_one_design(tmp_path: Path) -> None:
+    measure = Intensity(kind="PGA", measure="x")
+    small(tmp_path / "store").run()
+    data = open_campaign(tmp_path / "store").results()
+    with pytest.raises(FragilityError, match=r"4 sets of parameters \(friction, radius\)|4 sets"):
+        IntensityRuns.from_dataset(data, PULSES, measure)
+    one = IntensityRuns.from_dataset(data, PULSES, measure, parameters=1)
+    same = {"radius": 0.7, "friction": 0.07}
+    by_value = IntensityRuns.from_dataset(data, PULSES, measure, parameters=same)
+    assert one.table.equals(by_value.table)
+    assert len(one.table) == 4
+    assert len(IntensityRuns.from_dataset(data, PULSES, measure, parameters="all").table) == 16
+    other = PULSES | {"large": PULSES["large"].scaled(0.5)}
+    with pytest.raises(FragilityError, match=r"1 of 2 motions are not those .* 'large'"):
+        IntensityRuns.from_dataset(data, other, measure, parameters=1)
+    alone = time_histories(structure(), PULSES)
+    with pytest.raises(FragilityError, match="'large'"):
+        IntensityRuns.from_dataset(alone, other, measure)
+    next((tmp_path / "store").rglob("000002.json")).unlink()
+    data = open_campaign(tmp_path / "store").results()
+    with pytest.warns(AnalysisWarning, match="2 of 4 runs are not done and left out"):
+        part = IntensityRuns.from_dataset(data, PULSES, measure, parameters=1)
+    assert len(part.table) == 2
+
+
+def test_sources_that_numbers_depend_on_are_all_in_the_plan() -> None:
+    from frames._provenance import numerical_sources
+
+    root = Path(open_campaign.__code__.co_filename).parents[2]
+    kernels = {p.relative_to(root).as_posix() for p in root.glob("*/**/kernels/**/*.py")}
+    known = numerical_sources().keys()
+    assert {k for k in kernels if "opensees" not in k} <= known
+    assert {"lir_element/device/specification.py", "frames/analysis/batch_run.py"} <= known
