@@ -22,6 +22,13 @@ def noise(seed: int, count: int = 2001) -> np.ndarray:
     return np.convolve(rng.normal(size=count + 20), np.hanning(21), "valid") * np.sin(np.pi * t)
 
 
+def faded(seed: int, offset: float) -> np.ndarray:
+    """A record as they are: strong in the middle, and quiet at its end but for an offset."""
+    wave = noise(seed)
+    wave *= np.exp(-((np.linspace(-3.0, 3.0, len(wave))) ** 2))
+    return corrected(wave, DT, displacement=True) + offset
+
+
 def test_integration_is_exact_between_samples() -> None:
     """Against quadrature of the same polygon."""
     a = np.array([0.3, -1.0, 2.0, 0.5, 0.0])
@@ -81,7 +88,7 @@ def test_what_is_no_baseline_is_refused() -> None:
 @pytest.mark.parametrize("offset", [0.0, 0.05])
 def test_reading_a_record_that_still_moves(tmp_path: Path, offset: float) -> None:
     path = tmp_path / "rec.txt"
-    wave = corrected(noise(4), DT, displacement=True) + offset
+    wave = faded(4, offset)
     np.savetxt(path, np.column_stack([DT * np.arange(len(wave)), wave]))
     if offset:
         with pytest.warns(MotionWarning, match=r"rec: .* not at rest .*x: velocity 1 m/s.*corr"):
@@ -90,13 +97,6 @@ def test_reading_a_record_that_still_moves(tmp_path: Path, offset: float) -> Non
         motion = GroundMotion.from_columns(path, x=1, time=0, unit="m/s2")
     assert_allclose(motion.drift["x"].velocity, offset * 20.0, atol=1e-9)
     assert f"{offset * 20.0:.3f} m/s" in motion.summary()
-
-
-def faded(seed: int, offset: float) -> np.ndarray:
-    """A record as they are: strong in the middle, and quiet at its end but for an offset."""
-    wave = noise(seed)
-    wave *= np.exp(-((np.linspace(-3.0, 3.0, len(wave))) ** 2))
-    return corrected(wave, DT, displacement=True) + offset
 
 
 @pytest.mark.parametrize("offset", [0.05, -0.1])
