@@ -1,13 +1,14 @@
-"""Random projects: files with errors put into them, and sound ones, given to `lir check` and `lir run`.
+"""Random projects: files with errors put into them, and sound ones, for `lir check` and `lir run`.
 
     python -m validation.random_projects --seed 1 --count 200 --workers 2
     python -m validation.random_projects --seed 1 --only 17
 
-Project `number` of the series `seed` is always the same one. Most have one thing wrong, or two: a unit,
-a thousandfold value, a key that is missing, misspelled, doubled or swapped with another, sections in
-another order, a motion's file that cannot be read. Each must end in a message that says what is
-wrong, with the documented exit code, or in numbers: of those that `lir check` takes, one motion is run and
-tests/golden/recompute.py, which imports nothing of the packages, must find every number again.
+Project `number` of the series `seed` is always the same one. Most have one thing wrong, or two: a
+unit, a thousandfold value, a key that is missing, misspelled, doubled or swapped with another,
+sections in another order, a motion's file that cannot be read. Each must end in a message that says
+what is wrong, with the documented exit code, or in numbers: of those that `lir check` takes, one
+motion is run and tests/golden/recompute.py, which imports nothing of the packages, must find every
+number again.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import math
 import re
 import tempfile
 from collections import Counter
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -319,10 +321,8 @@ def random_project(seed: int, number: int) -> tuple[Document, str]:
     words = []
     for _ in range(times):
         mutate = MUTATIONS[int(rng.integers(len(MUTATIONS)))]
-        try:
+        with suppress(KeyError, IndexError, ValueError, TypeError):  # what it changes is gone
             words.append(mutate(document, rng))
-        except (KeyError, IndexError, ValueError, TypeError):  # nothing left of what it changes
-            continue
     return document, "; ".join(words)
 
 

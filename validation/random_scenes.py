@@ -131,7 +131,8 @@ def main(given: Sequence[str] | None = None) -> int:
             print(f"{task[0]} {task[1]}: {kind}: {words[:120]}", flush=True)
     for entries in found.values():
         entries.sort(key=lambda entry: int(entry["number"]))
-    spent = f"{(time.monotonic() - began) / 60.0:.0f} minutes with {chosen.workers} process{"es" * (chosen.workers > 1)}"
+    workers = f"{chosen.workers} process{'es' if chosen.workers > 1 else ''}"
+    spent = f"{(time.monotonic() - began) / 60.0:.0f} minutes with {workers}"
     count = len(found["scene"])
     call = f"python -m validation.random_scenes --seed {chosen.seed} --count {count}"
     chosen.page.write_text(write(found["scene"], found["building"], call, spent), encoding="utf-8")
