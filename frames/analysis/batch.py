@@ -9,6 +9,7 @@ import threading
 import warnings
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Literal
 
@@ -18,10 +19,11 @@ from frames._provenance import provenance
 from frames.analysis.batch_run import Kept, Runner
 from frames.analysis.blas_threads import blas_threads_for
 from frames.analysis.cases import BatchProgress, grid, named_models, named_motions, tell
+from frames.analysis.kept_runs import KeptRuns
 from frames.analysis.options import check_options, options_of
 from frames.analysis.plausible import motion_doubts
 from frames.analysis.recording import Recording, whole_steps
-from frames.analysis.stacking import stack
+from frames.analysis.stacking import Row, stack
 from lir_element.device.features import Features
 from lir_element.door import require_choice
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning, RunStatus
@@ -33,7 +35,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.analysis.cases import Case
-    from frames.analysis.stacking import Row
     from frames.model.contents import FrameContents
     from frames.motion.ground_motion import GroundMotion
 
@@ -57,6 +58,7 @@ def time_histories(
     record: Literal["peaks"] | Recording | None = None,
     workers: int | None = None,
     progress: Callable[[BatchProgress], None] | bool | None = None,
+    resume: str | Path | None = None,
 ) -> xr.Dataset:
     """Analyse structures under many ground motions and scales, on all processors.
 
@@ -84,6 +86,10 @@ def time_histories(
         many as the process has processors.
     progress : callable or bool, optional
         Called with a `BatchProgress` after each run; True writes it to the standard error.
+    resume : str or path, optional
+        Folder that keeps each run as it completes, and from which runs are taken that were complete
+        before: those of the same model, motion, scale, options, version and sources. What comes out
+        is what an undisturbed batch gives. The folder stays; its files are of no other use.
 
     Returns
     -------
@@ -130,8 +136,15 @@ def time_histories(
     count = _processors() if workers is None else whole_steps("workers", workers)
     began = perf_counter()
     with blas_threads_for(*structures.values()):
-        runner = Runner(structures, grounds, options, runs, chosen, level, kept)
-        rows, is_whole = _all(runner, min(count, len(runs)), tell(progress))
+        keeper, before = None, list[Row]()
+        if resume is not None:
+            asked = (chosen, level)
+            keeper = KeptRuns(Path(resume), structures, grounds, options, asked, kept)
+            before = keeper.rows(runs)
+        todo = sorted({*range(len(runs))} - {row.place for row in before})
+        runner = Runner(structures, grounds, options, [runs[k] for k in todo], chosen, level, kept)
+        new, is_whole = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
+        rows = before + [row._replace(place=todo[row.place]) for row in new]
     if not rows:
         raise KeyboardInterrupt
     data = stack(rows, runs, {name: motion_digest(each) for name, each in grounds.items()})
@@ -173,9 +186,17 @@ class _Interrupted(AnalysisInterrupted):
 
 
 def _all(
-    runner: Runner, workers: int, told: Callable[[BatchProgress], None] | None
+    runner: Runner,
+    workers: int,
+    told: Callable[[BatchProgress], None] | None,
+    keeper: KeptRuns | None,
+    taken: int,
 ) -> tuple[list[Row], bool]:
     # All rows, and whether they are all: Ctrl-C leaves those that are done.
+    if taken and told is not None:
+        told(BatchProgress(0, len(runner.cases), 0.0, 0, taken))
+    if not runner.cases:
+        return [], True
     results: queue.SimpleQueue[Row | None] = queue.SimpleQueue()  # None: a worker has ended
     todo, lock, stop = iter(range(len(runner.cases))), threading.Lock(), threading.Event()
 
@@ -201,8 +222,10 @@ def _all(
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work) for _ in range(workers)]
         try:
-            for row in _arriving(results, workers, len(runner.cases), told):
-                rows.append(row)  # noqa: PERF402  # those that came before an interruption stay
+            for row in _arriving(results, workers, len(runner.cases), told, taken):
+                rows.append(row)  # those that came before an interruption stay
+                if keeper is not None:
+                    keeper.keep(row, runner.cases[row.place])
         except KeyboardInterrupt:
             is_whole = False
         finally:
@@ -213,6 +236,8 @@ def _all(
         late = results.get()
         if late is not None:
             rows.append(late)
+            if keeper is not None:
+                keeper.keep(late, runner.cases[late.place])
     return rows, is_whole or len(rows) == len(runner.cases)
 
 
@@ -221,6 +246,7 @@ def _arriving(
     workers: int,
     total: int,
     told: Callable[[BatchProgress], None] | None,
+    taken: int,
 ) -> Iterator[Row]:
     # Rows as they are done, until all workers have ended.
     began, done, failed = perf_counter(), 0, 0
@@ -235,7 +261,7 @@ def _arriving(
         done += 1
         failed += math.isfinite(row.failed_at)
         if told is not None:
-            told(BatchProgress(done, total, perf_counter() - began, failed))
+            told(BatchProgress(done, total, perf_counter() - began, failed, taken))
 
 
 def _kept(record: object) -> Kept:

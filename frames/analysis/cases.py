@@ -49,12 +49,15 @@ class BatchProgress(NamedTuple):
         Time since the first began [s].
     failed : int
         Of those done, runs that stopped before their end.
+    taken : int
+        Runs besides these that were complete before.
     """
 
     done: int
     total: int
     elapsed: float
     failed: int
+    taken: int = 0
 
     @property
     def rate(self) -> float:
@@ -68,9 +71,12 @@ class BatchProgress(NamedTuple):
 
     def __str__(self) -> str:
         """Return it on one line."""
+        before = f" ({self.taken} more were complete before)" if self.taken else ""
+        if not self.done:
+            return f"{self.done} of {self.total} runs{before}"
         left = f", {_clock(self.remaining)} left" if self.done < self.total else ""
         stopped = f", {self.failed} stopped early" if self.failed else ""
-        return f"{self.done} of {self.total} runs, {self.rate:.3g} runs/s{left}{stopped}"
+        return f"{self.done} of {self.total} runs{before}, {self.rate:.3g} runs/s{left}{stopped}"
 
 
 def _clock(seconds: float) -> str:

@@ -24,6 +24,7 @@ from frames.project.parts import Parts
 from frames.project.reading import read_project, schema
 from frames.project.speed import Way, recommended, ways_to_run
 from frames.report.files import (
+    UNFINISHED,
     read_histories,
     write_interrupted,
     write_judgement,
@@ -125,10 +126,13 @@ def run(
         try:
             parts = _parts(file)
             say(said_of_runs(parts, parts.motions()))
-            found = run_project(parts, progress=True)
+            found = run_project(parts, progress=True, resume=results / UNFINISHED)
         except AnalysisInterrupted as stop:
             kept = write_interrupted(stop.data, results)
-            err.print(f"what was complete is in {escape(str(kept))}", highlight=False)
+            err.print(
+                f"what was complete is in {escape(str(kept))}; the same command goes on from there",
+                highlight=False, soft_wrap=True,
+            )  # fmt: skip
             if (results / "run.json").is_file():
                 err.print("the other files there are of the run before", highlight=False)
             raise

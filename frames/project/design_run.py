@@ -28,6 +28,7 @@ from lir_element.errors import AnalysisInterrupted, AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     from frames.analysis.cases import BatchProgress
     from frames.analysis.model_check import ModelCheck
@@ -118,7 +119,10 @@ class Histories:
 
 
 def run_project(
-    parts: Parts, *, progress: Callable[[BatchProgress], None] | bool | None = None
+    parts: Parts,
+    *,
+    progress: Callable[[BatchProgress], None] | bool | None = None,
+    resume: Path | None = None,
 ) -> ProjectRun:
     """Run a project: equivalent-linear analysis, time histories at each level and bound, checks.
 
@@ -128,6 +132,9 @@ def run_project(
         The project.
     progress : callable or bool, optional
         As for `frames.time_histories`.
+    resume : Path, optional
+        Folder that keeps time histories as they complete: after an interruption the next run takes
+        them from there.
 
     Returns
     -------
@@ -142,7 +149,7 @@ def run_project(
         After Ctrl-C, with the runs that were complete.
     """
     known = groundwork(parts)
-    runs = histories_at_levels(parts, known.frame, known.motions, progress)
+    runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
         governing, case = _governing(parts, known.frame, known.motions, runs)
     except AnalysisInterrupted as stop:  # all runs were complete

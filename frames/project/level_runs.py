@@ -12,6 +12,7 @@ from frames.checks.histories import history_demands
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     import pandas as pd
     import xarray as xr
@@ -32,6 +33,7 @@ def histories_at_levels(
     frame: Frame,
     motions: MotionSet,
     progress: Callable[[BatchProgress], None] | bool | None,
+    resume: Path | None = None,
 ) -> LevelRuns:
     """Run a project's time histories at each level and bound, all on all processors.
 
@@ -45,6 +47,8 @@ def histories_at_levels(
         Scaled to the design spectrum.
     progress : callable or bool, optional
         As for `frames.time_histories`.
+    resume : Path, optional
+        Folder that keeps runs as they complete, and from which they are taken.
 
     Returns
     -------
@@ -65,7 +69,7 @@ def histories_at_levels(
     record = Recording.everything() if given.histories == "all" else Recording(every=None)
     data = time_histories(
         models, motions, cases=cases, level=given.level, dt=given.dt, workers=given.workers,
-        progress=progress, record=record,
+        progress=progress, record=record, resume=resume,
     )  # fmt: skip
     found: LevelRuns = {level.name: {} for level in levels}
     for k, (level, bound) in enumerate(places):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from frames.project.design_run import ProjectRun
     from frames.project.level_runs import LevelRuns
 
+
+UNFINISHED = "unfinished"
+"""Folder among the results that keeps the time histories of a run until all are complete."""
 
 _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
@@ -61,6 +65,7 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
     save(run.governing, governing, compress=True)
     kept = [*write_judgement(run, folder, source), *written.values(), governing]
     (folder / "interrupted.nc").unlink(missing_ok=True)
+    shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
     return kept
 
 

@@ -1,4 +1,4 @@
-"""The list of errors that the suite must notice is true: each text is there once, each test exists."""
+"""The list of errors that the suite must notice: each text is there once, each test exists."""
 
 import pytest
 

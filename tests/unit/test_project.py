@@ -345,6 +345,38 @@ def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch
     assert not (folder / "out" / "interrupted.nc").exists()
 
 
+def test_a_run_goes_on_where_it_was_interrupted(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Interrupted after all of its runs but the governing one: none is run twice, files alike."""
+    file, whole, cut = (str(folder / name) for name in ("small.toml", "whole", "cut"))
+    run(app, ["run", file, "--results", whole])
+
+    def stopped(*_: object, **__: object) -> None:
+        raise AnalysisInterrupted(2.0, xr.Dataset())
+
+    monkeypatch.setattr(design_run, "time_history", stopped)
+    done = run(app, ["run", file, "--results", cut])
+    assert done.exit_code == 130
+    assert "the same command goes on from there" in done.output
+    kept = list((folder / "cut" / "unfinished").iterdir())
+    assert len(kept) == 9
+    kept[4].unlink()  # as if it had been interrupted before
+    monkeypatch.undo()
+    done = run(app, ["run", file, "--results", cut])
+    assert done.exit_code in {0, 1}
+    assert "1 of 1 runs (8 more were complete before)" in done.output
+    assert not (folder / "cut" / "unfinished").exists()
+    for name in ("demands.csv", "checks.csv", "bearings.csv", "equivalent-linear.csv"):
+        assert (folder / "cut" / name).read_text() == (folder / "whole" / name).read_text()
+    for bound in ("lower", "nominal", "upper"):
+        both = (load(folder / where / f"runs-{bound}.nc") for where in ("cut", "whole"))
+        one, two = (
+            d.drop_vars("seconds_loop").drop_sel(quantity="seconds of the time loop") for d in both
+        )
+        xr.testing.assert_identical(one.drop_attrs(deep=False), two.drop_attrs(deep=False))
+
+
 def test_ctrl_c_in_the_governing_run_keeps_the_others(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
