@@ -439,6 +439,19 @@ def test_displacement_by_en1998() -> None:
     np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
 
 
+def test_drifts_of_en1998_at_damage_limitation() -> None:
+    """EN 1998-1 4.4.3.2: d_r = q d_e of the design forces, nu = 0.5 of it, 5/1000 of the height."""
+    found = nominal(SYSTEM, En(8.0), superstructure=ABOVE)["nominal"]
+    forces = np.array(found.storey_forces[1:])
+    shears = np.array([forces.sum(), forces[1:].sum(), forces[2]])
+    drift = 0.5 * 1.5 * shears / np.array([4e8, 3e8, 2e8])
+    check = found.checks.of("4.4.3.2")[0]
+    k = int((drift / [3.5, 3.0, 3.0]).argmax())
+    assert check.subject == f"storey {k + 1}"
+    assert check.demand == pytest.approx(drift[k], rel=1e-12)
+    assert check.limit == pytest.approx(0.005 * (3.5, 3.0, 3.0)[k], rel=1e-12)
+
+
 @pytest.mark.parametrize(("mu", "radius"), [(0.12, 2.5), (0.05, 4.0)])
 def test_both_branches_of_the_spectrum(mu: float, radius: float) -> None:
     """Between T_C and T_D, and beyond T_D where the displacement stays."""
