@@ -283,7 +283,9 @@ def check_analysis(model: object, motion: object) -> None:
         msg = f"model = {model!r} must be a Frame: time_history(model, motion)"
         raise TypeError(msg)
     if not isinstance(motion, GroundMotion):
-        msg = f"motion = {motion!r} must be a GroundMotion: time_history(model, motion)"
+        shape = getattr(motion, "shape", None)
+        given = repr(motion) if shape is None else f"an array of shape {shape}"
+        msg = f"motion = {given} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
         raise TypeError(msg)
     for doubt in motion_doubts(model, motion):
         warnings.warn(doubt, ModelWarning, stacklevel=3)

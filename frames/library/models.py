@@ -45,6 +45,9 @@ def lumped_mass(
     Frame
         Nodes "ground" (fixed) and "mass" (ux, uy, uz free), bearing "bearing", no damping.
     """
+    if not isinstance(getattr(bearing, "height", None), (int, float)):
+        msg = f"bearing = {bearing!r} must be an LIRBearing, the device itself"
+        raise TypeError(msg)
     frame = Frame(name, gravity)
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.add_node("mass", 0.0, 0.0, bearing.height)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 from frames.results.auditing import doubts_of
 from frames.results.measures import energy_error, lateral_capacity
@@ -19,11 +21,10 @@ from frames.results.reached import (
     total,
 )
 from frames.results.yielded import can_yield
+from lir_element.door import require_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    import xarray as xr
+    from collections.abc import Iterator
 
     from frames._types import BoolArray
 
@@ -55,7 +56,14 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         drifts, forces and accelerations in plan are sizes of vectors, of both horizontal
         components at one instant: at most sqrt(2) times the larger of both peaks. What a run that
         stopped before its end would have left is NaN.
+
+    Raises
+    ------
+    TypeError
+        If it is no Dataset.
     """
+    remedy = "a Dataset of time_history; for several, summary({name: data, ...})"
+    require_type("data", data, xr.Dataset, remedy)
     return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
 
 
@@ -78,7 +86,17 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     pandas.DataFrame
         A row for each quantity of `peaks` with its unit, and one each for the status and for what
         the audit marks; a column for each system.
+
+    Raises
+    ------
+    TypeError
+        If results are not given by name.
     """
+    given: object = results
+    if isinstance(given, xr.Dataset) or not isinstance(given, Mapping):
+        kind = type(given).__name__
+        msg = f"results is a {kind}: give Datasets by name, as summary({{'a': data}})"
+        raise TypeError(msg)
     columns = {}
     for name, data in results.items():
         table = peaks(data)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats
 
+_TOO_FAR = 10.0  # of the radius: a path in millimetres
 _INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
 
 
@@ -89,6 +90,13 @@ def cyclic_test(
     require_choice("level", level, ALL_LEVELS)
     require_on_failure(on_failure)
     path, loads = _path(displacement), _loads(axial_load, displacement)
+    farthest, longest = float(np.abs(path).max()), max(bearing.radii)
+    if farthest > _TOO_FAR * longest:
+        msg = (
+            f"displacement reaches {farthest:g} m, more than {_TOO_FAR:g} times the radius of "
+            f"the plates, {longest:g} m: give metres, 150 mm as 0.15"
+        )
+        raise ValueError(msg)
     speed = require_positive("velocity", velocity, "m/s")
     if level == "rigid_body":
         require_constant_friction(bearing, AT_RIGID_BODY)

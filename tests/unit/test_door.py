@@ -7,6 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from frames import GroundMotion, lumped_mass, peaks, summary, time_history
+from lir_element import CoulombFriction, Element, LIRBearing, cyclic_test
 from lir_element.door import (
     as_number,
     require_between,
@@ -89,3 +91,26 @@ def test_kinds_and_choices() -> None:
     require_choice("axis", "x", ("x", "y"))
     with pytest.raises(OwnError, match=r"axis = 'q': choose one of \('x', 'y'\)"):
         require_choice("axis", "q", ("x", "y"), error=OwnError)
+
+
+def test_results_and_devices_of_another_kind_are_told() -> None:
+    """What a user tries first: a list of results, one result, an array as motion, an element."""
+    bearing = LIRBearing(
+        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+        friction=CoulombFriction(0.05), interface_friction=0.15,
+    )  # fmt: skip
+    model = lumped_mass(bearing, 15e3)
+    data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
+    with pytest.raises(TypeError, match=r"for several, summary\(\{name: data"):
+        peaks([data])
+    with pytest.raises(TypeError, match="results is a Dataset: give Datasets by name"):
+        summary(data)
+    with pytest.raises(TypeError, match="results is a list"):
+        summary([data])
+    with pytest.raises(TypeError, match=r"an array of shape \(3,\) must be a GroundMotion"):
+        time_history(model, np.zeros(3))
+    for wrong in (Element, Element(bearing)):
+        with pytest.raises(TypeError, match="must be an LIRBearing, the device itself"):
+            lumped_mass(wrong, 15e3)
+    with pytest.raises(ValueError, match=r"reaches 150 m, .* 0.75 m: give metres, 150 mm as 0.15"):
+        cyclic_test(bearing, [0.0, 150.0, 0.0], 150e3)
