@@ -44,6 +44,13 @@ def lumped_mass(
     -------
     Frame
         Nodes "ground" (fixed) and "mass" (ux, uy, uz free), bearing "bearing", no damping.
+
+    Raises
+    ------
+    TypeError
+        If the device is no bearing.
+    ModelError
+        If mass, inertia or gravity is not positive.
     """
     if not isinstance(getattr(bearing, "height", None), (int, float)):
         msg = f"bearing = {bearing!r} must be an LIRBearing, the device itself"

@@ -450,6 +450,17 @@ def test_drifts_of_en1998_at_damage_limitation() -> None:
     assert check.subject == f"storey {k + 1}"
     assert check.demand == pytest.approx(drift[k], rel=1e-12)
     assert check.limit == pytest.approx(0.005 * (3.5, 3.0, 3.0)[k], rel=1e-12)
+    # Overturning is that of the forces before they are reduced, q = 1.5.
+    moment = 1.5 * float(forces @ [3.5, 6.5, 9.5])
+    assert found.trace.value("M_o") == pytest.approx(moment, rel=1e-12)
+
+
+def test_least_shear_of_a_fixed_base_goes_by_two_thirds_of_s_m1() -> None:
+    """ASCE 7-22 12.8.1.1 at T_M with R = 1: C_s = S_D1 / T_M, S_D1 = 2/3 0.9, above its floors."""
+    stiff = replace(ABOVE, R=1.0)
+    found = nominal(SYSTEM, Asce(0.9), superstructure=stiff)["nominal"]
+    assert found.trace.value("C_s") == pytest.approx(0.6 / found.period, rel=1e-12)
+    assert found.trace.value("V_fixed") == pytest.approx(5.8e6 * 0.6 / found.period, rel=1e-12)
 
 
 @pytest.mark.parametrize(("mu", "radius"), [(0.12, 2.5), (0.05, 4.0)])

@@ -7,6 +7,7 @@ import shutil
 import subprocess  # noqa: S404
 from html import unescape
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,11 +15,14 @@ pytest.importorskip("jinja2")
 pytest.importorskip("pydantic")
 pytest.importorskip("typer")
 
+import numpy as np
 import pandas as pd
 from typer.testing import CliRunner
 
-from frames import load
+from frames import load, modes, moment_frame
 from frames.command.app import app
+from frames.report.numbers import mode_table
+from lir_element import LIRBearing
 from tests.patience import patience
 
 PROJECT = """
@@ -260,3 +264,20 @@ def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> Non
     done = CliRunner().invoke(app, again)
     assert done.exit_code == 2
     assert "holds no run: `lir run` makes one" in " ".join(done.output.split())
+
+
+def test_masses_of_modes_along_both_axes() -> None:
+    """A frame of unlike bays moves along x or along y: each mode has mass along one axis alone."""
+    bearing = LIRBearing(
+        radius=1.5, slider_height=0.2, slider_radius=0.2, capacity=0.18, friction=0.05,
+        interface_friction=0.15,
+    )  # fmt: skip
+    frame = moment_frame((3, 1), 2, bearing=bearing)
+    table = mode_table(SimpleNamespace(frame=frame))
+    for title in ("sliding", "held"):
+        x, y = (table[f"mass {axis}, {title}"] for axis in "xy")
+        assert min(x.sum(), y.sum()) > 0.6  # held: the mass of the base is not in it
+        assert (x * y).max() < 1e-3
+        found = modes(frame, 6, bearings="fixed" if title == "held" else title)
+        assert x.tolist() == np.round(found.mass_ratios[:, 0], 4).tolist()
+        assert y.tolist() == np.round(found.mass_ratios[:, 1], 4).tolist()
