@@ -450,7 +450,7 @@ def _tells(said: str, wrong: str) -> bool:
     if not said.startswith(("error:", "warning:")) or ":" not in said[6:]:
         return False
     named = re.findall(r"[A-Za-z_0-9]{2,}", wrong.replace("spoilt", ""))
-    if re.search(r"no TOML: .*line \d+", said):
+    if re.search(r"TOML syntax error: .*line \d+.*\): ", said):
         return True
     return not wrong or any(word.lower() in said.lower() for word in named)
 

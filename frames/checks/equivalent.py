@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _MOST_ROUNDS = 500
 _SETTLED = 1e-12
-_NOTHING = 1e-9  # m
+_NOTHING = 1e-5  # m
 
 
 def enter_system(system: IsolationSystem) -> Trace:

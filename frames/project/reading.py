@@ -71,8 +71,11 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
     except OSError as cause:
         msg = f"{file}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as cause:
-        msg = f"{file}: TOML syntax error: {cause}"
+    except UnicodeDecodeError as cause:
+        msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
+        raise ProjectError(msg) from cause
+    except tomllib.TOMLDecodeError as cause:
+        msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause))}"
         raise ProjectError(msg) from cause
     try:
         return kind.model_validate(data)
@@ -81,6 +84,13 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
         for error in cause.errors():
             lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
         raise ProjectError("\n".join(lines.values())) from cause
+
+
+def _mended(error: str) -> str:
+    # What is to be done about an error of syntax.
+    if "overwrite" in error or "twice" in error:
+        return "the key or the section is there twice: keep one of them"
+    return 'a line is `key = value`, texts and numbers with a unit in quotes, "250 mm"'
 
 
 def schema() -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from frames.project.quantities import (
     Acceleration,
@@ -160,6 +161,14 @@ class Motions(MotionSource):
     """``[motions]``: the records, and how they are scaled."""
 
     scale: Literal["spectrum"] | float = "spectrum"
+
+    @field_validator("scale")
+    @classmethod
+    def _scale(cls, scale: str | float) -> str | float:
+        if not isinstance(scale, str) and not 0.0 < scale < math.inf:
+            msg = 'must be "spectrum", or a factor on the accelerations above 0'
+            raise ValueError(msg)
+        return scale
 
 
 class Bounds(Section):

@@ -114,7 +114,7 @@ class System:
 
 def settled(of, start):
     """Return the displacement that gives itself, by bisection on its logarithm."""
-    low, high = 1e-4 * start, 1e2 * start
+    low, high = 1e-6 * start, 1e2 * start
     for _ in range(200):
         middle = math.sqrt(low * high)
         low, high = (middle, high) if of(middle) > middle else (low, middle)

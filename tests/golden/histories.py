@@ -3,6 +3,7 @@
 import numpy as np
 
 SAME_PLACE = 1e-3  # m
+ROUND_OFF = 3e-7  # of single precision, some digits
 PRESSED = 0.05  # share of the load at rest below which a resultant's offset does not count
 
 
@@ -66,10 +67,16 @@ def of_run(run, statics):
         "energy_gap": np.abs(kinetic[:, 0] - kinetic[:, 1:].sum(1)).max(),
         "until": time[-1],
     }  # fmt: skip
-    return found | {f"{k}_at": time[v] for k, v in {
-        "displacement": moved.argmax(0), "base_shear": plan(run["base_shear"]).argmax(),
-        "axial_force": force.argmax(0),
-    }.items()}  # fmt: skip
+    timed = {"displacement": moved, "base_shear": plan(run["base_shear"]), "axial_force": force}
+    found |= {f"{name}_at": time[values.argmax(0)] for name, values in timed.items()}
+    return found | {f"{name}_equal": equal(values, time) for name, values in timed.items()}
+
+
+def equal(values, time):
+    """Return first and last time at which a history is as large as its peak, (2, ...)."""
+    high = values >= values.max(0) * (1.0 - ROUND_OFF)
+    first, last = high.argmax(0), len(time) - 1 - high[::-1].argmax(0)
+    return np.array([time[first], time[last]])
 
 
 def floors(run, statics):
@@ -140,6 +147,9 @@ def compare(project, tally):
             for quantity in COMPARED:
                 reported = data[f"reached_{quantity}"].copy()
                 beyond(data, quantity, reported, own[quantity], tally)
+                if quantity.endswith("_at"):  # of equal steps the one that was reported
+                    first, last = np.moveaxis(own[quantity.replace("_at", "_equal")], 1, 0)
+                    own[quantity] = np.clip(reported, first, last)
                 of = small if quantity in {"gap", "drift", "line_drift"} else name
                 of = times if quantity.endswith("_at") else of
                 tally.same(of, f"{level} {bound} {quantity}", reported, own[quantity],

@@ -7,6 +7,7 @@ import motions
 import numpy as np
 import reading
 from reading import GRAVITY
+from tally import plain
 
 FACTORS = {"mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "MPa": 1e-6, "%": 1e2, "kN/m": 1e-3, "t": 1e-3,
            "kJ": 1e-3}  # fmt: skip
@@ -57,7 +58,7 @@ def shown(tally, label, text, value, factor=1.0, category="tables of the report"
     tally.printed(category, label, text, value, factor)
     if text not in {"", "-"}:
         digits = 0.5000001 * 10.0 ** (math.floor(math.log10(abs(value * factor) or 1.0)) - 3)
-        off = abs(float(text.split(" ")[0].replace("−", "-")) - value * factor)
+        off = abs(float(plain(text).split(" ")[0]) - value * factor)
         tally.words(category, f"{label}: four digits of {value * factor!r}", off <= digits, True)
 
 
@@ -224,8 +225,8 @@ def _checks(project, head, rows, tally):
 
 def _said(tally, label, text, value, category="tables of the report"):
     # A number with its unit.
-    text = text.replace("−", "-").replace("²", "2")
     number, _, unit = text.partition(" ")
+    number, unit = plain(number), unit.replace("²", "2")
     if not math.isfinite(value):
         tally.words(category, label, number.strip("-") in {"∞", "inf"}, True)
         return
@@ -244,7 +245,7 @@ def _limits(project, head, rows, tally):
             continue
         demand, limit = own
         if row[0].startswith("no uplift"):  # loads of combinations: nearly multiples
-            value = 1e3 * float(row[4].split(" ")[0].replace("−", "-"))
+            value = 1e3 * float(plain(row[4]).split(" ")[0])
             size = max(abs(demand), project.linear[row[2]]["system"].P.max())
             tally.words(name, label, abs(value - demand) < 2e-3 * size, True)
             demand = value  # its sign may be decided by what is nearly a multiple

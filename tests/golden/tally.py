@@ -7,6 +7,8 @@ import numpy as np
 
 NUMBER = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$")
 
+_POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
 
 class Tally:
     """Counts comparisons and keeps what disagrees."""
@@ -38,7 +40,7 @@ class Tally:
 
     def printed(self, category, label, text, found, factor=1.0):
         """Compare a printed number with what it is of, to its last digit."""
-        text = str(text).replace(",", "").strip()
+        text = plain(str(text).replace(",", "").strip())
         number = text.partition(" ")[0].removesuffix("%")
         if not NUMBER.match(number):
             alike = number in {"-", "", "nan", "inf"} and not math.isfinite(found)
@@ -59,6 +61,11 @@ class Tally:
             self.worst[category] = max(self.worst.get(category, 0.0), off)
         else:
             self.bad.append((category, label, reported, found, off))
+
+
+def plain(text):
+    """Return a number as "1.102·10⁸" and "−3" as "1.102e8" and "-3"."""
+    return text.replace("−", "-").replace("·10", "e").translate(_POWERS)
 
 
 def digit(number):

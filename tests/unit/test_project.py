@@ -122,7 +122,9 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
         ('folder = "motions"', "", "motions: needs one source"),
         ("[limits]", "[limit]", 'limit is not known; is "limits" meant'),
-        ("[bearing]", "[bearing", "TOML syntax error"),
+        ("[bearing]", "[bearing", r"TOML syntax error: .*: a line is `key = value`"),
+        ("[bearing]", "[bearing]\ncapacity = 1\ncapacity = 2", r"overwrite .*keep one of them"),
+        ("[bearing]", "[bearing]\n[bearing]", r"the section is there twice: keep one of them"),
     ],
 )
 def test_messages_name_file_key_value_and_remedy(
