@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from frames.checks.isolation import IsolationSystem
     from frames.project.schema import ProjectFile
 
+SOFT = 0.5
+"""Period of what is on a storey over the number of storeys above its floor and one more [s], from
+which on it is strange: whole buildings have about 0.1 s a storey."""
+
 FLOOR_MASS = (50.0, 6000.0)
 """Mass of a storey over its plan [kg/m2]; buildings have 300 to 1500."""
 
@@ -27,9 +31,10 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        About masses of storeys by area, and an importance that is in one section alone.
+        About masses of storeys by area, bays that bearings do not fit into, storeys that are far
+        too soft, and an importance that is in one section alone.
     """
-    return (*_of_masses(file), *_of_importance(file))
+    return (*_of_masses(file), *_of_bays(file), *_of_storeys(file), *_of_importance(file))
 
 
 def wind_doubts(
@@ -84,6 +89,39 @@ def _of_masses(file: ProjectFile) -> list[str]:
         f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to 1500: "
         f"{unit} Masses are written with their unit, 300 t or 300000 kg"
     ]
+
+
+def _of_bays(file: ProjectFile) -> list[str]:
+    given, bearing = file.structure, file.bearing
+    if bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
+        return []
+    side = bearing.capacity + 2.0 * bearing.slider_radius  # both plates go half of the capacity
+    least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
+    if least >= side:
+        return []
+    return [
+        f"[structure] bay_width = {least:.4g} m is less than the {side:.4g} m that a bearing takes "
+        "in plan (capacity and the diameter of the slider): look at its unit"
+    ]
+
+
+def _of_storeys(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, ShearBuilding) or len(given.storey_stiffness) != len(
+        given.storey_mass
+    ):
+        return []
+    count = len(given.storey_mass)
+    for k, stiffness in enumerate(given.storey_stiffness):
+        above = sum(given.storey_mass[k:])
+        period, most = 2.0 * math.pi * math.sqrt(above / stiffness), SOFT * (1 + count - k)
+        if period > most:
+            return [
+                f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
+                f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
+                f"stay below {most:.3g} s: look at its unit"
+            ]
+    return []
 
 
 def _of_importance(file: ProjectFile) -> list[str]:

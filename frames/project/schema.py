@@ -30,10 +30,24 @@ Count = Annotated[int, Field(ge=1)]
 CodeName = Literal["ASCE 7-22", "EN 1998", "NCh2745"]
 
 
+MOST_IMPORTANT = 3.0
+"""Largest importance factor [-]; codes have 0.6 to 1.5."""
+
+
 class Section(BaseModel):
     """A table of the file: no keys but those that it knows."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_truth_for_a_number(cls, given: object) -> object:
+        for key, value in given.items() if isinstance(given, dict) else ():
+            field = cls.model_fields.get(str(key))
+            if isinstance(value, bool) and field and "bool" not in str(field.annotation):
+                msg = f"{key} = {str(value).lower()} must be a number or a text, not a truth value"
+                raise ValueError(msg)
+        return given
 
 
 class About(Section):
@@ -85,7 +99,7 @@ class Above(Section):
     """``[superstructure]``: what design formulas need of it besides the model."""
 
     R: float = Field(gt=0.0)
-    importance: float = Field(default=1.0, gt=0.0)
+    importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
     wind_shear: Annotated[Force, NotNegative] = 0.0
 
 
@@ -124,7 +138,7 @@ class En1998Spectrum(Section):
     a_g: Annotated[Acceleration, Positive]
     ground_type: Literal["A", "B", "C", "D", "E"]
     kind: Literal[1, 2] = 1
-    importance: float = Field(default=1.0, gt=0.0)
+    importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
 
 
 class NChSpectrum(Section):

@@ -18,7 +18,9 @@ from frames.command.app import app
 from frames.hazard.motion_folder import read_table
 from frames.motion.plausible import record_doubts
 from frames.project.example import write_example
+from frames.project.plausible import file_doubts
 from frames.project.quantities import si
+from frames.project.reading import read_project
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.results.dataset import package_version
 
@@ -227,3 +229,59 @@ def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:
 def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"nope\.nc is no file: give one that save"):
         load(tmp_path / "nope.nc", lazy=lazy)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"7 m", "7 m"', '"7 m", "7 mm"', "bay_width = 0.007 m is less than the 0.806 m"),
+        ('"7 m", "7 m"', '"0.9 m", "0.9 m"', ""),
+    ],
+)
+def test_bays_that_bearings_do_not_fit_into(
+    example: Path, tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    output = checked(example, tmp_path, old, new)
+    assert (words in output) if words else ("takes in plan" not in output)
+
+
+@pytest.mark.parametrize(("stiffness", "soft"), [(400e6, False), (20e6, False), (0.4e6, True)])
+def test_storeys_that_are_far_too_soft(tmp_path: Path, stiffness: float, soft: bool) -> None:
+    """200 t on 0.4 kN/mm swing with 4.4 s; on 20 kN/mm with 0.63 s, as a very soft storey may."""
+    file = tmp_path / "project.toml"
+    file.write_text(STICK.replace("STIFFNESS", f"{1e-6 * stiffness:g} kN/mm"), encoding="utf-8")
+    found = [doubt for doubt in file_doubts(read_project(file)) if "storey_stiffness" in doubt]
+    assert bool(found) is soft
+    if soft:
+        assert (
+            "storey_stiffness[0] = 0.4 kN/mm lets the 200 t above it swing with 4.44 s" in found[0]
+        )
+
+
+STICK = """
+[project]
+name = "Stick"
+code = "NCh2745"
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["10 m", "10 m"]
+storey_mass = ["100 t", "100 t"]
+storey_stiffness = ["STIFFNESS", "300 kN/mm"]
+storey_height = "3 m"
+base_mass = "100 t"
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "0.2 m"
+capacity = "180 mm"
+friction = 0.06
+interface_friction = 0.18
+[spectrum]
+soil = "II"
+zone = 2
+[motions]
+folder = "motions"
+[bounds]
+friction = [0.8, 1.3]
+"""
