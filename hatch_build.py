@@ -2,7 +2,7 @@
 
 Without, the wheel is plain Python and its kernels compile at their first use. With it the wheel
 belongs to one version of Python and one platform; of the kernels those are packed that Python calls
-in the analyses of `frames.ahead` (those that they call are within them).
+in the analyses of `frames.precompile` (those that they call are within them).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 LIST = (
-    "from frames.ahead import compile_usual; compile_usual(); "
-    "from lir_element._cache import taken; print(*taken, sep='\\n')"
+    "from frames.precompile import compile_usual; compile_usual(); "
+    "from lir_element._compile.cache import taken; print(*taken, sep='\\n')"
 )
 
 
@@ -54,7 +54,7 @@ class KernelHook(BuildHookInterface):  # type: ignore[misc]  # seen without hatc
         """
         if not self._wanted or version == "editable":
             return
-        shipped = runpy.run_path(str(Path(self.root) / "lir_element" / "_shipped.py"))
+        shipped = runpy.run_path(str(Path(self.root) / "lir_element" / "_compile" / "shipped.py"))
         processor = shipped["baseline"](platform.machine())
         if processor is None:
             msg = f"no kernels are shipped for {platform.machine()}: unset LIR_BUILD_KERNELS"

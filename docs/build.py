@@ -18,9 +18,7 @@ import numpy as np
 
 from frames import (
     AuditWarning,
-    Bilinear,
     GroundMotion,
-    PlasticHinge,
     demo,
     drift_by_line,
     floor_acceleration,
@@ -34,8 +32,9 @@ from frames import (
     time_history,
     uplift_gap,
 )
-from frames.results.kept import REACHED
-from frames.results.reached import LEFT, QUANTITIES, TOTALS
+from frames.laws import Bilinear, PlasticHinge
+from frames.results.peak_response import LEFT, QUANTITIES, TOTALS
+from frames.results.recorded import REACHED
 from frames.results.summary import table_of
 from lir_element import (
     AnalysisWarning,

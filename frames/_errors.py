@@ -21,21 +21,5 @@ class MotionWarning(UserWarning):
     """A ground motion that can be used, with something that its user should know."""
 
 
-class CheckError(ValueError):
-    """A design check, or a number of it, that cannot be used; the message names the culprit."""
-
-
-class FragilityError(ValueError):
-    """Demands, capacities or a hazard of which no fragility or risk can be made."""
-
-
-class ProjectError(ValueError):
-    """A project's file that cannot be used: a line for each thing that is wrong."""
-
-
-class CampaignError(ValueError):
-    """A campaign, or a store of one, that cannot be used; the message names the culprit."""
-
-
 class AuditWarning(AnalysisWarning):
     """An analysis that was completed, in which something that was left out or doubtful mattered."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import lir_element
-from lir_element._cache import Sources
-from lir_element._jit import expanded as expanded
-from lir_element._jit import kernels_of
+from lir_element._compile.cache import Sources
+from lir_element._compile.jit import expanded as expanded
+from lir_element._compile.jit import kernels_of
 
 _SOURCES = Sources(Path(lir_element.__file__).parent, Path(__file__).parent)
 

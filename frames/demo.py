@@ -17,8 +17,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from frames.analysis.static import gravity
-from frames.analysis.transient import time_history
 from frames.library.moment_frames import moment_frame
 from frames.motion.ground_motion import GroundMotion
 from frames.plots import (
@@ -31,6 +29,8 @@ from frames.plots import (
     worst_bearing,
 )
 from frames.results.summary import status_of, table_of, write_results
+from frames.solve.time_history import time_history
+from frames.statics.gravity import gravity
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 from lir_element.units import STANDARD_GRAVITY

@@ -11,8 +11,8 @@ from frames.model.editing import FrameEditor
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from frames.analysis.model_check import ModelCheck
     from frames.motion.ground_motion import GroundMotion
+    from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
 
 
@@ -171,6 +171,6 @@ class Frame(FrameEditor):
         ModelError
             If the model cannot be assembled. Where only the equilibrium fails, the table says so.
         """
-        from frames.analysis.model_check import check_model  # the analysis reads the model
+        from frames.statics.model_check import check_model  # the analysis reads the model
 
         return check_model(self, motion)

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from lir_element.argument_checks import require_choice
 from lir_element.bundles.contact_data import as_rows, contact_arrays, detached, reset
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.features import Features, apply
-from lir_element.door import require_choice
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
 from lir_element.kernels.pendulum.trial import has_no_state, last_slip

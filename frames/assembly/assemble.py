@@ -24,9 +24,9 @@ from frames.assembly.span_loads import span_end_forces
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import System as System
 from frames.assembly.system import element_dofs
-from frames.model.applied import applied_loads
+from frames.model.applied_loads import applied_loads
 from frames.model.axes import default_up, matrix_to_global, to_local
-from frames.model.parts import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.model.components import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.model.superelement import Placed, lumped, placed
 from lir_element.device.features import Features
 
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.model.applied import AppliedLoads
-    from frames.model.contents import FrameContents
+    from frames.model.applied_loads import AppliedLoads
+    from frames.model.frame_data import FrameContents
 
 
 def assemble(

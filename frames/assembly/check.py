@@ -12,13 +12,13 @@ from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
 from frames.assembly.sparse_solver import Factors
+from frames.model.components import DOFS
 from frames.model.laws import elastic_stiffness
-from frames.model.parts import DOFS
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.system import System
-    from frames.model.contents import FrameContents
+    from frames.model.frame_data import FrameContents
     from frames.model.superelement import Superelement
 
 __all__ = ["ModelError", "check_connections", "check_mass", "check_restraint", "free_motions"]

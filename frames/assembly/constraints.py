@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
-from frames.model.parts import DOFS, Diaphragm
+from frames.model.components import DOFS, Diaphragm
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.model.contents import FrameContents
+    from frames.model.frame_data import FrameContents
 
 IN_PLANE = (0, 1, 5)
 """Places of ux, uy and rz, the displacements a diaphragm ties, among a node's six."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.model.applied import load_masses
+from frames.model.applied_loads import load_masses
 from frames.model.axes import to_global
 
 if TYPE_CHECKING:
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable
-    from frames.model.applied import AppliedLoads
-    from frames.model.contents import FrameContents
+    from frames.model.applied_loads import AppliedLoads
+    from frames.model.frame_data import FrameContents
 
 
 def lumped_masses(

@@ -15,14 +15,14 @@ from frames.assembly.nonlinear_parts import NonlinearParts
 from frames.model.laws import (
     Bilinear,
     BoucWen,
+    Gap,
     Law,
     PlasticHinge,
-    Stop,
     Tie,
     ViscousDamper,
     elastic_stiffness,
 )
-from frames.parts_layout import (
+from frames.nonlinear_layout import (
     BILINEAR,
     BOUC_WEN,
     CONSTANTS,
@@ -40,8 +40,8 @@ from frames.parts_layout import (
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable
-    from frames.model.contents import FrameContents
-    from frames.model.parts import Link
+    from frames.model.components import Link
+    from frames.model.frame_data import FrameContents
 
 BASIC = np.array([6, 5, 11, 4, 10])
 """Places among a member's 12 local displacements of its five deformations, the rest being held."""
@@ -159,7 +159,7 @@ def _law(law: Law) -> tuple[int, FloatArray]:
     elif isinstance(law, ViscousDamper):
         kind = VISCOUS if law.stiffness == math.inf else MAXWELL
         values = (law.coefficient, law.exponent, law.linear_below, law.stiffness)
-    elif isinstance(law, Stop):
+    elif isinstance(law, Gap):
         kind, values = STOP, (law.gap, law.stiffness, law.damping, law.soft)
     else:
         kind, values = HERTZ, (law.gap, law.stiffness, law.exponent, law.damping)

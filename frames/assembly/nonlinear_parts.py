@@ -9,7 +9,7 @@ from scipy import sparse
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.model.parts import Link
+    from frames.model.components import Link
 
 
 @dataclass(frozen=True, repr=False)

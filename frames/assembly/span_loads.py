@@ -21,7 +21,7 @@ from frames.assembly.members import shear_parameters
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.members import MemberArrays
-    from frames.model.applied import SpanLoad
+    from frames.model.applied_loads import SpanLoad
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact to degree 5: load 1, shapes 3
 

@@ -11,27 +11,27 @@ import pandas as pd
 import typer
 from rich.markup import escape
 
-from frames._errors import ProjectError
-from frames.checks.check import CONFIRMED, Checks
-from frames.checks.demand_table import headed, void_said
 from frames.command.campaigns import campaign, campaign_status
-from frames.command.telling import FAILED_CHECKS, err, out, say, told
-from frames.project.design_run import ProjectRun, compare_devices, judged_run, run_project
-from frames.project.example import write_example
-from frames.project.groundwork import CODES, groundwork, inputs_of
-from frames.project.level_runs import said_of_runs
-from frames.project.parts import Parts
-from frames.project.reading import read_project, schema
-from frames.project.speed import Way, recommended, ways_to_run
-from frames.report.files import (
+from frames.command.console import FAILED_CHECKS, err, out, say, told
+from frames.design._errors import ProjectError
+from frames.design.calculation.check import CONFIRMED, Checks
+from frames.design.histories.demand_table import headed, void_said
+from frames.design.project.design_run import ProjectRun, compare_devices, judged_run, run_project
+from frames.design.project.example import write_example
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.level_runs import said_of_runs
+from frames.design.project.preliminary import CODES, groundwork, inputs_of
+from frames.design.project.reading import read_project, schema
+from frames.design.project.speed import Way, recommended, ways_to_run
+from frames.design.report.files import (
     UNFINISHED,
     read_histories,
     write_interrupted,
     write_judgement,
     write_run,
 )
-from frames.report.tables import rows_of
-from frames.sizing.proposal import Design, design
+from frames.design.report.tables import rows_of
+from frames.design.sizing.proposal import Design, design
 from lir_element.errors import AnalysisInterrupted
 from lir_element.results.dataset import package_version
 from lir_element.tables import text_table
@@ -237,8 +237,8 @@ def print_schema() -> None:
     sys.stdout.write(schema() + "\n")
 
 
-def _parts(file: Path) -> Parts:
-    return Parts(read_project(file), file.resolve().parent)
+def _parts(file: Path) -> ProjectInputs:
+    return ProjectInputs(read_project(file), file.resolve().parent)
 
 
 def _checks(title: str, checks: Checks) -> None:

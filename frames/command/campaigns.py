@@ -8,10 +8,10 @@ from typing import Annotated
 
 import typer
 
-from frames._errors import ProjectError
-from frames.campaign.file import read_campaign, workers_of
-from frames.campaign.store import open_campaign
-from frames.command.telling import FAILED_ANALYSIS, INTERRUPTED, err, say, told
+from frames.command.console import FAILED_ANALYSIS, INTERRUPTED, err, say, told
+from frames.design._errors import ProjectError
+from frames.risk.campaign.file import read_campaign, workers_of
+from frames.risk.campaign.store import open_campaign
 
 
 def campaign(

@@ -11,8 +11,8 @@ from frames._jit import expanded, inlined, kernel
 from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
-from frames.kernels.ledger import add_bearing_energy, add_energy, add_part_energy
-from frames.kernels.part_works import commit_parts
+from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
+from frames.kernels.nonlinear_works import commit_parts
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict
 from frames.kernels.yielding import begin_parts, part_load_on_modes, set_part_follow
@@ -23,7 +23,7 @@ from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Output, Run, Setup
-    from frames.parts_data import Parts
+    from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -73,7 +73,9 @@ def renew_products(model: Model, run: Run) -> None:
 
 
 @expanded
-def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground) -> None:
+def set_load(
+    model: Model, run: Run, parts: NonlinearElements | None, settings: Setup, ground: Ground
+) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
@@ -131,7 +133,7 @@ def set_load(model: Model, run: Run, parts: Parts | None, settings: Setup, groun
 
 
 @expanded
-def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) -> None:
+def finish_step(model: Model, run: Run, parts: NonlinearElements | None, settings: Setup) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     dt, at = run.clock[0].dt, run.clock[0].halvings
     beta, gamma = settings.beta, settings.gamma
@@ -170,9 +172,13 @@ def finish_step(model: Model, run: Run, parts: Parts | None, settings: Setup) ->
 
 @expanded
 def try_step(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    settings: Setup,
     ground: Ground,
-) -> int:  # fmt: skip
+) -> int:
     """Attempt a step of ``clock.dt``; leaves it in the trial arrays. Returns a status code."""
     clock = run.clock[0]
     if run.has_reduced[clock.halvings] == 0:
@@ -209,9 +215,13 @@ def limits(run: Run) -> int:
 
 @expanded
 def accept_step(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    settings: Setup,
     ground: Ground,
-) -> None:  # fmt: skip
+) -> None:
     """Commit the step."""
     clock = run.clock[0]
     add_energy(model, run, parts, ground)
@@ -236,7 +246,12 @@ def accept_step(
 
 @kernel
 def balanced_rates(
-    model: Model, run: Run, parts: Parts | None, ground: Ground, a_b: Floats, a_e: Floats
+    model: Model,
+    run: Run,
+    parts: NonlinearElements | None,
+    ground: Ground,
+    a_b: Floats,
+    a_e: Floats,
 ) -> None:
     """Set the accelerations that balance all forces of the committed state."""
     n_b, n_e = run.b.shape[0], run.e.shape[0]
@@ -273,9 +288,14 @@ def balanced_rates(
 
 @inlined
 def record(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, ground: Ground,
-    out: Output, place: int,
-) -> None:  # fmt: skip
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    ground: Ground,
+    out: Output,
+    place: int,
+) -> None:
     """Copy the committed state into the output arrays.
 
     A scheme that balances forces between the ends of its steps has accelerations that are no
@@ -314,9 +334,13 @@ def halve(run: Run) -> None:
 
 @expanded
 def attempt(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    settings: Setup,
     ground: Ground,
-) -> int:  # fmt: skip
+) -> int:
     """Try one step: commit it, or halve it for the next attempt. Returns a status code.
 
     A step that fails, or whose estimated error is too large, is halved; after two good steps the
@@ -358,9 +382,16 @@ def attempt(
 
 @kernel
 def advance(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
-    ground: Ground, out: Output, last: int, trials: int,
-) -> int:  # fmt: skip
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    settings: Setup,
+    ground: Ground,
+    out: Output,
+    last: int,
+    trials: int,
+) -> int:
     """Go on until `last` base steps are done, or `trials` state determinations are spent.
 
     Records each base step, `settings.first` in the first row. Returns a status code; ``run.clock``

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import expanded, inlined, kernel
-from frames.kernels.part_works import part_defect, part_error
+from frames.kernels.nonlinear_works import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -17,7 +17,7 @@ _APART = 8  # steps, of which a run with a fixed step looks at the last two: the
 
 if TYPE_CHECKING:
     from frames.kernel_data import Ground, Model, Run, Setup
-    from frames.parts_data import Parts
+    from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -160,7 +160,7 @@ def lagging(model: Model, run: Run, k: int) -> float:
 
 @kernel
 def estimated_error(
-    model: Model, run: Run, parts: Parts | None, settings: Setup, ground: Ground
+    model: Model, run: Run, parts: NonlinearElements | None, settings: Setup, ground: Ground
 ) -> float:
     """Return the error of the bearings' displacements that such steps make [m].
 
@@ -196,9 +196,13 @@ def estimated_error(
 
 @expanded
 def is_rough(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, settings: Setup,
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    settings: Setup,
     ground: Ground,
-) -> bool:  # fmt: skip
+) -> bool:
     """Return whether the step deserves to be halved, though it converged.
 
     Either its estimated error is too large, or contacts that open or close in it make or lose

@@ -19,7 +19,7 @@ from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run
-    from frames.parts_data import Parts
+    from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -92,9 +92,14 @@ def norm(x: Floats) -> float:
 
 @inlined
 def set_residual(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, linear: Floats,
-    step: Floats, share: float,
-) -> float:  # fmt: skip
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    linear: Floats,
+    step: Floats,
+    share: float,
+) -> float:
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
     residual = rhs - linear step - share force; infinite where bearings or nonlinear parts of the
@@ -145,9 +150,13 @@ def predict(run: Run, linear: Floats, share: float) -> None:
 
 @expanded
 def renew_tangent(
-    model: Model, run: Run, contacts: Contacts | None, parts: Parts | None, linear: Floats,
+    model: Model,
+    run: Run,
+    contacts: Contacts | None,
+    parts: NonlinearElements | None,
+    linear: Floats,
     share: float,
-) -> bool:  # fmt: skip
+) -> bool:
     """Set and factorise the tangent at the last trial; returns False where it is singular."""
     n_b = run.step.shape[0]
     run.counts[0].tangents += 1
@@ -165,7 +174,7 @@ def newton(
     model: Model,
     run: Run,
     contacts: Contacts | None,
-    parts: Parts | None,
+    parts: NonlinearElements | None,
     linear: Floats,
     share: float,
     tolerance: float,

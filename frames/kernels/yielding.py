@@ -15,7 +15,7 @@ from frames._jit import inlined, kernel
 from frames.kernels.effective import effective
 from frames.kernels.hinges import hinged_member
 from frames.kernels.laws import uniaxial
-from frames.parts_layout import (
+from frames.nonlinear_layout import (
     BOUC_WEN,
     HINGES,
     WIDEST,
@@ -24,7 +24,7 @@ from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
     from frames.kernel_data import Model, Run, Setup
-    from frames.parts_data import Parts
+    from frames.nonlinear_data import NonlinearElements
     from lir_element.layout import Floats, Words
 
 _MOST = 40  # iterations over the loose parts
@@ -70,7 +70,7 @@ def part_trial(
 
 
 @inlined
-def try_part(parts: Parts, k: int, dt: float) -> int:
+def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
     """Run part `k` at its deformations, with the speeds that the time integration implies."""
     speed, known_v, known_a = parts.scheme[0], parts.scheme[1], parts.scheme[2]
     for i in range(parts.first[k], parts.first[k + 1]):
@@ -130,14 +130,16 @@ def follow_of(
 
 
 @inlined
-def set_mode_flexibility(model: Model, parts: Parts, c_m: float, c_c: float, c_k: float) -> None:
+def set_mode_flexibility(
+    model: Model, parts: NonlinearElements, c_m: float, c_c: float, c_k: float
+) -> None:
     """Set ``parts.modes[0]``, the modes' flexibility at a step where damping is diagonal."""
     for k in range(parts.to_e.shape[1]):
         parts.modes[0, k] = 1.0 / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
 
 
 @inlined
-def set_part_follow(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
+def set_part_follow(model: Model, run: Run, parts: NonlinearElements, settings: Setup) -> None:
     """Set how the deformations follow b at the present step size."""
     at = run.clock[0].halvings
     c_m, c_c, c_k = effective(settings, run.clock[0].dt)
@@ -150,7 +152,7 @@ def set_part_follow(model: Model, run: Run, parts: Parts, settings: Setup) -> No
 
 
 @inlined
-def row_of(model: Model, run: Run, parts: Parts, i: int) -> int:
+def row_of(model: Model, run: Run, parts: NonlinearElements, i: int) -> int:
     """Return the place in the pool of row `i` of the flexibility at the present step size."""
     at = run.clock[0].halvings
     place = parts.slot[at, i]
@@ -171,7 +173,7 @@ def row_of(model: Model, run: Run, parts: Parts, i: int) -> int:
 
 
 @inlined
-def begin_parts(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
+def begin_parts(model: Model, run: Run, parts: NonlinearElements, settings: Setup) -> None:
     """Set the deformations at the end of the step if b rests and no force g changes.
 
     Needs ``run.h_e``, what the modes do then.
@@ -199,7 +201,7 @@ def begin_parts(model: Model, run: Run, parts: Parts, settings: Setup) -> None:
 
 
 @inlined
-def loosen(parts: Parts, k: int) -> None:
+def loosen(parts: NonlinearElements, k: int) -> None:
     """Add a part to the loose ones."""
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
@@ -209,7 +211,7 @@ def loosen(parts: Parts, k: int) -> None:
 
 
 @inlined
-def follow_change(model: Model, run: Run, parts: Parts) -> None:
+def follow_change(model: Model, run: Run, parts: NonlinearElements) -> None:
     """Set the deformations of what is not loose from those of the step and the changes of g."""
     for i in range(parts.d.shape[0]):
         parts.vector[0, i] = parts.linear[i]
@@ -226,7 +228,7 @@ def follow_change(model: Model, run: Run, parts: Parts) -> None:
 
 
 @inlined
-def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
+def set_part_gap(model: Model, run: Run, parts: NonlinearElements) -> float:
     """Set what the frame gives way to by forces that are guessed but not there; its size."""
     size = 0.0
     for n in range(parts.number[0]):
@@ -245,7 +247,7 @@ def set_part_gap(model: Model, run: Run, parts: Parts) -> float:
 
 
 @inlined
-def try_loose(model: Model, run: Run, parts: Parts) -> float:
+def try_loose(model: Model, run: Run, parts: NonlinearElements) -> float:
     """Run the loose parts and return the size of what they lack; infinite without a state."""
     for k in range(parts.kind.shape[0]):
         if parts.loose[k] == 1 and try_part(parts, k, run.clock[0].dt) < 0:
@@ -254,7 +256,7 @@ def try_loose(model: Model, run: Run, parts: Parts) -> float:
 
 
 @inlined
-def set_part_matrix(model: Model, run: Run, parts: Parts) -> None:
+def set_part_matrix(model: Model, run: Run, parts: NonlinearElements) -> None:
     """Set ``1 + F slope`` over the loose deformations."""
     count = parts.number[0]
     for n in range(count):
@@ -272,13 +274,13 @@ def set_part_matrix(model: Model, run: Run, parts: Parts) -> None:
 
 
 @inlined
-def part_width(parts: Parts, i: int) -> int:
+def part_width(parts: NonlinearElements, i: int) -> int:
     """Return how many deformations the part has whose first one is `i`."""
     return WIDEST if parts.elastic[i] < 0.0 else 1
 
 
 @inlined
-def go_along(parts: Parts, share: float) -> None:
+def go_along(parts: NonlinearElements, share: float) -> None:
     """Move the loose deformations and their forces by a share of Newton's step."""
     for n in range(parts.number[0]):
         i = parts.active[n]
@@ -287,7 +289,7 @@ def go_along(parts: Parts, share: float) -> None:
 
 
 @inlined
-def ascent(parts: Parts) -> float:
+def ascent(parts: NonlinearElements) -> float:
     """Return the derivative of the potential along Newton's step; zero where it is smallest."""
     total = 0.0
     for n in range(parts.number[0]):
@@ -297,7 +299,7 @@ def ascent(parts: Parts) -> float:
 
 
 @inlined
-def set_newton_step(model: Model, run: Run, parts: Parts) -> bool:
+def set_newton_step(model: Model, run: Run, parts: NonlinearElements) -> bool:
     """Set Newton's step of the deformations (`right`) and forces (`vector[0]`) of loose parts."""
     count = parts.number[0]
     set_part_matrix(model, run, parts)
@@ -318,7 +320,7 @@ def set_newton_step(model: Model, run: Run, parts: Parts) -> bool:
 
 
 @inlined
-def newton_loose(model: Model, run: Run, parts: Parts) -> bool:
+def newton_loose(model: Model, run: Run, parts: NonlinearElements) -> bool:
     """Bring the loose parts into equilibrium with the frame; returns whether that succeeded.
 
     With forces q guessed, ``d = linear - F q``; wanted is ``q = g(d) - g_old``. That is where a
@@ -358,7 +360,7 @@ def newton_loose(model: Model, run: Run, parts: Parts) -> bool:
 
 
 @inlined
-def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
+def settle_parts(model: Model, run: Run, parts: NonlinearElements, step: Floats) -> bool:
     """Find the deformations and forces of all parts for a step of b; returns success."""
     follow = parts.follow[run.clock[0].halvings]
     for i in range(parts.d.shape[0]):
@@ -395,7 +397,7 @@ def settle_parts(model: Model, run: Run, parts: Parts, step: Floats) -> bool:
 
 
 @inlined
-def add_part_forces(run: Run, parts: Parts, out: Floats) -> None:
+def add_part_forces(run: Run, parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
     for n in range(parts.number[0]):
@@ -407,7 +409,7 @@ def add_part_forces(run: Run, parts: Parts, out: Floats) -> None:
 
 
 @inlined
-def add_part_tangent(model: Model, run: Run, parts: Parts) -> bool:
+def add_part_tangent(model: Model, run: Run, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
     count, n_b = parts.number[0], run.step.shape[0]
     if count == 0:
@@ -435,7 +437,7 @@ def add_part_tangent(model: Model, run: Run, parts: Parts) -> bool:
 
 
 @inlined
-def part_load_on_modes(parts: Parts, out: Floats) -> None:
+def part_load_on_modes(parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from loads on the modes."""
     for n in range(parts.number[0]):
         i = parts.active[n]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from lir_element.door import require_positive
+from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

@@ -8,7 +8,7 @@ from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.moment_frames import moment_frame as moment_frame
 from frames.library.shear_buildings import shear_building as shear_building
-from lir_element.door import require_positive
+from lir_element.argument_checks import require_positive
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

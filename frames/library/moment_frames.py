@@ -14,7 +14,7 @@ from frames.library.grid import bearing_grid, pair
 from frames.model.damping import Damping, ModalDamping
 from frames.model.laws import PlasticHinge
 from frames.model.sections import Section
-from lir_element.door import (
+from lir_element.argument_checks import (
     require_choice,
     require_finite,
     require_non_negative,

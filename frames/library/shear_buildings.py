@@ -13,10 +13,10 @@ from frames.frame import Frame
 from frames.library.grid import bearing_grid, pair
 from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.tilting_base import VERTICAL_PERIOD, GridPlan, add_tilting_base
+from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import Damping
 from frames.model.laws import Bilinear, BoucWen
-from frames.model.parts import bearing_axial_stiffness
-from lir_element.door import require_between, require_positive, require_type
+from lir_element.argument_checks import require_between, require_positive, require_type
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

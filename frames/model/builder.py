@@ -6,11 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames.model.components import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
-from frames.model.loading import FrameLoader
-from frames.model.names import known_name, new_name
-from frames.model.parts import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
-from frames.model.placing import (
+from frames.model.geometry_checks import (
     member_offsets,
     member_releases,
     member_up,
@@ -21,9 +19,11 @@ from frames.model.placing import (
     require_bearing_place,
     require_two_nodes,
 )
+from frames.model.loading import FrameLoader
+from frames.model.names import known_name, new_name
 from frames.model.sections import Section
 from frames.model.superelement import superelement
-from lir_element.door import require_type, require_vector
+from lir_element.argument_checks import require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from frames._errors import ModelError
-from lir_element.door import require_between, require_positive
+from lir_element.argument_checks import require_between, require_positive
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
 from frames._errors import ModelError
-from frames.model.combining import combination, factor_all, factor_loads
+from frames.model.components import DEFAULT_CASE, BearingLink, bearing_height
+from frames.model.geometry_checks import fits, require_bearing_place
+from frames.model.load_combinations import combination, factor_all, factor_loads
 from frames.model.names import known_name, new_name
 from frames.model.nonlinear import NonlinearBuilder
-from frames.model.parts import DEFAULT_CASE, BearingLink, bearing_height
-from frames.model.placing import fits, require_bearing_place
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from frames._errors import ModelError
+from frames.model.components import FloorLoad, Member, Node, TaperedLoad
+from frames.model.geometry_checks import POSITION_TOLERANCE, member_ends, node_list, one_elevation
 from frames.model.panels import nearest_edges, one_way, turning
-from frames.model.parts import FloorLoad, Member, Node, TaperedLoad
-from frames.model.placing import POSITION_TOLERANCE, member_ends, node_list, one_elevation
-from lir_element.door import require_vector
+from lir_element.argument_checks import require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -12,7 +12,12 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from frames._errors import ModelError
-from lir_element.door import require_between, require_non_negative, require_positive, require_type
+from lir_element.argument_checks import (
+    require_between,
+    require_non_negative,
+    require_positive,
+    require_type,
+)
 
 _TOP = 1.0 - 1e-9
 
@@ -215,7 +220,7 @@ class ViscousDamper:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class Gap:
     """A wall or buffer behind a gap, with linear stiffness and damping (Kelvin-Voigt).
 
     It pushes only, ``f = k x + c v`` for a penetration x > 0, and never pulls. So that the force
@@ -228,7 +233,7 @@ class Stop:
     stiffness : float
         k [N/m].
     damping : float
-        c [N s/m], >= 0; `Stop.damping_for` gives it for a coefficient of restitution.
+        c [N s/m], >= 0; `Gap.damping_for` gives it for a coefficient of restitution.
     soft : float
         Penetration over which the damping comes in [m].
     """
@@ -240,9 +245,9 @@ class Stop:
 
     def __post_init__(self) -> None:
         """Check the numbers."""
-        require_non_negative("Stop: gap [m]", self.gap, error=ModelError)
+        require_non_negative("Gap: gap [m]", self.gap, error=ModelError)
         _positive(self, "stiffness", "N/m")
-        require_non_negative("Stop: damping [N s/m]", self.damping, error=ModelError)
+        require_non_negative("Gap: damping [N s/m]", self.damping, error=ModelError)
         _positive(self, "soft", "m")
 
     @staticmethod
@@ -265,10 +270,10 @@ class Stop:
             ``e = exp(-xi / w (pi - atan2(2 xi w, 1 - 2 xi^2)))``, ``w = (1 - xi^2)^(1/2)``
             (Schwager and Poeschel 2007, eq. 12).
         """
-        what = "Stop.damping_for: restitution"
+        what = "Gap.damping_for: restitution"
         e = require_between(what, restitution, 0.15, 1.0, "-", error=ModelError)
-        k = require_positive("Stop.damping_for: stiffness [N/m]", stiffness, error=ModelError)
-        m = require_positive("Stop.damping_for: mass [kg]", mass, error=ModelError)
+        k = require_positive("Gap.damping_for: stiffness [N/m]", stiffness, error=ModelError)
+        m = require_positive("Gap.damping_for: mass [kg]", mass, error=ModelError)
 
         def left(ratio: float) -> float:
             w = math.sqrt(1.0 - ratio * ratio)
@@ -282,7 +287,7 @@ class Stop:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HertzStop:
+class HertzGap:
     """A wall behind a gap with Hertz' contact and damping: pounding of bodies.
 
     ``f = k x^n (1 + a v / v_0)`` for a penetration x > 0, v_0 the speed of approach (Hunt and
@@ -309,7 +314,7 @@ class HertzStop:
 
     def __post_init__(self) -> None:
         """Check the numbers."""
-        require_non_negative("HertzStop: gap [m]", self.gap, error=ModelError)
+        require_non_negative("HertzGap: gap [m]", self.gap, error=ModelError)
         _positive(self, "stiffness", "N/m^exponent")
         _share(self, "restitution", 1.0, 0.05)
         _share(self, "exponent", 3.0, 1.0)
@@ -382,8 +387,8 @@ class PlasticHinge:
         _share(self, "hardening", 0.9)
 
 
-Law: TypeAlias = Bilinear | BoucWen | Tie | ViscousDamper | Stop | HertzStop
-LAWS = (Bilinear, BoucWen, Tie, ViscousDamper, Stop, HertzStop)
+Law: TypeAlias = Bilinear | BoucWen | Tie | ViscousDamper | Gap | HertzGap
+LAWS = (Bilinear, BoucWen, Tie, ViscousDamper, Gap, HertzGap)
 
 
 def elastic_stiffness(law: Law) -> float:

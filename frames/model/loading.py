@@ -8,12 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.model.contents import FrameContents, frozen
+from frames.model.components import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
+from frames.model.frame_data import FrameContents, frozen
+from frames.model.geometry_checks import member_span
 from frames.model.names import known_name, new_name
-from frames.model.parts import DEFAULT_CASE, FloorLoad, TaperedLoad
-from frames.model.placing import member_span
-from lir_element.door import require_non_negative, require_positive, require_type, require_vector
+from lir_element.argument_checks import (
+    require_non_negative,
+    require_positive,
+    require_type,
+    require_vector,
+)
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Collection
 
 from frames._errors import ModelError
-from lir_element.door import require_type
+from lir_element.argument_checks import require_type
 
 
 def new_name(name: str, taken: Collection[str], kind: str) -> str:

@@ -9,11 +9,11 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.model.builder import FrameBuilder
-from frames.model.laws import LAWS, HertzStop, Law, PlasticHinge, Stop
+from frames.model.components import DOFS, Link
+from frames.model.geometry_checks import require_two_nodes
+from frames.model.laws import LAWS, Gap, HertzGap, Law, PlasticHinge
 from frames.model.names import known_name, new_name
-from frames.model.parts import DOFS, Link
-from frames.model.placing import require_two_nodes
-from lir_element.door import require_choice, require_type, require_vector
+from lir_element.argument_checks import require_choice, require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -36,7 +36,7 @@ class NonlinearBuilder(FrameBuilder):
         i, j : str
             Its nodes. It sits at node j; where the nodes are apart, a rigid lever joins it to node
             i, so that rigid motions of both nodes are free of force.
-        law : Bilinear, BoucWen, Tie, ViscousDamper, Stop or HertzStop
+        law : Bilinear, BoucWen, Tie, ViscousDamper, Gap or HertzGap
             Law of its force. The first two are part of the structure, carry permanent loads and
             must be elastic under them; the others are put in afterwards.
         direction : str or sequence of 3 floats
@@ -102,7 +102,7 @@ class NonlinearBuilder(FrameBuilder):
         self,
         name: str,
         nodes: Sequence[str],
-        law: Stop | HertzStop | Mapping[str, Stop | HertzStop],
+        law: Gap | HertzGap | Mapping[str, Gap | HertzGap],
     ) -> None:
         """Put walls around nodes of the isolated base: what is met when the clearance is used up.
 
@@ -114,7 +114,7 @@ class NonlinearBuilder(FrameBuilder):
         nodes : sequence of str
             Nodes that may run into a wall, as the corners of the base slab: each has walls on all
             sides that the law names.
-        law : Stop, HertzStop or mapping
+        law : Gap, HertzGap or mapping
             Of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
             where the wall stands, seen from the node.
 
@@ -127,8 +127,8 @@ class NonlinearBuilder(FrameBuilder):
         for side, each in given.items():
             require_choice(f'side of moat "{name}"', side, tuple(_SIDES))
             require_type(
-                f'law of moat "{name}", side {side}', each, (Stop, HertzStop),
-                "a Stop(gap=..., stiffness=...) or a HertzStop",
+                f'law of moat "{name}", side {side}', each, (Gap, HertzGap),
+                "a Gap(gap=..., stiffness=...) or a HertzGap",
             )  # fmt: skip
         for node in nodes:
             known_name(node, self._nodes, "node")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Self
 
 from frames._errors import ModelError
-from lir_element.door import require_non_negative, require_positive
+from lir_element.argument_checks import require_non_negative, require_positive
 from lir_element.tables import html_table
 from lir_element.units import AREAS, MODULI, meant
 

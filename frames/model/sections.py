@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from frames._errors import ModelError
-from frames.model.rolled import catalogue_dimensions, rolled_i_constants
+from frames.model.rolled_shapes import catalogue_dimensions, rolled_i_constants
 from frames.model.section_constants import SectionConstants
 from frames.model.shapes import (
     circle_constants,
@@ -177,8 +177,8 @@ class Section(SectionConstants):
     ) -> Section:
         """Build a rolled I shape with parallel flanges and fillets, web along local z.
 
-        The constants are those of its catalogue: `frames.model.rolled` has the formulas. Shear
-        areas are as in `i_shape`; warping is left out.
+        The constants are those of its catalogue: `frames.model.rolled_shapes` has the formulas.
+        Shear areas are as in `i_shape`; warping is left out.
 
         Parameters
         ----------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from frames._errors import ModelError
-from lir_element.door import require_finite, require_positive
+from lir_element.argument_checks import require_finite, require_positive
 from lir_element.units import LENGTHS, meant
 
 LARGEST_SIDE = 100.0

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from lir_element.door import require_vector
+from lir_element.argument_checks import require_vector
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import MotionError
-from lir_element.door import require_positive
+from lir_element.argument_checks import require_positive
 from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
 
 if TYPE_CHECKING:

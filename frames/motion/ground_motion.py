@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from frames._errors import MotionError
-from frames.motion import changes
-from frames.motion.recorded import RecordedMotion
+from frames.motion import transforms
+from frames.motion.record_motions import RecordedMotion
 from frames.motion.spectra import response_spectrum
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class GroundMotion(RecordedMotion):
         MotionError
             If there are not one or three finite factors.
         """
-        return self._with(changes.scaled(self._given(), factor))
+        return self._with(transforms.scaled(self._given(), factor))
 
     def rotated(self, angle: float) -> GroundMotion:
         """Return the motion turned about z.
@@ -93,7 +93,7 @@ class GroundMotion(RecordedMotion):
         GroundMotion
             The motion with both horizontal components.
         """
-        return self._with(changes.rotated(self._given(), angle))
+        return self._with(transforms.rotated(self._given(), angle))
 
     def trimmed(self, start: float = 0.0, end: float | None = None) -> GroundMotion:
         """Return the samples from `start` to `end`; the time starts at 0 again.
@@ -113,7 +113,7 @@ class GroundMotion(RecordedMotion):
         MotionError
             If fewer than two samples lie between.
         """
-        return self._with(changes.trimmed(self._given(), self.dt, start, end))
+        return self._with(transforms.trimmed(self._given(), self.dt, start, end))
 
     def resampled(self, dt: float) -> GroundMotion:
         """Return the motion at another time step, by linear interpolation.
@@ -138,7 +138,7 @@ class GroundMotion(RecordedMotion):
         MotionError
             If `dt` is not greater than 0 and at most the duration.
         """
-        return self._with(*changes.resampled(self._given(), self.dt, dt))
+        return self._with(*transforms.resampled(self._given(), self.dt, dt))
 
     def with_tail(self, seconds: float) -> GroundMotion:
         """Return the motion with zeros after it, for the free vibration.
@@ -158,7 +158,7 @@ class GroundMotion(RecordedMotion):
         MotionError
             If the tail is negative.
         """
-        return self._with(changes.with_tail(self._given(), self.dt, seconds))
+        return self._with(transforms.with_tail(self._given(), self.dt, seconds))
 
     def corrected(self, *, displacement: bool = True) -> GroundMotion:
         """Return the motion with its baseline corrected: the ground is at rest at its end.
@@ -190,7 +190,7 @@ class GroundMotion(RecordedMotion):
         >>> round(motion.drift["x"].velocity, 2), abs(still.drift["x"].velocity) < 1e-12
         (0.19, True)
         """
-        arrays, change = changes.baseline_corrected(
+        arrays, change = transforms.baseline_corrected(
             self._given(), self.dt, displacement=displacement
         )
         label = f"{self.name or 'motion'} (baseline corrected, peaks within {100 * change:.2g} %)"

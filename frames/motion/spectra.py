@@ -28,7 +28,7 @@ import numpy as np
 import xarray as xr
 
 from frames._errors import MotionError
-from lir_element.door import require_between
+from lir_element.argument_checks import require_between
 
 if TYPE_CHECKING:
     import numpy.typing as npt

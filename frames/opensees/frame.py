@@ -11,7 +11,7 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.assembly.assemble import assemble
-from frames.model.parts import DOFS, bearing_height
+from frames.model.components import DOFS, bearing_height
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
@@ -25,15 +25,15 @@ from frames.opensees.natures import natures
 from frames.opensees.structure import Options, Structure, Taken
 from frames.opensees.vertical_mass import with_vertical_mass
 from frames.opensees.viscous import with_viscous_springs
-from lir_element.door import require_choice, require_positive
+from lir_element.argument_checks import require_choice, require_positive
 from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
-from lir_element.opensees.leftovers import listed
+from lir_element.opensees.dangling_references import listed
 
 if TYPE_CHECKING:
     from frames.assembly.system import System
     from frames.model.builder import FrameBuilder
-    from frames.model.contents import FrameContents
+    from frames.model.frame_data import FrameContents
     from frames.opensees.model import OpenSeesModel
 
 NAME = "opensees"

@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.opensees.materials import DASHPOTS, DEPARTURE, Printed, law_of, printed_model
-from lir_element.opensees.leftovers import listed
+from lir_element.opensees.dangling_references import listed
 
 if TYPE_CHECKING:
     from frames.opensees.materials import Law
@@ -167,7 +167,7 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
     tags = listed(sorted({each.tag for each, _ in bad}))
     if law.one_sided:
         what = law.one_sided
-        instead = "Stop(gap=..., stiffness=...), or Tie(stiffness=...) for what pulls only"
+        instead = "Gap(gap=..., stiffness=...), or Tie(stiffness=...) for what pulls only"
     else:
         what = "has a force that is not proportional to speed, or a spring and a dashpot in series"
         instead = "ViscousDamper(coefficient=..., exponent=...)"

@@ -10,8 +10,8 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.model.superelement import lumped
-from lir_element.door import require_non_negative
-from lir_element.opensees.leftovers import listed
+from lir_element.argument_checks import require_non_negative
+from lir_element.opensees.dangling_references import listed
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix

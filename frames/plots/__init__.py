@@ -10,19 +10,14 @@ no display and keeps no state. ``start`` and ``end`` [s] show a part of the time
 between figures of the same systems.
 """
 
+from typing import TYPE_CHECKING
+
 from frames.plots.bearing_dimensions import bearing_dimensions as bearing_dimensions
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
-from frames.plots.plot_fragility import fragility_curves as fragility_curves
-from frames.plots.plot_fragility import risk_deaggregation as risk_deaggregation
-from frames.plots.plot_fragility import tornado_chart as tornado_chart
-from frames.plots.plot_hazard import design_spectra as design_spectra
-from frames.plots.plot_hazard import motion_spectra as motion_spectra
 from frames.plots.plot_hinges import hinge_map as hinge_map
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
 from frames.plots.plot_histories import histories as histories
-from frames.plots.plot_ida import ida_curves as ida_curves
-from frames.plots.plot_ida import stripes as stripes
 from frames.plots.plot_links import link_loops as link_loops
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
@@ -34,28 +29,28 @@ from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
 
+if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
+    from frames._moved import moved_name
+
+    def __getattr__(name: str) -> object:
+        return moved_name(__name__, name)
+
+
 __all__ = [
     "QUANTITIES",
     "bearing_dimensions",
     "bearing_plan",
     "bearing_sections",
-    "design_spectra",
     "energy",
     "floor_spectra",
-    "fragility_curves",
     "hinge_map",
     "histories",
     "hysteresis",
-    "ida_curves",
     "link_loops",
     "mode_shapes",
     "model_film",
     "model_view",
-    "motion_spectra",
     "orbits",
-    "risk_deaggregation",
     "storey_profiles",
-    "stripes",
-    "tornado_chart",
     "worst_bearing",
 ]

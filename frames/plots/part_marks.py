@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.lines import Line2D
 
-from frames.model.laws import Bilinear, BoucWen, HertzStop, Stop, Tie, ViscousDamper
-from frames.model.parts import hinged_ends
+from frames.model.components import hinged_ends
+from frames.model.laws import Bilinear, BoucWen, Gap, HertzGap, Tie, ViscousDamper
 from frames.plots import plot_style as ps
 
 if TYPE_CHECKING:
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.assembly.system import System
-    from frames.model.contents import FrameContents
+    from frames.model.components import Hinges, Link
+    from frames.model.frame_data import FrameContents
     from frames.model.laws import Law
-    from frames.model.parts import Hinges, Link
 
 SHARE = 0.07
 """Of a member's length, from its end, at which a hinge is drawn."""
@@ -46,7 +46,7 @@ KINDS = (
     Kind("yielding links", (Bilinear, BoucWen), ps.PALETTE[4], "-", "D"),
     Kind("ties", (Tie,), ps.PALETTE[5], "--", "x"),
     Kind("dampers", (ViscousDamper,), ps.PALETTE[3], "-.", "s"),
-    Kind("walls, stops", (Stop, HertzStop), "#333333", ":", ""),
+    Kind("walls, stops", (Gap, HertzGap), "#333333", ":", ""),
 )
 """Kinds of links, in the order of the legend."""
 
@@ -101,7 +101,7 @@ def _strokes(
     length = float(np.linalg.norm(apart))
     if length > 0.0:
         yield ends, {"linestyle": kind.line, "linewidth": 1.0}
-    if isinstance(link.law, Stop | HertzStop):
+    if isinstance(link.law, Gap | HertzGap):
         wall = ends[0] + (apart if length > 0.0 else 0.0) + enlarged * link.law.gap * direction
         across = np.cross(direction, (0.0, 0.0, 1.0))
         across = np.array([1.0, 0.0, 0.0]) if not across.any() else across

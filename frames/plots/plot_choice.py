@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 
 from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
-from frames.results.auditing import doubts_of
-from frames.results.kept import largest_kept, require_steps
+from frames.results.assumption_checks import doubts_of
+from frames.results.recorded import largest_kept, require_steps
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

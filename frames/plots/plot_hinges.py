@@ -10,15 +10,15 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
-from frames.analysis.recovery import require_own
 from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import member_lines
 from frames.plots.part_marks import hinge_places
 from frames.plots.plot_model import AT_REST, frame_of
-from frames.results.reached import largest
-from frames.results.yielded import hinge_rotation
+from frames.recording.recovery import require_own
+from frames.results.hinge_extremes import hinge_rotation
+from frames.results.peak_response import largest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray, IntArray
-    from frames.model.contents import FrameContents
+    from frames.model.frame_data import FrameContents
 
 YIELDED = 1e-9
 """Plastic rotation from which on a hinge counts as yielded [rad]."""

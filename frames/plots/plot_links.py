@@ -8,7 +8,7 @@ import numpy as np
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.results.reached import left
+from frames.results.peak_response import left
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

@@ -10,23 +10,23 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
-from frames.analysis.modes import modes
-from frames.analysis.recovery import require_own
 from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import member_lines
 from frames.plots.part_marks import HINGES, draw_links, hinge_places, part_handles
-from frames.results.kept import require_recorded, require_steps
+from frames.recording.recovery import require_own
+from frames.results.recorded import require_recorded, require_steps
+from frames.statics.modes import modes
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
-    from frames.analysis.modes import BearingStiffness
     from frames.assembly.system import System
-    from frames.model.contents import FrameContents
+    from frames.model.frame_data import FrameContents
+    from frames.statics.modes import BearingStiffness
 
 LARGEST = 0.08
 """Drawn size of the largest displacement over the extent of the model, where none is chosen."""

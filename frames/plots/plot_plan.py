@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.results.measures import lateral_capacity
-from frames.results.reached import largest
+from frames.results.peak_response import largest
 
 if TYPE_CHECKING:
     import xarray as xr

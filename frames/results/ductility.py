@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.results.reached import largest, left, remaining
-from frames.results.yielded import can_yield
+from frames.results.hinge_extremes import can_yield
+from frames.results.peak_response import largest, left, remaining
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from frames.results.kept import require_between_ends, require_recorded
+from frames.results.recorded import require_between_ends, require_recorded
 from frames.results.storage import write_whole
 
 _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet

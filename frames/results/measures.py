@@ -9,7 +9,7 @@ import xarray as xr
 
 from frames.kernel_data import ENERGY_TERMS
 from frames.motion.spectra import response_spectrum
-from frames.results.kept import (
+from frames.results.recorded import (
     largest_kept,
     noted,
     require_recorded,

@@ -10,9 +10,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from frames.results.auditing import doubts_of
+from frames.results.assumption_checks import doubts_of
+from frames.results.hinge_extremes import can_yield
 from frames.results.measures import energy_error, lateral_capacity
-from frames.results.reached import (
+from frames.results.peak_response import (
     Extreme,
     computed_until,
     largest,
@@ -20,8 +21,7 @@ from frames.results.reached import (
     storeys_of_lines,
     total,
 )
-from frames.results.yielded import can_yield
-from lir_element.door import require_type
+from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

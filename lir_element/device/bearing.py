@@ -8,10 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
+from lir_element.argument_checks import as_pair, frozen_pair, require_positive
 from lir_element.device.bearing_checks import check_bearing
 from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
-from lir_element.door import as_pair, frozen_pair, require_positive
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
 from lir_element.tables import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY

@@ -8,10 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lir_element.device.friction import CoulombFriction, VelocityFriction
-from lir_element.device.heating import FrictionHeating, PressureDependence
-from lir_element.device.plausible import doubts, refuse_forces, refuse_sizes
-from lir_element.door import (
+from lir_element.argument_checks import (
     as_pair,
     require_between,
     require_choice,
@@ -19,6 +16,9 @@ from lir_element.door import (
     require_positive,
     require_type,
 )
+from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.device.heating import FrictionHeating, PressureDependence
+from lir_element.device.sanity_checks import doubts, refuse_forces, refuse_sizes
 from lir_element.units import LENGTHS, meant, per_cent
 
 if TYPE_CHECKING:

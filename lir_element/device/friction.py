@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp
 
-from lir_element.door import require_between, require_non_negative
+from lir_element.argument_checks import require_between, require_non_negative
 from lir_element.units import per_cent
 
 

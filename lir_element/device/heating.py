@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from lir_element.door import require_between, require_choice, require_positive
+from lir_element.argument_checks import require_between, require_choice, require_positive
 from lir_element.layout import HEAT_PARTS
 from lir_element.units import LENGTHS, MODULI, meant
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lir_element.argument_checks import as_pair
 from lir_element.device.bearing import STANDARD_GRAVITY, LIRBearing
-from lir_element.door import as_pair
 from lir_element.layout import BODIES, POINT, SLIDERS, TOUCH, Floats, Records
 
 if TYPE_CHECKING:

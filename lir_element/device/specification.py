@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal, cast
 
+from lir_element.argument_checks import as_number, as_pair
 from lir_element.device.friction import Friction
 from lir_element.device.heating import FrictionHeating, PressureDependence
-from lir_element.door import as_number, as_pair
 from lir_element.units import STANDARD_GRAVITY
 
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.kernels.pendulum.trial import copy_words, has_no_state

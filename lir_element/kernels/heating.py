@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State

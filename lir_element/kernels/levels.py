@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import expanded, kernel
+from lir_element._compile.jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect

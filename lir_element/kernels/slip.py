@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import inlined, kernel
+from lir_element._compile.jit import inlined, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Mapped

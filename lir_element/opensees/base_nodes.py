@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lir_element.device.bearing import LIRBearing
-from lir_element.opensees.leftovers import leftovers, listed
+from lir_element.opensees.dangling_references import leftovers, listed
 
 BASE_ROTATIONS = ("kept", "free", "fixed")
 """What becomes of the rotations of base nodes about horizontal axes."""

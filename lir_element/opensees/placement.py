@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.door import require_positive
+from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import xarray as xr
 
+from lir_element.argument_checks import require_choice, require_positive
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
-from lir_element.door import require_choice, require_positive
 from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
+from lir_element.interruptible import in_pieces, ready
 from lir_element.kernels.cyclic_kernel import begin_path, follow_path
-from lir_element.pieces import in_pieces, ready
 from lir_element.results.dataset import (
     bearing_coordinates,
     bearing_variables,

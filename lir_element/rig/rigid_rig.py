@@ -8,8 +8,8 @@ import numpy as np
 
 from lir_element.bundles.rigid_data import FIRST_STEP, rigid_input, rigid_run, rigid_setup
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.kernels.rigid_body.march import march, start
-from lir_element.pieces import in_pieces
+from lir_element.interruptible import in_pieces
+from lir_element.kernels.rigid_body.integrate import march, start
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts

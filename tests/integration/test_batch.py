@@ -13,12 +13,9 @@ import xarray as xr
 from frames import (
     AuditWarning,
     BatchProgress,
-    Bilinear,
-    Features,
     Frame,
     GroundMotion,
     ModelWarning,
-    PlasticHinge,
     Recording,
     load,
     lumped_mass,
@@ -29,7 +26,8 @@ from frames import (
     time_histories,
     time_history,
 )
-from lir_element import AnalysisInterrupted, AnalysisWarning, LIRBearing
+from frames.laws import Bilinear, PlasticHinge
+from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
 
 ROUND_OFF = 1e-9  # sums in another order; of accelerations, parts of modes cancel
 TIMED = ("seconds_loop", "seconds of the time loop")
@@ -315,7 +313,7 @@ def test_what_cannot_be_is_refused(
 def test_more_than_the_memory_holds_is_refused(
     building: Frame, motions: dict[str, GroundMotion], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("frames.analysis.size.memory", lambda: 1e6)
+    monkeypatch.setattr("frames.recording.size.memory", lambda: 1e6)
     quietly(time_histories, building, motions["near"], scales=[0.4, 0.5], duration=0.2)
     with pytest.raises(ValueError, match="results of 2 of 2 runs take about"):
         time_histories(building, motions["near"], scales=[0.4, 0.5], record=Recording())

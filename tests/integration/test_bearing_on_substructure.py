@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame, GroundMotion, Section, gravity, lumped_mass
-from frames.model.parts import DOFS
+from frames.model.components import DOFS
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.kernels.rotation import rotate
 

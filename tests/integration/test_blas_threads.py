@@ -7,9 +7,10 @@ import pytest
 from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from frames import Frame, GroundMotion, gravity, lumped_mass, modes, time_histories, time_history
-from frames.analysis import batch, static
-from frames.analysis import modes as natural
-from frames.analysis.blas_threads import blas_threads_for
+from frames.batch import time_histories as batch
+from frames.statics import gravity as static
+from frames.statics import modes as natural
+from frames.statics.blas_threads import blas_threads_for
 
 MASS = 204e3
 

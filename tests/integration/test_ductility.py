@@ -7,13 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import (
-    Bilinear,
     GroundMotion,
-    HertzStop,
-    PlasticHinge,
     Recording,
-    Tie,
-    ViscousDamper,
     ductility,
     load,
     lumped_mass,
@@ -25,6 +20,7 @@ from frames import (
     storey_ductility,
     time_history,
 )
+from frames.laws import Bilinear, HertzGap, PlasticHinge, Tie, ViscousDamper
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 
 DT, HEIGHT = 0.005, 3.0
@@ -54,7 +50,7 @@ def stick():
     frame.add_link("rod", "floor-1", "base", Tie(stiffness=1e6, yield_force=5e3), "ux")
     frame.add_link("cable", "base", "floor-1", Tie(stiffness=1e5), "ux")
     frame.add_link("damper", "base", "floor-1", ViscousDamper(coefficient=1e4), "ux")
-    wall = HertzStop(gap=0.1, stiffness=1e9)
+    wall = HertzGap(gap=0.1, stiffness=1e9)
     frame.add_moat("moat", ["base"], {"x+": wall, "x-": wall})
     return frame
 

@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import (
-    Features,
     Frame,
     GroundMotion,
     energy_error,
@@ -17,7 +16,14 @@ from frames import (
     shear_building,
     time_history,
 )
-from lir_element import AnalysisError, AnalysisWarning, CoulombFriction, LIRBearing, RunStatus
+from lir_element import (
+    AnalysisError,
+    AnalysisWarning,
+    CoulombFriction,
+    Features,
+    LIRBearing,
+    RunStatus,
+)
 
 MASS, DT = 1e5, 0.005
 SHAPE = {"radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1}

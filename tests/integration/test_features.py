@@ -6,7 +6,6 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import (
-    Features,
     Frame,
     GroundMotion,
     ModalDamping,
@@ -15,8 +14,8 @@ from frames import (
     moment_frame,
     shear_building,
 )
-from frames.analysis.scene import exact_features, plane_coupling
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from frames.statics.model_traits import exact_features, plane_coupling
+from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
 
 DT = 0.004
 G = 9.80665

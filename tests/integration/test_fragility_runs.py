@@ -5,9 +5,10 @@ import warnings
 import numpy as np
 import pytest
 
-from frames import (
+from frames import GroundMotion, lumped_mass, time_histories
+from frames.demo import bearing_for
+from frames.risk import (
     FragilityError,
-    GroundMotion,
     HuntFill,
     Intensity,
     IntensityRuns,
@@ -15,11 +16,8 @@ from frames import (
     cloud_analysis,
     fragility_of,
     ida,
-    lumped_mass,
     multiple_stripes,
-    time_histories,
 )
-from frames.demo import bearing_for
 from lir_element.errors import AnalysisWarning
 
 LOAD = 1000e3
@@ -102,7 +100,7 @@ def test_numerical_failures_count_as_neither_and_are_told(monkeypatch: pytest.Mo
         data["status"] = ("run", np.where(fails, "step_too_small", data["status"]))
         return data
 
-    monkeypatch.setattr("frames.fragility.runs.time_histories", broken)
+    monkeypatch.setattr("frames.risk.fragility.runs.time_histories", broken)
     rules = HuntFill(first=0.3, step=0.3, growth=0.0, runs=9)
     with pytest.warns(AnalysisWarning, match="1 of 1 runs failed numerically and count as neither"):
         found = ida(MODEL, PULSES[0], intensity=PGV, rules=rules)

@@ -16,8 +16,9 @@ from frames import (
     moment_frame,
     storey_drift,
 )
-from frames.analysis import static, transient
 from frames.results.summary import table_of
+from frames.solve import time_history as transient
+from frames.statics import gravity as static
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY as G
 from validation.claims.opensees_superstructure import BEAM, COLUMN, PENDULUM

@@ -9,7 +9,6 @@ import pytest
 
 from frames import (
     AuditWarning,
-    Features,
     Frame,
     GroundMotion,
     audit_report,
@@ -18,8 +17,8 @@ from frames import (
     moment_frame,
     time_history,
 )
-from frames.analysis.gauging import can_gauge
-from lir_element import AnalysisWarning, LIRBearing
+from frames.recording.peak_tracking import can_gauge
+from lir_element import AnalysisWarning, Features, LIRBearing
 
 
 @pytest.fixture(scope="module")

@@ -17,11 +17,11 @@ from frames import (
     lumped_mass,
     moment_frame,
 )
-from frames.analysis import equilibrium
-from frames.analysis.springs import guessed_springs
 from frames.assembly.basis import bearing_rows
 from frames.kernels.stepping import solve_gravity
-from frames.model.parts import bearing_axial_stiffness
+from frames.model.components import bearing_axial_stiffness
+from frames.statics import equilibrium
+from frames.statics.springs import guessed_springs
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 
 G = 9.80665

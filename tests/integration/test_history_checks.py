@@ -11,35 +11,37 @@ import pytest
 import xarray as xr
 
 from frames import (
-    HISTORY_RULES,
     AuditWarning,
-    Check,
-    CheckError,
-    Checks,
-    DesignLimits,
-    EquivalentLinear,
     Frame,
     GroundMotion,
-    IsolationSystem,
-    PropertyBounds,
-    PropertyFactors,
     Recording,
-    Spectrum,
-    Superstructure,
-    bounded,
-    bounded_histories,
-    equivalent_linear,
-    history_checks,
-    history_demands,
     lumped_mass,
     shear_building,
     time_histories,
     time_history,
 )
-from frames.checks.demand_table import headed
+from frames.design import (
+    HISTORY_RULES,
+    Check,
+    CheckError,
+    Checks,
+    DesignLimits,
+    EquivalentLinear,
+    IsolationSystem,
+    PropertyBounds,
+    PropertyModificationFactors,
+    Spectrum,
+    Superstructure,
+    bounded_histories,
+    equivalent_linear,
+    history_checks,
+    history_demands,
+    with_property_bounds,
+)
+from frames.design.histories.demand_table import headed
 from lir_element import AnalysisWarning, LIRBearing, PressureDependence, VelocityFriction
 
-BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
+BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
 SLIDING = (0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5)
 """Amplitudes of motions that all runs survive [m/s2]; the larger ones meet the rims."""
 
@@ -239,7 +241,7 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
     runs = quietly(bounded_histories, frame, motions, BOUNDS, scales=scales)
     assert list(runs) == ["lower", "nominal", "upper"]
     for bound, data in runs.items():
-        model = bounded(frame, bound, BOUNDS)
+        model = with_property_bounds(frame, bound, BOUNDS)
         alone = quietly(time_history, model, motions[0].scaled(1.1), recording=Recording.peaks())
         assert data["motion"].to_numpy().tolist() == ["pulse 1", "pulse 1.4"]
         assert float(data["reached_displacement"][0, 0]) == float(alone["reached_displacement"][0])

@@ -12,35 +12,36 @@ import xarray as xr
 
 from frames import (
     AuditWarning,
+    Frame,
+    GroundMotion,
+    Recording,
+    floor_acceleration,
+    lumped_mass,
+    peaks,
+    shear_building,
+    storey_drift,
+    time_histories,
+    time_history,
+)
+from frames.design import (
     Check,
     CheckError,
     Checks,
     DesignLimits,
-    Features,
-    Frame,
-    GroundMotion,
-    Recording,
     device_checks,
     event_checks,
-    floor_acceleration,
     history_checks,
     impact_checks,
     impact_demand,
-    lumped_mass,
     overlap_area,
-    peaks,
     repeated_motion,
     resultant_offsets,
     rim_engagement,
-    shear_building,
     slips_of_events,
-    storey_drift,
-    time_histories,
-    time_history,
     uplift_events,
 )
 from frames.results.summary import summary_of
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning, CoulombFriction, Features, LIRBearing
 
 
 def quietly(analyse: Callable[..., Any], *given: Any, **options: Any) -> Any:

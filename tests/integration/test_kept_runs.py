@@ -21,9 +21,9 @@ from frames import (
     shear_building,
     time_histories,
 )
-from frames.analysis import kept_runs
-from frames.analysis.batch_run import Worker
-from frames.analysis.stacking import Row
+from frames.batch import completed_runs
+from frames.batch.batch_dataset import Row
+from frames.batch.batch_run import Worker
 from lir_element import AnalysisInterrupted, CoulombFriction, LIRBearing
 
 SCALES = [0.1, 0.2, 0.3, 0.8]  # the interface fails under the last one
@@ -132,7 +132,7 @@ def test_other_models_and_cases_in_another_order(tmp_path) -> None:
         lambda kept: {"dt": 0.005},
         lambda kept: {"level": "contact", "scales": [0.2]},
         lambda kept: {"record": Recording(every=3)},
-        lambda kept: kept.setattr(kept_runs, "sources_hash", lambda: "another") or {},
+        lambda kept: kept.setattr(completed_runs, "sources_hash", lambda: "another") or {},
     ],
     ids=["friction", "motion", "scale", "step", "level", "recording", "sources"],
 )  # fmt: skip

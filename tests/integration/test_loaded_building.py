@@ -11,7 +11,6 @@ from frames import (
     Section,
     energy_error,
     gravity,
-    isolator_combinations,
     member_forces,
     modes,
     storey_forces,
@@ -19,6 +18,7 @@ from frames import (
     time_history,
 )
 from frames.assembly.assemble import assemble
+from frames.design import isolator_combinations
 from lir_element import CoulombFriction, LIRBearing
 
 TIME = np.arange(0.0, 3.0, 0.005)

@@ -10,21 +10,20 @@ import pytest
 import xarray as xr
 
 from frames import (
-    HISTORY_RULES,
     AuditWarning,
     Frame,
     GroundMotion,
     Recording,
-    history_demands,
     peaks,
     shear_building,
     storey_drift,
     time_histories,
     time_history,
 )
-from frames.checks.suite import names_of, reached
+from frames.design import HISTORY_RULES, history_demands
+from frames.design.histories.suite import names_of, reached
+from frames.design.report.numbers import bearing_table
 from frames.plots import storey_profiles
-from frames.report.numbers import bearing_table
 from frames.results.summary import ROWS, summary_of, table_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 

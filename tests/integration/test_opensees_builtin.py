@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from frames import Features, GroundMotion, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from frames import GroundMotion, lumped_mass, time_history
+from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
 
 pytest.importorskip("openseespy")
 

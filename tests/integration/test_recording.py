@@ -13,14 +13,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import (
     AuditWarning,
-    Bilinear,
-    Features,
     GroundMotion,
     ModelError,
-    PlasticHinge,
     Recording,
-    Stop,
-    ViscousDamper,
     audit,
     audit_report,
     drift_by_line,
@@ -43,8 +38,7 @@ from frames import (
     time_history,
     uplift_gap,
 )
-from frames.analysis import recorder
-from frames.analysis.reduction import Reduction, reduced
+from frames.laws import Bilinear, Gap, PlasticHinge, ViscousDamper
 from frames.plots import (
     bearing_plan,
     bearing_sections,
@@ -53,11 +47,14 @@ from frames.plots import (
     orbits,
     worst_bearing,
 )
+from frames.recording import recorder
+from frames.recording.reduction import Reduction, reduced
 from lir_element import (
     AnalysisError,
     AnalysisInterrupted,
     AnalysisWarning,
     CoulombFriction,
+    Features,
     LIRBearing,
     VelocityFriction,
 )
@@ -92,7 +89,7 @@ def yielding():
     brace = Bilinear(stiffness=1e7, yield_force=2e4, hardening=0.02)
     frame.add_link("brace", "base-0-0", "floor-1-1-0", brace)
     frame.add_link("damper", "base-0-1", "floor-1-1-1", ViscousDamper(coefficient=1e4))
-    frame.add_moat("moat", ["base-0-0"], Stop(gap=0.08, stiffness=1e8, damping=1e5))
+    frame.add_moat("moat", ["base-0-0"], Gap(gap=0.08, stiffness=1e8, damping=1e5))
     return frame
 
 
@@ -380,7 +377,7 @@ def test_unknown_names_are_refused_before_the_run(options, message):
 
 
 def test_what_would_not_fit_is_refused_and_what_fits_is_not(monkeypatch):
-    monkeypatch.setattr("frames.analysis.size.memory", lambda: 80e6)
+    monkeypatch.setattr("frames.recording.size.memory", lambda: 80e6)
     monkeypatch.setattr(recorder, "memory", lambda: 80e6)
     model, motion, _ = SCENES["uplift"]
     with pytest.raises(ValueError, match=r"recorded steps take about .* GB.*frames.Recording"):

@@ -9,7 +9,6 @@ from scipy import sparse
 
 from frames import (
     AuditWarning,
-    Bilinear,
     Frame,
     GroundMotion,
     ModelError,
@@ -25,14 +24,15 @@ from frames import (
     time_histories,
     time_history,
 )
-from frames.analysis import refining
-from frames.analysis.reduction import present_quantities
-from frames.analysis.refining import differences
-from frames.analysis.static import prepare
 from frames.assembly.basis import build_basis
 from frames.assembly.ritz import RitzSpace
 from frames.assembly.sparse_solver import Factors
-from frames.results.reached import largest
+from frames.laws import Bilinear
+from frames.recording.reduction import present_quantities
+from frames.results.peak_response import largest
+from frames.statics import basis_refinement
+from frames.statics.basis_refinement import differences
+from frames.statics.gravity import prepare
 from lir_element import CoulombFriction, LIRBearing
 
 # Tall and soft on purpose: many modes on few bearings.
@@ -185,7 +185,7 @@ def test_where_most_modes_are_needed_it_is_the_direct_method():
 
 
 def test_an_error_that_stays_is_told(monkeypatch, tmp_path):
-    monkeypatch.setattr(refining, "ROUNDS", 2)
+    monkeypatch.setattr(basis_refinement, "ROUNDS", 2)
     frame = BUILDINGS["symmetric"]()
     with pytest.warns(AuditWarning, match=r"two runs differ by more than asked for: .* %"):
         data = time_history(frame, MOTION, 3.0, DT, method="reduced", reduction_tolerance=1e-8)

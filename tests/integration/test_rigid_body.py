@@ -15,7 +15,7 @@ from frames import Frame, GroundMotion, energy_error, gravity, lumped_mass, time
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.bundles.rigid_data import rigid_input, rigid_run, rigid_setup
 from lir_element.device.sliders import slider_record
-from lir_element.kernels.rigid_body.march import march, start
+from lir_element.kernels.rigid_body.integrate import march, start
 
 # Such bearings are meant here.
 pytestmark = pytest.mark.meant("slider_density")

@@ -3,15 +3,8 @@
 import numpy as np
 import pytest
 
-from frames import (
-    Frame,
-    GroundMotion,
-    Superstructure,
-    gravity,
-    moment_frame,
-    shear_building,
-    time_history,
-)
+from frames import Frame, GroundMotion, gravity, moment_frame, shear_building, time_history
+from frames.design import Superstructure
 from lir_element import CoulombFriction, LIRBearing
 
 BEARING = LIRBearing(

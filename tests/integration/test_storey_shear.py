@@ -8,28 +8,30 @@ import pytest
 import xarray as xr
 
 from frames import (
-    Check,
-    CheckError,
-    EquivalentLinear,
     Frame,
     GroundMotion,
-    IsolationSystem,
-    PropertyBounds,
-    PropertyFactors,
     Section,
-    Spectrum,
-    Superstructure,
-    equivalent_linear,
     floor_acceleration,
-    history_checks,
-    history_demands,
     shear_building,
     storey_forces,
     time_histories,
     time_history,
 )
-from frames.checks.bounds import BoundName
-from frames.results.reached import largest
+from frames.design import (
+    Check,
+    CheckError,
+    EquivalentLinear,
+    IsolationSystem,
+    PropertyBounds,
+    PropertyModificationFactors,
+    Spectrum,
+    Superstructure,
+    equivalent_linear,
+    history_checks,
+    history_demands,
+)
+from frames.design.codes.bounds import BoundName
+from frames.results.peak_response import largest
 from lir_element import CoulombFriction, LIRBearing
 
 MASSES = (60e3, 50e3)
@@ -66,7 +68,7 @@ def linear(frame: Frame, **above: Any) -> EquivalentLinear:
     system = IsolationSystem.from_frame(frame)
     return equivalent_linear(
         system, Spectrum.asce7(s_ms=0.9, s_m1=0.5),
-        bounds=PropertyBounds(PropertyFactors(0.8, 1.2)),
+        bounds=PropertyBounds(PropertyModificationFactors(0.8, 1.2)),
         superstructure=Superstructure.from_frame(frame, R=4.0, **above),
     )  # fmt: skip
 

@@ -8,19 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from frames import (
-    Check,
-    CheckError,
-    Checks,
-    DesignLimits,
-    Frame,
-    GroundMotion,
-    history_checks,
-    lumped_mass,
-    overlap_area,
-    shear_building,
-    time_histories,
-)
+from frames import Frame, GroundMotion, lumped_mass, shear_building, time_histories
+from frames.design import Check, CheckError, Checks, DesignLimits, history_checks, overlap_area
 from frames.plots.bearing_geometry import _RIM_SHARE, rim_height
 from lir_element import LIRBearing, VelocityFriction
 
@@ -157,7 +146,7 @@ def test_limits_have_bounds() -> None:
 
 def test_the_file_knows_every_limit() -> None:
     pytest.importorskip("pydantic")
-    from frames.project.schema import Limits
+    from frames.design.project.schema import Limits
 
     assert set(Limits.model_fields) == {f.name for f in fields(DesignLimits)}
 

@@ -11,19 +11,12 @@ from numpy.testing import assert_allclose
 
 from frames import (
     AuditWarning,
-    Bilinear,
-    BoucWen,
     Frame,
     GroundMotion,
-    HertzStop,
     ModalDamping,
     ModelError,
-    PlasticHinge,
     Recording,
     Section,
-    Stop,
-    Tie,
-    ViscousDamper,
     audit,
     load,
     lumped_mass,
@@ -36,8 +29,9 @@ from frames import (
     time_histories,
     time_history,
 )
-from frames.analysis.scene import is_plane
 from frames.assembly.assemble import assemble
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, PlasticHinge, Tie, ViscousDamper
+from frames.statics.model_traits import is_plane
 from lir_element import CoulombFriction, LIRBearing
 
 DT = 0.005
@@ -247,8 +241,8 @@ def test_a_linear_damper_is_a_damping_matrix():
         ViscousDamper(coefficient=3e5, exponent=0.5, stiffness=4e7),
         Tie(stiffness=2e7, yield_force=2e5, slack=0.005),
         BoucWen(stiffness=2e7, yield_force=2e5, hardening=0.02, strength_loss=0.01),
-        Stop(gap=0.1, stiffness=5e7, damping=1e6),
-        HertzStop(gap=0.1, stiffness=2e8, restitution=0.6),
+        Gap(gap=0.1, stiffness=5e7, damping=1e6),
+        HertzGap(gap=0.1, stiffness=2e8, restitution=0.6),
     ],
 )
 def test_the_ledger_closes_with_every_law(law):
@@ -279,7 +273,7 @@ def test_a_wall_stops_the_base():
     """An undamped wall takes the energy of the mass: what it stores at the deepest point."""
     k, gap = 2e7, 0.08
     frame = lumped_mass(bearing(), MASS)
-    frame.add_moat("moat", [next(iter(frame.masses))], Stop(gap=gap, stiffness=k))
+    frame.add_moat("moat", [next(iter(frame.masses))], Gap(gap=gap, stiffness=k))
     assert len(frame.links) == 4
     free = time_history(lumped_mass(bearing(), MASS), waves(axes="x"))
     data = time_history(frame, waves(axes="x"), dt=0.001)
@@ -359,7 +353,7 @@ def test_an_oblique_link_couples_the_plane():
 
 def test_copies_carry_all_and_lose_what_is_removed():
     frame = stick(yielding)
-    frame.add_moat("moat", ["base"], Stop(gap=0.3, stiffness=1e7))
+    frame.add_moat("moat", ["base"], Gap(gap=0.3, stiffness=1e7))
     other = frame.with_bearings(bearing(0.08), "other")
     assert dict(other.links) == dict(frame.links)
     other.remove("link", "storey-1-x")
@@ -400,7 +394,7 @@ def _braced(law, direction="axial"):
         ),
         (lambda f: f.add_moat("m", ["base"], yielding(1e6)), TypeError, "law of moat"),
         (
-            lambda f: f.add_moat("m", ["base"], {"z+": Stop(gap=0.1, stiffness=1.0)}),
+            lambda f: f.add_moat("m", ["base"], {"z+": Gap(gap=0.1, stiffness=1.0)}),
             ValueError,
             "side of moat",
         ),

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import lir_element
-from lir_element._sources import compiled_sources
+from lir_element._compile.sources import COMPILERS, compiled_sources
 
 ROOT = Path(lir_element.__file__).parents[1]
 PACKAGES = ("lir_element", "frames", "validation")
@@ -61,14 +61,16 @@ def is_kernel(function: ast.FunctionDef) -> bool:
 
 # Rooms of modules alone, from the floor to the roof: each imports from those before it.
 FLOORS = (
-    "lir_element.device", "lir_element.bundles", "lir_element.kernels.pendulum",
-    "lir_element.kernels.contact", "lir_element.kernels.rigid_body", "lir_element.results",
+    "lir_element._compile", "lir_element.device", "lir_element.bundles",
+    "lir_element.kernels.pendulum", "lir_element.kernels.contact", "lir_element.kernels.rigid_body", "lir_element.results",
     "lir_element.rig", "lir_element.opensees.block", "lir_element.opensees.kernels",
     "lir_element.opensees.fast", "lir_element.opensees.portable", "lir_element.opensees.compare",
-    "frames.model", "frames.motion", "frames.hazard", "frames.assembly", "frames.kernels",
-    "frames.results", "frames.analysis", "frames.opensees", "frames.library", "frames.fragility",
-    "frames.plots", "frames.checks", "frames.sizing", "frames.project", "frames.campaign",
-    "frames.report", "frames.command",
+    "frames.model", "frames.motion", "frames.assembly", "frames.kernels", "frames.results",
+    "frames.opensees", "frames.statics", "frames.library", "frames.recording", "frames.solve",
+    "frames.batch", "frames.plots", "frames.design.calculation", "frames.design.hazard",
+    "frames.design.codes", "frames.design.devices", "frames.design.histories",
+    "frames.design.testing", "frames.design.sizing", "frames.design.project",
+    "frames.design.report", "frames.risk.fragility", "frames.risk.campaign", "frames.command",
     "validation.opensees", "validation.fuzzing", "validation.claims", "validation.measurements",
 )  # fmt: skip
 
@@ -185,7 +187,7 @@ def test_kernels_know_no_classes(path: Path) -> None:
     }
     own = {n for n in imported(tree, "") if n.split(".")[0] in PACKAGES}
     named = {n for n in own if n.rsplit(".", 1)[-1].isupper()}
-    decorators = {n for n in own if n.split(".")[1] == "_jit"}
+    decorators = {n for n in own if n.split(".")[1] in {"_jit", "_compile"}}
     assert own - named - decorators - kernels <= BUNDLES
     assert not [n for n in ast.walk(tree) if isinstance(n, ast.ClassDef)]
     assert all(is_kernel(f) for f in functions(tree))
@@ -221,7 +223,7 @@ def at_import(tree: ast.AST) -> set[str]:
 
 def test_the_cache_depends_on_what_constants_of_kernels_are_made_from() -> None:
     hashed = {path for _, path in compiled_sources(*(ROOT / name for name in PACKAGES[:2]))}
-    makers = {ROOT / name / f"{part}.py" for name in PACKAGES[:2] for part in ("_jit", "_parts")}
+    makers = {ROOT / name / part for name in PACKAGES[:2] for part in COMPILERS}
     for path in hashed - set(KERNELS) - makers:
         tree = at_runtime(path)
         used = at_import(tree)

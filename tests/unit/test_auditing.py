@@ -9,7 +9,6 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import (
-    Features,
     Finding,
     GroundMotion,
     audit,
@@ -20,10 +19,17 @@ from frames import (
     save,
     time_history,
 )
-from frames.analysis import automatic
-from frames.results.auditing import doubts_of, is_missing, needed_level
+from frames.results.assumption_checks import doubts_of, is_missing, needed_level
 from frames.results.measures import centre_shift
-from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction, cyclic_test
+from frames.solve import level_escalation
+from lir_element import (
+    CoulombFriction,
+    Element,
+    Features,
+    LIRBearing,
+    VelocityFriction,
+    cyclic_test,
+)
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus
 from lir_element.results.eccentricity import interface_eccentricity
@@ -294,7 +300,9 @@ def test_auto_settles_at_once_where_nothing_is_missing():
 
 
 def settled(bearing: LIRBearing, features: Features) -> xr.Dataset:
-    return automatic.settle(lambda kept, level: run(bearing, features=kept, level=level), features)
+    return level_escalation.settle(
+        lambda kept, level: run(bearing, features=kept, level=level), features
+    )
 
 
 def test_cheap_run_is_repeated_where_the_rims_are_met():
@@ -313,17 +321,17 @@ def test_cheap_run_is_repeated_where_the_rims_are_met():
 def test_auto_asks_for_another_level(monkeypatch):
     up = wave(15.0, 0.5)
     motion = GroundMotion(x=0.2 * up, z=up, dt=DT)
-    monkeypatch.setattr(automatic, "LEVELS", ("pendulum",))
+    monkeypatch.setattr(level_escalation, "LEVELS", ("pendulum",))
     data = run(device(), motion, level="auto")
     assert "the level 'contact' would be needed" in data.attrs["auto_runs"]
-    monkeypatch.setattr(automatic, "LEVELS", ("pendulum", "contact"))
+    monkeypatch.setattr(level_escalation, "LEVELS", ("pendulum", "contact"))
     levels = []
 
     def analyse(features: Features, level: str) -> xr.Dataset:
         levels.append(level)
         return data.assign_attrs(level=level)
 
-    again = automatic.settle(analyse, Features())
+    again = level_escalation.settle(analyse, Features())
     assert levels == ["pendulum", "contact"]
     assert "again at the level 'contact'" in again.attrs["auto_runs"]
 
@@ -339,7 +347,7 @@ def test_auto_names_runs_that_end_otherwise():
     for name, each in ends.items():
         data = run(device())
         data.attrs["auto_runs"] = "run 1: pendulum"
-        automatic.mark_other_end(data, each)
+        level_escalation.mark_other_end(data, each)
         lines[name] = [line for line in doubts_of(data) if line.startswith("ends:")]
         assert data.attrs["auto_runs"].count("\n") == len(lines[name])
     assert lines["alike"] == []

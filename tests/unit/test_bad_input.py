@@ -13,14 +13,15 @@ pytest.importorskip("typer")
 
 from typer.testing import CliRunner
 
-from frames import GroundMotion, MotionSet, MotionWarning, Spectrum, load
+from frames import GroundMotion, MotionWarning, load
 from frames.command.app import app
-from frames.hazard.motion_folder import read_table
-from frames.motion.plausible import record_doubts
-from frames.project.example import write_example
-from frames.project.plausible import file_doubts
-from frames.project.quantities import si
-from frames.project.reading import read_project
+from frames.design import MotionSet, Spectrum
+from frames.design.hazard.motion_folder import read_table
+from frames.design.project.example import write_example
+from frames.design.project.quantities import si
+from frames.design.project.reading import read_project
+from frames.design.project.sanity_checks import file_doubts
+from frames.motion.sanity_checks import record_doubts
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.results.dataset import package_version
 

@@ -2,104 +2,129 @@
 
 import pytest
 
-from frames import (
+from frames import shear_building
+from frames.design import (
     CheckError,
     FrictionPendulum,
     IsolationSystem,
     PropertyBounds,
-    PropertyFactors,
-    bounded,
-    shear_building,
+    PropertyModificationFactors,
+    with_property_bounds,
 )
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 BEARING = LIRBearing(
-    radius=(1.0, 1.5), slider_height=0.2, slider_radius=0.2, capacity=0.4,
-    friction=(CoulombFriction(0.04), VelocityFriction(0.05, 0.025, 20.0)), interface_friction=0.3,
-)  # fmt: skip
+    radius=(1.0, 1.5),
+    slider_height=0.2,
+    slider_radius=0.2,
+    capacity=0.4,
+    friction=(CoulombFriction(0.04), VelocityFriction(0.05, 0.025, 20.0)),
+    interface_friction=0.3,
+)
 
 
 def test_floor_and_cap_of_asce7() -> None:
     """lambda_ae 1.2, test 1.15, spec 1.15: 1.520875, governed by 1.8; 1.56, 1.30, 1.15: 2.1229."""
     mild = {"ageing": (0.9, 1.2), "test": (0.85, 1.15), "spec": (0.85, 1.15)}
-    floored = PropertyFactors.asce7(**mild)
+    floored = PropertyModificationFactors.asce7(**mild)
     assert (floored.lower, floored.upper) == (0.60, 1.8)
-    free = PropertyFactors.asce7(**mild, full_scale_tests=True)
+    free = PropertyModificationFactors.asce7(**mild, full_scale_tests=True)
     assert free.upper == pytest.approx(1.520875, rel=1e-12)
     assert free.lower == pytest.approx((1.0 - 0.75 * 0.1) * 0.85 * 0.85, rel=1e-12)
-    severe = PropertyFactors.asce7(ageing=(1.0, 1.56), test=(1.0, 1.30), spec=(1.0, 1.15))
+    severe = PropertyModificationFactors.asce7(
+        ageing=(1.0, 1.56), test=(1.0, 1.30), spec=(1.0, 1.15)
+    )
     assert severe.upper == pytest.approx(2.1229, abs=1e-10)
     # Ageing and contamination multiply before their share is taken.
-    both = PropertyFactors.asce7(ageing=(1.0, 1.3), contamination=(1.0, 1.2), test=(1.0, 1.3),
-                                 spec=(1.0, 1.15))  # fmt: skip
+    both = PropertyModificationFactors.asce7(
+        ageing=(1.0, 1.3), contamination=(1.0, 1.2), test=(1.0, 1.3), spec=(1.0, 1.15)
+    )
     assert both.upper == pytest.approx(2.1229, abs=1e-10)
 
 
 def test_the_calculation_of_factors_is_shown() -> None:
-    text = PropertyFactors.asce7(ageing=(1.0, 1.2)).trace.text()
+    text = PropertyModificationFactors.asce7(ageing=(1.0, 1.2)).trace.text()
     assert "λ_max = max((1 + a · (λ_ae_max - 1)) λ_test_max λ_spec_max, floor)" in text
     assert "= 1.8" in text
-    waived = PropertyFactors.asce7(full_scale_tests=True).trace
+    waived = PropertyModificationFactors.asce7(full_scale_tests=True).trace
     assert "waived" in waived.text()
     assert "floor" not in waived
 
 
 def test_combination_of_en1998() -> None:
     """Each source counts by psi_f = 0.70 in class II; friction only grows with age and dirt."""
-    factors = PropertyFactors.en1998(ageing=1.2, temperature=1.1, contamination=1.1, wear=1.0,
-                                     spec=(0.85, 1.15))  # fmt: skip
+    factors = PropertyModificationFactors.en1998(
+        ageing=1.2, temperature=1.1, contamination=1.1, wear=1.0, spec=(0.85, 1.15)
+    )
     by_hand = 1.15 * (1.0 + 0.7 * 0.2) * (1.0 + 0.7 * 0.1) * (1.0 + 0.7 * 0.1)
     assert factors.upper == pytest.approx(by_hand, rel=1e-12)
     assert factors.lower == 0.85
-    important = PropertyFactors.en1998(ageing=1.2, importance="III")
+    important = PropertyModificationFactors.en1998(ageing=1.2, importance="III")
     assert important.upper == pytest.approx(1.18, rel=1e-12)
-    assert PropertyFactors.en1998(ageing=1.2, psi=1.0).upper == pytest.approx(1.2, rel=1e-12)
+    assert PropertyModificationFactors.en1998(ageing=1.2, psi=1.0).upper == pytest.approx(
+        1.2, rel=1e-12
+    )
 
 
 def test_a_bearing_at_its_bounds() -> None:
-    bounds = PropertyBounds(PropertyFactors(0.6, 1.8), PropertyFactors(0.8, 1.25))
-    upper, lower = bounded(BEARING, "upper", bounds), bounded(BEARING, "lower", bounds)
+    bounds = PropertyBounds(
+        PropertyModificationFactors(0.6, 1.8), PropertyModificationFactors(0.8, 1.25)
+    )
+    upper, lower = (
+        with_property_bounds(BEARING, "upper", bounds),
+        with_property_bounds(BEARING, "lower", bounds),
+    )
     assert upper.frictions[0] == CoulombFriction(1.8 * 0.04)
     assert upper.frictions[1] == VelocityFriction(1.8 * 0.05, 1.8 * 0.025, 20.0)
     assert upper.interface_friction == pytest.approx(1.25 * 0.3)
     assert lower.effective_friction == pytest.approx(0.6 * BEARING.effective_friction)
     assert lower.interface_friction == pytest.approx(0.8 * 0.3)
-    assert bounded(BEARING, "nominal", bounds) == BEARING
-    apart = bounded(BEARING, "upper", bounds, interface="lower")
+    assert with_property_bounds(BEARING, "nominal", bounds) == BEARING
+    apart = with_property_bounds(BEARING, "upper", bounds, interface="lower")
     assert apart.interface_friction == lower.interface_friction
     # What is not friction stays.
     assert (upper.radii, upper.rim_displacement) == (BEARING.radii, BEARING.rim_displacement)
-    alone = PropertyBounds(PropertyFactors(0.6, 1.8))
-    assert bounded(BEARING, "upper", alone).interface_friction == pytest.approx(1.8 * 0.3)
-    assert bounded(BEARING.as_dcfp(), "upper", alone).is_dcfp
+    alone = PropertyBounds(PropertyModificationFactors(0.6, 1.8))
+    assert with_property_bounds(BEARING, "upper", alone).interface_friction == pytest.approx(
+        1.8 * 0.3
+    )
+    assert with_property_bounds(BEARING.as_dcfp(), "upper", alone).is_dcfp
 
 
 def test_all_bearings_of_a_frame_and_of_a_system() -> None:
-    bounds = PropertyBounds(PropertyFactors(0.6, 1.8))
+    bounds = PropertyBounds(PropertyModificationFactors(0.6, 1.8))
     plan = (2, 1), 6.0
     frame = shear_building(BEARING, [1e5], [1e7], base_mass=5e4, plan=plan)
-    upper = bounded(frame, "upper", bounds)
+    upper = with_property_bounds(frame, "upper", bounds)
     assert len(upper.bearings) == len(frame.bearings) == 6
     for name, link in upper.bearings.items():
-        assert link.bearing == bounded(frame.bearings[name].bearing, "upper", bounds)
+        assert link.bearing == with_property_bounds(frame.bearings[name].bearing, "upper", bounds)
     assert frame.bearings["bearing-0-0"].bearing == BEARING
     assert upper.name == f"{frame.name}, upper bound"
     pendulum = FrictionPendulum((0.9, 1.1), (0.04, 0.06))
-    system = IsolationSystem(bearings=(BEARING, pendulum), loads=(1e6, 2e6), plan=(8.0, 6.0),
-                             positions=((0.0, 0.0), (6.0, 0.0)))  # fmt: skip
-    assert bounded(system, "upper", bounds).strength == pytest.approx(1.8 * system.strength)
+    system = IsolationSystem(
+        bearings=(BEARING, pendulum),
+        loads=(1e6, 2e6),
+        plan=(8.0, 6.0),
+        positions=((0.0, 0.0), (6.0, 0.0)),
+    )
+    assert with_property_bounds(system, "upper", bounds).strength == pytest.approx(
+        1.8 * system.strength
+    )
 
 
 def test_what_are_no_factors_is_refused() -> None:
     with pytest.raises(CheckError, match="upper at least 1"):
-        PropertyFactors(0.6, 0.9)
+        PropertyModificationFactors(0.6, 0.9)
     with pytest.raises(CheckError, match="factors of test"):
-        PropertyFactors.asce7(test=(1.1, 1.2))
+        PropertyModificationFactors.asce7(test=(1.1, 1.2))
     with pytest.raises(CheckError, match="lower factor"):
-        PropertyFactors(0.0, 1.2)
+        PropertyModificationFactors(0.0, 1.2)
     with pytest.raises(CheckError, match="choose one of"):
-        bounded(BEARING, "higher", PropertyBounds(PropertyFactors(0.6, 1.8)))
+        with_property_bounds(
+            BEARING, "higher", PropertyBounds(PropertyModificationFactors(0.6, 1.8))
+        )
     with pytest.raises(TypeError, match="PropertyBounds"):
-        bounded(BEARING, "upper", PropertyFactors(0.6, 1.8))
+        with_property_bounds(BEARING, "upper", PropertyModificationFactors(0.6, 1.8))
     with pytest.raises(TypeError, match="an LIRBearing, a Frame"):
-        bounded(0.06, "upper", PropertyBounds(PropertyFactors(0.6, 1.8)))
+        with_property_bounds(0.06, "upper", PropertyBounds(PropertyModificationFactors(0.6, 1.8)))

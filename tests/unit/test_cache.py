@@ -17,9 +17,9 @@ from numba.core.dispatcher import Dispatcher
 
 import lir_element
 from frames.kernel_data import ENERGY_TERMS
-from lir_element import _cache
-from lir_element._jit import kernels_of
-from lir_element._sources import compiled_sources
+from lir_element._compile import cache
+from lir_element._compile.jit import kernels_of
+from lir_element._compile.sources import compiled_sources
 
 pytestmark = pytest.mark.skipif(
     not isinstance(importlib.import_module("lir_element.kernels.rotation").rotate, Dispatcher),
@@ -34,7 +34,7 @@ USE = "@kernel\ndef use(x):\n    return law(x) + 1.0\n"
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A package of two kernels in two files, one of which calls the other, and an empty cache."""
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(_cache, "_said", set())
+    monkeypatch.setattr(cache, "_said", set())
     folder = tmp_path / "package"
     (folder / "kernels").mkdir(parents=True)
     write(folder, 2.0)
@@ -48,7 +48,7 @@ def write(folder: Path, factor: float) -> None:
 
 def start(folder: Path) -> Any:
     """Return the kernel that calls the other, as a new process finds it."""
-    names: dict[str, Any] = {"kernel": kernels_of(_cache.Sources(folder)), "__name__": "package"}
+    names: dict[str, Any] = {"kernel": kernels_of(cache.Sources(folder)), "__name__": "package"}
     for file in ("law.py", "use.py"):
         path = folder / "kernels" / file
         exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)  # noqa: S102
@@ -84,7 +84,7 @@ def test_an_edit_of_what_a_kernel_calls_compiles_it_anew(package: Path) -> None:
 
 def test_an_edit_during_the_process_is_not_mixed_in(package: Path) -> None:
     assert start(package)(1.0) == 3.0
-    early = _cache.Sources(package)
+    early = cache.Sources(package)
     write(package, 4.0)
     names: dict[str, Any] = {"kernel": kernels_of(early), "__name__": "package"}
     for text in (LAW.format(factor=4.0), USE):  # imported after the edit
@@ -109,9 +109,9 @@ def test_fields_that_change_places_compile_a_kernel_anew(
     for fields, compiled in ORDERS:
         module = ModuleType("package")  # whose classes are in no source that is hashed
         monkeypatch.setitem(sys.modules, "package", module)
-        monkeypatch.setattr(_cache, "_parts", {})
+        monkeypatch.setattr(cache, "_parts", {})
         names = vars(module)
-        names |= {"kernel": kernels_of(_cache.Sources(package)), "NamedTuple": NamedTuple}
+        names |= {"kernel": kernels_of(cache.Sources(package)), "NamedTuple": NamedTuple}
         for text in (INNER, OUTER, BUNDLE.format(*fields), HELD):
             exec(text, names)  # noqa: S102
         bundle = names["Bundle"](**{"left": 1.0, "right": 4.0})
@@ -121,7 +121,7 @@ def test_fields_that_change_places_compile_a_kernel_anew(
 
 def test_fields_of_a_record_that_change_places_compile_a_kernel_anew(package: Path) -> None:
     for fields, compiled in ORDERS:
-        names: dict[str, Any] = {"kernel": kernels_of(_cache.Sources(package)), "__name__": "p"}
+        names: dict[str, Any] = {"kernel": kernels_of(cache.Sources(package)), "__name__": "p"}
         exec("@kernel\ndef of(r):\n    return r[0].right - r[0].left\n", names)  # noqa: S102
         records = np.zeros(1, dtype=[(name, np.float64) for name in fields])
         records["left"], records["right"] = 1.0, 4.0
@@ -190,7 +190,7 @@ def test_without_a_place_to_keep_them_kernels_compile_in_memory(
     trouble(cache, monkeypatch)
     for factor, expected in ((2.0, 3.0), (4.0, 5.0)):  # an edit is noticed here as well
         write(package, factor)
-        monkeypatch.setattr(_cache, "_said", set())
+        monkeypatch.setattr(cache, "_said", set())
         with pytest.warns(RuntimeWarning, match="LIR_CACHE_DIR") as told:
             assert start(package)(1.0) == expected
         assert len(told) == 1
@@ -273,7 +273,7 @@ def test_a_limit_on_files_ends_nothing(tmp_path: Path) -> None:
 
 PEAKS = """
 import numpy as np
-from frames.kernels.peaking import peak_energy
+from frames.kernels.peaks import peak_energy
 from frames.peak_data import Reached
 flat = {"storey", "shear", "line", "total", "last", "axis", "whole"}
 names = [name.removesuffix("_at") for name in Reached._fields]

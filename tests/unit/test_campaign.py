@@ -6,28 +6,24 @@ import numpy as np
 import pytest
 from scipy.stats import lognorm, uniform
 
-from frames import (
+from frames import Frame, GroundMotion, ModelError, Recording, lumped_mass, time_histories
+from frames._fingerprint import fingerprint
+from frames.risk import (
     Campaign,
     CampaignError,
     FragilityError,
-    Frame,
-    GroundMotion,
     Intensity,
     IntensityRuns,
-    ModelError,
     ParameterSample,
-    Recording,
     full_grid,
     latin_hypercube,
-    lumped_mass,
     open_campaign,
     sobol_sample,
-    time_histories,
 )
-from frames._fingerprint import fingerprint
-from frames.campaign.designs import with_parameters
-from frames.campaign.lock import locked
-from frames.campaign.plan import Plan, differences
+from frames.risk.campaign import plan_description
+from frames.risk.campaign.designs import with_parameters
+from frames.risk.campaign.lock import locked
+from frames.risk.campaign.plan import Plan, differences
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 
@@ -338,14 +334,13 @@ def test_a_store_of_other_sources_is_refused_or_taken_over(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from frames._provenance import numerical_sources
-    from frames.campaign import described
 
     first = small(tmp_path / "store")
     first.run()
     whole = first.digest()
     next((tmp_path / "store").rglob("000002.json")).unlink()
     other = numerical_sources() | {"lir_element/device/specification.py": "0" * 8}
-    monkeypatch.setattr(described, "numerical_sources", lambda: other)
+    monkeypatch.setattr(plan_description, "numerical_sources", lambda: other)
     with pytest.raises(CampaignError, match=r"other sources(.|\n)*specification.py.* is 00000000"):
         small(tmp_path / "store").run()
     data = small(tmp_path / "store").run(accept_other_sources=True)
@@ -418,4 +413,4 @@ def test_sources_that_numbers_depend_on_are_all_in_the_plan() -> None:
     known = numerical_sources().keys()
     assert len(kernels) > 10
     assert {k for k in kernels if "opensees" not in k} <= known
-    assert {"lir_element/device/specification.py", "frames/analysis/batch_run.py"} <= known
+    assert {"lir_element/device/specification.py", "frames/batch/batch_run.py"} <= known

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from frames import Campaign, CampaignError, GroundMotion, full_grid, lumped_mass
-from frames.analysis.cases import BatchProgress
+from frames import GroundMotion, lumped_mass
+from frames.batch.cases import BatchProgress
+from frames.risk import Campaign, CampaignError, full_grid
 from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 

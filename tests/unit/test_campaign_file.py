@@ -13,9 +13,10 @@ pytest.importorskip("typer")
 from scipy import stats
 from typer.testing import CliRunner
 
-from frames import ProjectError, open_campaign
-from frames.campaign.file import read_campaign
 from frames.command.app import app
+from frames.design import ProjectError
+from frames.risk import open_campaign
+from frames.risk.campaign.file import read_campaign
 
 FILE = """
 [campaign]

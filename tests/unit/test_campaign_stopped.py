@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from frames import Campaign, GroundMotion, full_grid, lumped_mass
-from frames.analysis.cases import BatchProgress
+from frames import GroundMotion, lumped_mass
+from frames.batch.cases import BatchProgress
+from frames.risk import Campaign, full_grid
 from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
@@ -20,7 +21,8 @@ DRIVER = """
 import json, os, random, signal, sys, time
 import numpy as np
 from pathlib import Path
-from frames import Campaign, GroundMotion, full_grid, lumped_mass, time_histories
+from frames import GroundMotion, lumped_mass, time_histories
+from frames.risk import Campaign, full_grid
 from lir_element import CoulombFriction, LIRBearing
 
 bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from frames import (
+from frames.design import (
     CheckError,
     DesignLimits,
     PropertyBounds,
-    PropertyFactors,
+    PropertyModificationFactors,
     capacity_checks,
     device_checks,
     engagement_checks,
@@ -99,7 +99,7 @@ def test_rim_force_at_the_first_slip_is_that_of_the_rig(
 def test_interface_that_the_check_refuses_slips_before_the_rim_on_the_rig() -> None:
     """Upper low friction and lower interface friction; 0.1 m are well inside the rims."""
     for upper, lower, holds in ((1.2, 0.9, True), (1.3, 0.7, False)):
-        factors = PropertyFactors(1.0, upper), PropertyFactors(lower, 1.0)
+        factors = PropertyModificationFactors(1.0, upper), PropertyModificationFactors(lower, 1.0)
         bounds = PropertyBounds(*factors)
         limits = DesignLimits(margin=1.0)
         check = device_checks(bearing(), (1e5, 2e5), slip=0.0, bounds=bounds, limits=limits)[0]
@@ -183,7 +183,9 @@ def test_friction_is_that_of_the_pressure() -> None:
     area = math.pi * 0.08**2
     law = PressureDependence(reference_pressure=20e6)
     loads = 5e6 * area, 40e6 * area
-    bounds = PropertyBounds(PropertyFactors(0.8, 1.3), interface=PropertyFactors(1.0, 1.0))
+    bounds = PropertyBounds(
+        PropertyModificationFactors(0.8, 1.3), interface=PropertyModificationFactors(1.0, 1.0)
+    )
     limits = DesignLimits(rim_strength=1e6, margin=1.0)
     checks = device_checks(
         bearing(0.05, 0.15, pressure_dependence=law), loads, slip=0.01, bounds=bounds, limits=limits

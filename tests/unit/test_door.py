@@ -9,7 +9,7 @@ import pytest
 
 from frames import GroundMotion, lumped_mass, peaks, summary, time_history
 from lir_element import CoulombFriction, Element, LIRBearing, cyclic_test
-from lir_element.door import (
+from lir_element.argument_checks import (
     as_number,
     require_between,
     require_choice,

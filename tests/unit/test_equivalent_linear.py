@@ -7,28 +7,26 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from frames import (
+from frames import Frame, MotionError, shear_building
+from frames.design import (
     ASCE7,
     EN1998,
     CheckError,
     EquivalentLinear,
-    Frame,
     FrictionPendulum,
     IsolationSystem,
-    MotionError,
     NCh2745,
     PropertyBounds,
-    PropertyFactors,
+    PropertyModificationFactors,
     Spectrum,
     Superstructure,
-    bounded,
     equivalent_linear,
-    shear_building,
+    with_property_bounds,
 )
 from lir_element import CoulombFriction, LIRBearing
 
 G = 9.81
-BOUNDS = PropertyBounds(PropertyFactors(0.7, 1.6))
+BOUNDS = PropertyBounds(PropertyModificationFactors(0.7, 1.6))
 # 3 x 2 bearings; the loads' centre is off the plan's.
 PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
 LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
@@ -354,7 +352,7 @@ def test_bounds_are_one_argument() -> None:
     found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
     assert list(found.bounds) == ["lower", "upper"]
     for name in ("lower", "upper"):
-        alone = nominal(bounded(SYSTEM, name, BOUNDS), Asce(0.9))["nominal"]
+        alone = nominal(with_property_bounds(SYSTEM, name, BOUNDS), Asce(0.9))["nominal"]
         assert found[name].displacement == alone.displacement
         assert {c.bound for c in found[name].checks} == {name}
     assert found.displacement == found["lower"].displacement > found["upper"].displacement
@@ -375,11 +373,15 @@ def test_rims_that_are_met_are_reported_at_each_bound() -> None:
 
 
 def test_interface_at_its_lower_bound_holds_the_surfaces_at_their_upper_one() -> None:
-    bounds = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.5, 2.0))
+    bounds = PropertyBounds(
+        PropertyModificationFactors(0.7, 1.6), PropertyModificationFactors(0.5, 2.0)
+    )
     mu = BEARING.effective_friction
     check = analysed(SYSTEM, Asce(0.9), bounds=bounds).general[0]
     assert check.ratio == pytest.approx(1.6 * mu / (0.5 * 0.25))
-    weak = PropertyBounds(PropertyFactors(0.7, 1.6), PropertyFactors(0.4, 2.0))
+    weak = PropertyBounds(
+        PropertyModificationFactors(0.7, 1.6), PropertyModificationFactors(0.4, 2.0)
+    )
     assert not analysed(SYSTEM, Asce(0.9), bounds=weak).general.passed
     solid = replace(SYSTEM, bearings=(BEARING.as_dcfp(),) * 6)
     assert len(analysed(solid, Asce(0.9), bounds=bounds).general) == 0

@@ -8,9 +8,9 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, Section
 from frames.assembly.assemble import assemble
-from frames.model.applied import applied_loads
+from frames.model.applied_loads import applied_loads
 from frames.model.panels import nearest_edges, one_way, turning
-from frames.model.plausible import doubts
+from frames.model.sanity_checks import doubts
 
 BEAM = Section(
     area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=200e9,

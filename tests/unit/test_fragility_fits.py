@@ -9,13 +9,7 @@ import pytest
 from scipy.special import expit, ndtr, ndtri
 from scipy.stats import linregress
 
-from frames import (
-    FragilityError,
-    fit_capacities,
-    fit_cloud,
-    fit_stripes,
-    lognormal_fragility,
-)
+from frames.risk import FragilityError, fit_capacities, fit_cloud, fit_stripes, lognormal_fragility
 
 LEVELS = np.array([0.3, 0.5, 0.7, 0.9, 1.2, 1.6])
 

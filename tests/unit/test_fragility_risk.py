@@ -7,7 +7,8 @@ import pytest
 from scipy.special import ndtr
 from scipy.stats import uniform
 
-from frames import (
+from frames.plots import risk_deaggregation, tornado_chart
+from frames.risk import (
     FragilityError,
     HazardCurve,
     RiskWarning,
@@ -20,7 +21,6 @@ from frames import (
     sobol_indices,
     tornado,
 )
-from frames.plots import risk_deaggregation, tornado_chart
 from lir_element.units import STANDARD_GRAVITY
 
 RECORDS = [f"record {k:02d}" for k in range(30)]

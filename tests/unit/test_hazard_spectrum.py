@@ -6,8 +6,9 @@ import pickle  # noqa: S403
 import numpy as np
 import pytest
 
-from frames import MotionError, Spectrum
-from frames.hazard.damping_factors import DAMPING_RULES, damping_factor
+from frames import MotionError
+from frames.design import Spectrum
+from frames.design.hazard.damping_factors import DAMPING_RULES, damping_factor
 from lir_element.units import STANDARD_GRAVITY as G
 
 ALL = [

@@ -13,7 +13,6 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import (
-    Features,
     GroundMotion,
     Recording,
     audit,
@@ -28,6 +27,7 @@ from frames import (
 from lir_element import (
     CoulombFriction,
     Element,
+    Features,
     FrictionHeating,
     LIRBearing,
     PressureDependence,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from frames import FragilityError, HuntFill
+from frames.risk import FragilityError, HuntFill
 
 
 def played(rules: HuntFill, capacity: float, failing: object = None) -> tuple[list, list]:

@@ -6,21 +6,20 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from frames import (
+from frames import GroundMotion, MotionError
+from frames.demo import bearing_for
+from frames.design import pair_spectrum
+from frames.plots import fragility_curves, ida_curves, stripes
+from frames.risk import (
     IDA,
     FragilityError,
-    GroundMotion,
     HuntFill,
     Intensity,
     IntensityRuns,
     LimitState,
-    MotionError,
     fragility_of,
-    pair_spectrum,
 )
-from frames.demo import bearing_for
-from frames.fragility.runs import outcome_of
-from frames.plots import fragility_curves, ida_curves, stripes
+from frames.risk.fragility.runs import outcome_of
 from lir_element import RunStatus
 from lir_element.units import STANDARD_GRAVITY
 

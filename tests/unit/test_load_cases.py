@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from frames import Frame, ModelError, Section, gravity, isolator_combinations, moment_frame
+from frames import Frame, ModelError, Section, gravity, moment_frame
 from frames.assembly.assemble import assemble
-from frames.model.plausible import doubts
+from frames.design import isolator_combinations
+from frames.model.sanity_checks import doubts
 from lir_element import CoulombFriction, LIRBearing
 
 SECTION = Section.box(0.3, 0.3, 0.02)

@@ -13,8 +13,8 @@ from numpy.testing import assert_allclose
 
 from frames._errors import ModelError
 from frames.frame import Frame
+from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import ModalDamping, RayleighDamping
-from frames.model.parts import bearing_axial_stiffness
 from frames.model.sections import Section
 
 if TYPE_CHECKING:

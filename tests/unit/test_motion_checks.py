@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from frames import (
+from frames import GroundMotion
+from frames.design import (
     CheckError,
     EquivalentLinear,
-    GroundMotion,
     IsolationSystem,
     MotionSet,
     NCh2745,
     PropertyBounds,
-    PropertyFactors,
+    PropertyModificationFactors,
     Spectrum,
     equivalent_linear,
     motion_checks,
@@ -24,7 +24,7 @@ from frames import (
 from lir_element import CoulombFriction, LIRBearing
 
 TARGET = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
-BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.2))
+BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
 
 
 @pytest.fixture(scope="module")

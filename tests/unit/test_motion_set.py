@@ -9,16 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from frames import (
-    GroundMotion,
-    MotionError,
-    MotionSet,
-    MotionWarning,
-    Spectrum,
-    motion_measures,
-    pair_spectrum,
-)
-from frames.hazard.pair_spectra import MEASURES
+from frames import GroundMotion, MotionError, MotionWarning
+from frames.design import MotionSet, Spectrum, motion_measures, pair_spectrum
+from frames.design.hazard.pair_spectra import MEASURES
 from lir_element.units import STANDARD_GRAVITY as G
 
 DT = 0.01

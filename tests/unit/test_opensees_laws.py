@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError, ModelWarning, Stop, modes
+from frames import Frame, ModelError, ModelWarning, modes
+from frames.laws import Gap
 from frames.opensees.model import read_model
 from frames.opensees.shares import energy_shares
 from frames.opensees.viscous import with_viscous_springs
@@ -150,7 +151,7 @@ def test_what_no_stiffness_stands_for_is_refused(ops, add, material, words):
     assert "ops.remove('element', 900)" in str(refused.value)
     ops.remove("element", 900)
     frame = take()
-    frame.add_link("link-900", "1", "12", Stop(gap=0.01, stiffness=1e8), "ux")
+    frame.add_link("link-900", "1", "12", Gap(gap=0.01, stiffness=1e8), "ux")
     assert "link-900" in frame.links
 
 

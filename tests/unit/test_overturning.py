@@ -11,16 +11,9 @@ import numpy.typing as npt
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import (
-    Frame,
-    IsolationSystem,
-    ModelError,
-    gravity,
-    lumped_mass,
-    moment_frame,
-    shear_building,
-)
-from frames.analysis.overturning import overturning_share, unknown_axial_forces
+from frames import Frame, ModelError, gravity, lumped_mass, moment_frame, shear_building
+from frames.design import IsolationSystem
+from frames.statics.overturning import overturning_share, unknown_axial_forces
 from lir_element import CoulombFriction, LIRBearing
 
 Array = npt.NDArray[np.float64]

@@ -11,8 +11,8 @@ import numba
 import pytest
 
 import lir_element
-from lir_element import _cache
-from lir_element._jit import WITH_PARTS, kernels_of
+from lir_element._compile import cache
+from lir_element._compile.jit import WITH_PARTS, kernels_of
 
 COMPILES = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
@@ -56,8 +56,8 @@ def kernels(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     path.write_text(SOURCE, encoding="utf-8")
 
     def start() -> dict[str, Any]:
-        monkeypatch.setattr(_cache, "_parts", {})
-        sources = _cache.Sources(folder.parent)
+        monkeypatch.setattr(cache, "_parts", {})
+        sources = cache.Sources(folder.parent)
         names: dict[str, Any] = {"kernel": kernels_of(sources), "__name__": "package"}
         exec(compile(SOURCE, str(path), "exec"), names)  # noqa: S102
         return names
@@ -91,16 +91,14 @@ def test_a_part_becomes_whole_when_python_calls_it(kernels: Any, tmp_path: Path)
 def test_a_later_process_takes_parts_from_the_cache(kernels: Any, tmp_path: Path) -> None:
     kernels()["other"](X)
     names = kernels()
-    taken = set(_cache.taken)
+    taken = set(cache.taken)
     assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
     assert [compiled(names[name]) for name in NAMES] == [0, 0, 1, 1]
-    assert _cache.taken == taken  # what a wheel packs is what Python calls
+    assert cache.taken == taken  # what a wheel packs is what Python calls
     names = kernels()
     assert names["last"](X) == pytest.approx(LAST, rel=1e-15)
     assert [compiled(names[name]) for name in NAMES] == [0, 0, 0, 0]
-    assert _cache.taken - taken == {
-        path for path in files(tmp_path, "last") if path in _cache.taken
-    }
+    assert cache.taken - taken == {path for path in files(tmp_path, "last") if path in cache.taken}
 
 
 @PARTS
@@ -121,8 +119,8 @@ def test_a_part_is_left_whose_callee_another_process_has_replaced(
 FALLBACK = """
 import numba
 numba.__version__ = "0.1.0"
-from lir_element import _jit
-assert not _jit.WITH_PARTS
+from lir_element._compile import jit
+assert not jit.WITH_PARTS
 from lir_element.kernels.rotation import turn_matrix
 import numpy as np
 q = np.empty((3, 3))
@@ -141,7 +139,7 @@ def run(code: str, cache: Path) -> list[str]:
 
 @COMPILES
 def test_with_a_numba_that_is_not_known_kernels_compile_the_ordinary_way(tmp_path: Path) -> None:
-    usual = FALLBACK.replace('"0.1.0"', "numba.__version__").replace("not _jit.WITH_PARTS", "True")
+    usual = FALLBACK.replace('"0.1.0"', "numba.__version__").replace("not jit.WITH_PARTS", "True")
     [bits, misses] = run(FALLBACK, tmp_path)
     assert misses == "1"
     assert run(FALLBACK, tmp_path) == [bits, "0"]
@@ -151,8 +149,9 @@ def test_with_a_numba_that_is_not_known_kernels_compile_the_ordinary_way(tmp_pat
 RIG = """
 import numba
 numba.__version__ = {version}
-from lir_element import CoulombFriction, LIRBearing, _jit, cyclic_test
-assert _jit.WITH_PARTS == {parts}
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element._compile import jit
+assert jit.WITH_PARTS == {parts}
 bearing = LIRBearing(radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
                      friction=CoulombFriction(0.05), interface_friction=0.12)
 data = cyclic_test(bearing, [0.05, -0.22], 1e5)
@@ -164,14 +163,14 @@ print(float(data["interface_slip_size"].max()))
 @PARTS
 @pytest.mark.slow
 def test_a_rig_gives_the_same_with_and_without_parts(tmp_path: Path) -> None:
-    kept = _cache.cache_folder()
+    kept = cache.cache_folder()
     usual = run(RIG.format(version="numba.__version__", parts=True), kept or tmp_path)
     assert float(usual[-1]) > 1e-3  # rims and interface are met on the way
     assert run(RIG.format(version='"0.67.0"', parts=False), tmp_path / "ordinary") == usual
 
 
 FIRST = """
-from frames.ahead import USUAL
+from frames.precompile import USUAL
 import warnings
 warnings.simplefilter("ignore")
 USUAL["time history"]()

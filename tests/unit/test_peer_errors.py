@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from frames import (
+from frames.design import (
     ASCE7,
     FrictionPendulum,
     IsolationSystem,

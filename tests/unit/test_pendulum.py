@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from frames import CheckError, FrictionPendulum
+from frames.design import CheckError, FrictionPendulum
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 
 KIP, INCH = 4448.2216152605, 0.0254

@@ -7,7 +7,7 @@ import pytest
 
 from frames._jit import kernel
 from lir_element import RunStatus
-from lir_element.pieces import in_pieces, ready
+from lir_element.interruptible import in_pieces, ready
 
 
 class Loop:

@@ -9,12 +9,13 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import minimize
 
-from frames import ModelError, PlasticHinge
+from frames import ModelError
 from frames.assembly.members import local_stiffness, member_arrays
 from frames.assembly.nonlinear import BASIC, _hinges
 from frames.kernels.hinges import hinged_member, place, surface
+from frames.laws import PlasticHinge
 from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
-from frames.parts_layout import HINGE, STATE_SIZE, STRIDE
+from frames.nonlinear_layout import HINGE, STATE_SIZE, STRIDE
 
 LENGTH = 3.5
 YIELD = 3.45e8  # Pa

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from frames import GroundMotion, MotionError, MotionSet, Spectrum, pair_spectrum
+from frames import GroundMotion, MotionError
+from frames.design import MotionSet, Spectrum, pair_spectrum
 from frames.plots import design_spectra, motion_spectra
 from lir_element.units import STANDARD_GRAVITY as G
 

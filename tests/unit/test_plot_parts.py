@@ -8,20 +8,16 @@ from matplotlib.colors import to_hex
 from numpy.testing import assert_allclose
 
 from frames import (
-    Bilinear,
     GroundMotion,
-    PlasticHinge,
     Recording,
     Section,
-    Stop,
-    Tie,
-    ViscousDamper,
     lumped_mass,
     moment_frame,
     plots,
     shear_building,
     time_history,
 )
+from frames.laws import Bilinear, Gap, PlasticHinge, Tie, ViscousDamper
 from frames.plots.part_marks import HINGES, KINDS, SHARE
 from frames.plots.plot_hinges import COLOURS
 from frames.plots.plot_summaries import ENERGY_GROUPS
@@ -46,7 +42,7 @@ def building():
         (1, 1), 1, bearing=bearing(), name="small",
         hinges={"column": PlasticHinge(moment_y=1.2e5, moment_z=1.2e5)},
     )  # fmt: skip
-    frame.add_moat("moat", ["base-0-0"], {"x+": Stop(gap=GAP, stiffness=1e8, damping=1e5)})
+    frame.add_moat("moat", ["base-0-0"], {"x+": Gap(gap=GAP, stiffness=1e8, damping=1e5)})
     brace = Bilinear(stiffness=2e7, yield_force=4e4, hardening=0.02)
     frame.add_link("brace", "base-0-0", "floor-1-1-0", brace)
     frame.add_link("rod", "base-0-1", "floor-1-1-1", Tie(stiffness=1e7, yield_force=2e4))

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from frames import (
+from frames.design import (
     ASCE7,
     EN1998,
     AcceptanceLimits,
@@ -15,20 +15,22 @@ from frames import (
     Checks,
     FrictionPendulum,
     IsolationSystem,
-    LoopTest,
     NCh2745,
     ProgrammeDemands,
     PropertyBounds,
-    PropertyFactors,
+    PropertyModificationFactors,
+    PrototypeTest,
     Spectrum,
     acceptance_checks,
     equivalent_linear,
     loop_properties,
-    programme_of_tests,
+    prototype_tests,
 )
 from lir_element import CoulombFriction, LIRBearing, PressureDependence, cyclic_test
 
-BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.25), PropertyFactors(0.9, 1.2))
+BOUNDS = PropertyBounds(
+    PropertyModificationFactors(0.8, 1.25), PropertyModificationFactors(0.9, 1.2)
+)
 LOADS = 300e3, 900e3
 L, MU, MU_H, U_CAP = 2.25, 0.06 * 2.37 / 2.25, 0.20, 0.25
 
@@ -54,7 +56,7 @@ def system(*bearings: LIRBearing | FrictionPendulum) -> IsolationSystem:
 def programme(code: Any, spectrum: Spectrum, **demands: Any) -> tuple[Any, pd.DataFrame]:
     own = system()
     found = equivalent_linear(own, spectrum, code=code, bounds=BOUNDS)
-    return found, programme_of_tests(found, own, ProgrammeDemands(**demands), bounds=BOUNDS)
+    return found, prototype_tests(found, own, ProgrammeDemands(**demands), bounds=BOUNDS)
 
 
 def asce7(**demands: Any) -> tuple[Any, pd.DataFrame]:
@@ -135,7 +137,7 @@ def test_the_interface_and_impacts_of_an_lir() -> None:
 def test_sliders_in_one_piece_have_no_interface_to_test() -> None:
     kinds = system(bearing().as_dcfp(), *(FrictionPendulum((L,), (0.06,)),) * 3)
     found = equivalent_linear(kinds, Spectrum.asce7(s_ms=0.9, s_m1=0.6), bounds=BOUNDS)
-    table = programme_of_tests(found, kinds)
+    table = prototype_tests(found, kinds)
     assert list(dict.fromkeys(table["bearings"])) == ["kind 1, 1 of 4", "kind 2, 3 of 4"]
     assert not table["clause"].str.contains("proposal").any()
     beyond = table[table["displacement [m]"] > U_CAP]
@@ -164,14 +166,14 @@ def test_type_tests_of_en15129_by_hand() -> None:
 
 def test_of_alike_displacements_the_faster_tests_are_made() -> None:
     """Beyond T_D, eta at its least, both bounds ask for one displacement: not round-off decides."""
-    own, bounds = system(), PropertyBounds(PropertyFactors(1.0, 1.25))
+    own, bounds = system(), PropertyBounds(PropertyModificationFactors(1.0, 1.25))
     for more in np.linspace(1.0, 1.01, 5):
         spectrum = Spectrum.en1998(3.6 * more, "B")
         found = equivalent_linear(own, spectrum, code=EN1998(), bounds=bounds)
         low, high = found["lower"], found["upper"]
         assert high.displacement == pytest.approx(low.displacement, rel=1e-12)
         assert high.period < 0.95 * low.period
-        tests = programme_of_tests(found, own, bounds=bounds).set_index("what")
+        tests = prototype_tests(found, own, bounds=bounds).set_index("what")
         assert tests["period [s]"]["D3, dynamic"] == pytest.approx(high.period, rel=1e-9)
 
 
@@ -202,7 +204,7 @@ def test_programmes_that_cannot_be_are_refused() -> None:
         combinations={"minimum": (-5e3, 1e5, 1e5, 1e5)},
     )  # fmt: skip
     with pytest.raises(CheckError, match=r"least axial load.*loads=\(least, largest\)"):
-        programme_of_tests(found, lifted)
+        prototype_tests(found, lifted)
     with pytest.raises(CheckError, match="least first"):
         ProgrammeDemands(loads=(2e5, 1e5))
     with pytest.raises(CheckError, match="impact_speed"):
@@ -222,14 +224,14 @@ def loop(
     fade: float = 0.0,
     noise: float = 0.0,
     start: float = 1.0,
-) -> LoopTest:
+) -> PrototypeTest:
     """Return N d / L + mu N sign(v), the friction falling by `fade` each cycle."""
     phase = 2.0 * math.pi * np.linspace(0.0, cycles, 800 * cycles + 1)
     moved = start * amplitude * np.sin(phase)
     now = friction * (1.0 - fade) ** np.floor(phase / (2.0 * math.pi))
     force = load * (moved / radius + now * np.sign(start * np.cos(phase)))
     random = np.random.default_rng(5)
-    return LoopTest(
+    return PrototypeTest(
         name=f"{1e3 * amplitude:g} mm", displacement=moved,
         force=force + noise * random.normal(size=len(force)), load=load,
     )  # fmt: skip
@@ -262,13 +264,13 @@ def test_noise_does_not_decide() -> None:
 def test_a_cycle_that_does_not_come_back_is_none() -> None:
     full = loop()
     cut = slice(0, 1700)  # two cycles and an eighth
-    part = LoopTest(
+    part = PrototypeTest(
         name="cut", displacement=full.displacement[cut], force=full.force[cut], load=500e3
     )
     assert len(part.cycles) == 2
 
 
-def judged(*tests: LoopTest, of: LIRBearing | None = None, **options: Any) -> Checks:
+def judged(*tests: PrototypeTest, of: LIRBearing | None = None, **options: Any) -> Checks:
     return acceptance_checks(tests, of or bearing(), "ASCE 7-22", bounds=BOUNDS, **options)
 
 
@@ -283,7 +285,7 @@ def test_the_loops_of_the_design_itself_pass() -> None:
         path = amplitude * np.sin(phase)
         data = cyclic_test(bearing(), path, axial_load=500e3, velocity=0.3)
         force = data["bearing_force"].sel(axis="x").isel(bearing=0)
-        tests.append(LoopTest(name=f"{amplitude}", displacement=path, force=force, load=500e3))
+        tests.append(PrototypeTest(name=f"{amplitude}", displacement=path, force=force, load=500e3))
     found = judged(*tests)
     assert found.passed
     within = [check for check in found if check.title == "friction by the energy"]
@@ -318,7 +320,7 @@ def test_nominal_friction_goes_by_pressure_and_corners() -> None:
         bearings=(own,), loads=(500e3,), positions=((0.0, 0.0),), plan=(5.0, 5.0)
     )
     found = equivalent_linear(system_of_one, Spectrum.asce7(s_ms=0.9, s_m1=0.4), bounds=BOUNDS)
-    table = programme_of_tests(found, system_of_one, bounds=BOUNDS).set_index("what")
+    table = prototype_tests(found, system_of_one, bounds=BOUNDS).set_index("what")
     row = table.loc["increments, average load, 0.25 D_M"]
     force = 500e3 * (row["displacement [m]"] / L + 1.25 * factor * MU)
     assert row["largest force [N]"] == pytest.approx(force)
@@ -350,7 +352,7 @@ def test_specimens_of_one_set_are_judged_together() -> None:
 
 def test_cycles_of_unlike_displacement_are_refused() -> None:
     one, two = loop(0.1), loop(0.2)
-    both = LoopTest(
+    both = PrototypeTest(
         name="steps", displacement=np.append(one.displacement, two.displacement),
         force=np.append(one.force, two.force), load=500e3,
     )  # fmt: skip
@@ -359,9 +361,9 @@ def test_cycles_of_unlike_displacement_are_refused() -> None:
         judged(both)
 
 
-def interface(friction: float) -> LoopTest:
+def interface(friction: float) -> PrototypeTest:
     phase = 2.0 * math.pi * np.linspace(0.0, 3.0, 2401)
-    return LoopTest(
+    return PrototypeTest(
         name="alone", displacement=0.05 * np.sin(phase), load=300e3, kind="interface",
         force=300e3 * friction * np.sign(np.cos(phase)),
     )  # fmt: skip
@@ -402,4 +404,4 @@ def test_loops_that_cannot_be_judged_are_refused(changed: dict[str, Any], messag
         "load": 1e5,
     }  # fmt: skip
     with pytest.raises(CheckError, match=message):
-        LoopTest(**given | changed)
+        PrototypeTest(**given | changed)

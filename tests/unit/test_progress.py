@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import lir_element
-from lir_element._progress import Progress
+from lir_element._compile.progress import Progress
 
 ROOT = Path(lir_element.__file__).parents[1]
 SAID = "lir-dcfp: compiling kernels for the first use, half a minute to two; they are kept in /c\n"
@@ -115,7 +115,7 @@ def test_without_a_standard_error(
 def test_the_compiler_is_followed(tmp_path: Path) -> None:
     """One line in the first process, none in the next, which takes the kernels from the cache."""
     code = (
-        "from lir_element import _progress; _progress.PATIENCE = 0.0; "
+        "from lir_element._compile import progress; progress.PATIENCE = 0.0; "
         "from lir_element.kernels.rotation import coefficients; coefficients(1.0)"
     )
     env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(tmp_path), "LIR_QUIET": "0",

@@ -16,16 +16,17 @@ import pandas as pd
 import xarray as xr
 from typer.testing import CliRunner
 
-from frames import AnalysisInterrupted, ProjectError, bounded, load, save, time_history
+from frames import AnalysisInterrupted, load, save, time_history
 from frames.command import app as command
 from frames.command.app import app
-from frames.project import design_run
-from frames.project.groundwork import groundwork
-from frames.project.parts import Parts
-from frames.project.quantities import si
-from frames.project.reading import read_project, schema
-from frames.project.speed import Way
-from frames.report import files
+from frames.design import ProjectError, with_property_bounds
+from frames.design.project import design_run
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import groundwork
+from frames.design.project.quantities import si
+from frames.design.project.reading import read_project, schema
+from frames.design.project.speed import Way
+from frames.design.report import files
 
 SMALL = """
 [project]
@@ -155,7 +156,7 @@ def test_messages_name_file_key_value_and_remedy(
 def test_a_section_that_cannot_be_is_named(
     tmp_path: Path, old: str, new: str, part: str, words: str
 ) -> None:
-    parts = Parts(read_project(changed(tmp_path, old, new)), tmp_path)
+    parts = ProjectInputs(read_project(changed(tmp_path, old, new)), tmp_path)
     with pytest.raises(ProjectError, match=words):
         getattr(parts, part)()
 
@@ -168,7 +169,7 @@ def test_the_schema_knows_all_sections() -> None:
 
 def test_the_example_is_a_project(folder: Path) -> None:
     file = read_project(folder / "project.toml")
-    ground = groundwork(Parts(file, folder))
+    ground = groundwork(ProjectInputs(file, folder))
     assert len(ground.frame.bearings) == 12
     assert ground.motions.scaling is not None
     assert ground.motions.scaling.least_ratio == pytest.approx(1.0)
@@ -184,7 +185,7 @@ def test_each_code_has_an_example(tmp_path: Path, code: str) -> None:
     assert run(app, ["new", str(folder), "--code", code]).exit_code == 0
     file = read_project(folder / "project.toml")
     assert file.project.code == file.spectrum.code == code
-    parts = Parts(file, folder)
+    parts = ProjectInputs(file, folder)
     periods = np.geomspace(0.1, 4.0, 30)
     wanted = np.asarray(parts.spectrum().acceleration(periods))
     for motion in parts.motions().values():
@@ -219,9 +220,9 @@ def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     assert (results / "checks.txt").read_text().count("standing: ") == len(checks)
     assert (results / "project.toml").read_text() == ASCE
     runs = load(results / "runs-upper.nc")
-    parts = Parts(read_project(folder / "small.toml"), folder)
+    parts = ProjectInputs(read_project(folder / "small.toml"), folder)
     motion = parts.motions()["artificial-3"].scaled(0.8)
-    single = time_history(bounded(parts.frame(), "upper", parts.bounds()), motion)
+    single = time_history(with_property_bounds(parts.frame(), "upper", parts.bounds()), motion)
     ours = float(runs["reached_displacement"].isel(run=1).max())
     size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
     assert ours == pytest.approx(size.max(), rel=1e-12)
@@ -242,9 +243,9 @@ def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
     assert done.stdout.startswith("6 time histories: 3 motions, bounds upper, levels design, max")
     runs = {level: load(out / f"runs-{level}-upper.nc") for level in ("design", "maximum")}
     assert [float(data["scale"][0]) for data in runs.values()] == [1.0, 1.2]
-    parts = Parts(read_project(file), folder)
+    parts = ProjectInputs(read_project(file), folder)
     motion = parts.motions()["artificial-1"].scaled(0.8 * 1.2)
-    single = time_history(bounded(parts.frame(), "upper", parts.bounds()), motion)
+    single = time_history(with_property_bounds(parts.frame(), "upper", parts.bounds()), motion)
     size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
     at_most = float(runs["maximum"]["reached_displacement"].isel(run=0).max())
     assert at_most == pytest.approx(size.max(), rel=1e-6)
@@ -455,7 +456,7 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
         assert "rim_strength = -3e+06 [N] must be at least 1" in " ".join(done.stderr.split())
     given = 'uplift_gap = "20 mm"\nrim_height = "30 mm"\nrims_together = true\nbase_shear = "9 MN"'
     path = changed(folder, 'rim_strength = "5 MN"', given)
-    limits = Parts(read_project(path), folder).limits()
+    limits = ProjectInputs(read_project(path), folder).limits()
     assert (limits.uplift_gap, limits.rim_height, limits.base_shear) == (0.02, 0.03, 9e6)
 
 
@@ -476,5 +477,5 @@ def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:
     said = 'uplift_allowed = true\nleast_gap = "0.2 mm"'
     for text, allowed, gap in (("", False, 1e-3), (f"[analysis]\n{said}\n", True, 2e-4)):
         (folder / "gap.toml").write_text(f"{SMALL}\n{text}")
-        rules = Parts(read_project(folder / "gap.toml"), folder).rules()
+        rules = ProjectInputs(read_project(folder / "gap.toml"), folder).rules()
         assert (rules.uplift_allowed, rules.least_gap) == (allowed, pytest.approx(gap))

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from frames import Recording
-from frames.analysis.recording import recording_of
-from frames.analysis.reduction import _regular
-from frames.results.reached import Extreme, extreme_of, later
+from frames.recording.recording import recording_of
+from frames.recording.reduction import _regular
+from frames.results.peak_response import Extreme, extreme_of, later
 
 
 def test_constructors_are_fields_put_together():

@@ -21,7 +21,7 @@ from typer.testing import CliRunner
 
 from frames import load, modes, moment_frame
 from frames.command.app import app
-from frames.report.numbers import mode_table
+from frames.design.report.numbers import mode_table
 from lir_element import LIRBearing
 from tests.patience import patience
 

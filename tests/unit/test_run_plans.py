@@ -7,7 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from frames import (
+from frames import save, write_tables
+from frames.plots import fragility_curves
+from frames.risk import (
     IDA,
     FragilityError,
     HazardCurve,
@@ -21,11 +23,8 @@ from frames import (
     load_fragility,
     lognormal_fragility,
     mean_annual_frequency,
-    save,
     save_fragility,
-    write_tables,
 )
-from frames.plots import fragility_curves
 
 MEDIAN, DISPERSION = 2.0, 0.30
 LIMIT = LimitState("demand 1", "demand", 1.0)

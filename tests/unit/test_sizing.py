@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 from scipy.optimize import brentq
 
-from frames import (
+from frames import gravity, shear_building
+from frames.design import (
     ASCE7,
     EN1998,
     CheckError,
@@ -16,21 +17,21 @@ from frames import (
     DesignTarget,
     IsolationSystem,
     PropertyBounds,
-    PropertyFactors,
+    PropertyModificationFactors,
     Spectrum,
     design,
     device_checks,
     equivalent_linear,
-    gravity,
-    shear_building,
 )
-from frames.sizing.candidate import rounded_up
-from frames.sizing.proposal import grouped
+from frames.design.sizing.candidate import rounded_up
+from frames.design.sizing.proposal import grouped
 from lir_element import CoulombFriction, DesignWarning, LIRBearing
 
 G = 9.80665
 S_M1 = 0.8
-BOUNDS = PropertyBounds(PropertyFactors(0.8, 1.4), PropertyFactors(0.9, 1.1))
+BOUNDS = PropertyBounds(
+    PropertyModificationFactors(0.8, 1.4), PropertyModificationFactors(0.9, 1.1)
+)
 PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
 LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
 ANY = LIRBearing(

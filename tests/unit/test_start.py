@@ -12,7 +12,8 @@ import pytest
 from numba.core import event
 
 from frames import GroundMotion, ahead, lumped_mass, moment_frame, time_history
-from lir_element import LIRBearing, VelocityFriction, _shipped
+from lir_element import LIRBearing, VelocityFriction
+from lir_element._compile import shipped
 
 COMPILES = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
@@ -20,10 +21,10 @@ COMPILES = pytest.mark.skipif(
 KERNEL = """
 import math
 from pathlib import Path
-from lir_element import _cache
-from lir_element._jit import kernels_of
+from lir_element._compile import cache
+from lir_element._compile.jit import kernels_of
 
-@kernels_of(_cache.Sources(Path(__file__).parents[1]))
+@kernels_of(cache.Sources(Path(__file__).parents[1]))
 def law(x):
     return math.exp(x) * (2.0 * x + 1.0 / 3.0)
 """
@@ -45,7 +46,7 @@ def test_imports_leave_out_what_most_runs_do_without() -> None:
 
 
 @COMPILES
-@pytest.mark.skipif(_shipped.baseline(platform.machine()) is None, reason="none are shipped")
+@pytest.mark.skipif(shipped.baseline(platform.machine()) is None, reason="none are shipped")
 def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -55,44 +56,44 @@ def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(
     environment = {
         **os.environ,
         "LIR_CACHE_DIR": str(wheel),
-        "NUMBA_CPU_NAME": str(_shipped.baseline(platform.machine())),
+        "NUMBA_CPU_NAME": str(shipped.baseline(platform.machine())),
         "NUMBA_CPU_FEATURES": "",
         "PYTHONPATH": os.pathsep.join([str(package / "kernels"), *sys.path]),
     }
-    shipped = subprocess.run(  # noqa: S603
+    kept = subprocess.run(  # noqa: S603
         [sys.executable, "-c", COMPILE], env=environment, capture_output=True, text=True, check=True
     ).stdout.strip()
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.syspath_prepend(str(package / "kernels"))
     native = law_of()
-    assert native(0.7).hex() == shipped
+    assert native(0.7).hex() == kept
     assert sum(native.stats.cache_misses.values()) == 1
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "empty"))
-    monkeypatch.setattr(_shipped, "FOLDER", wheel)
+    monkeypatch.setattr(shipped, "FOLDER", wheel)
     taken = law_of()
-    assert taken(0.7).hex() == shipped
+    assert taken(0.7).hex() == kept
     assert sum(taken.stats.cache_misses.values()) == 0
     (package / "kernels" / "law_of_a_wheel.py").write_text(KERNEL + "# edited\n", encoding="utf-8")
     edited = law_of()
-    assert edited(0.7).hex() == shipped
+    assert edited(0.7).hex() == kept
     assert sum(edited.stats.cache_misses.values()) == 1
 
 
 def test_kernels_of_the_wheel_are_left_where_the_processor_lacks_what_they_use(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_shipped, "FOLDER", tmp_path)
+    monkeypatch.setattr(shipped, "FOLDER", tmp_path)
     triple = "x86_64-unknown-linux-gnu"
-    name, needs = _shipped._BASELINES["x86_64"]
+    name, needs = shipped._BASELINES["x86_64"]
     has = ",".join(f"+{need}" for need in needs.split(","))
-    assert _shipped.shipped_for((triple, "znver3", has + ",-avx512f")) == (triple, name, "")
-    assert _shipped.shipped_for((triple, "ivybridge", has.replace("+avx2", "-avx2"))) is None
-    assert _shipped.shipped_for(("arm64-apple-darwin", "apple-m1", "+neon")) is not None
-    assert _shipped.shipped_for(("riscv64-unknown-linux-gnu", "generic", "")) is None
-    assert _shipped.baseline("AMD64") == name
-    assert _shipped.baseline("riscv64") is None
-    monkeypatch.setattr(_shipped, "FOLDER", tmp_path / "none")
-    assert _shipped.shipped_for((triple, "znver3", has)) is None
+    assert shipped.shipped_for((triple, "znver3", has + ",-avx512f")) == (triple, name, "")
+    assert shipped.shipped_for((triple, "ivybridge", has.replace("+avx2", "-avx2"))) is None
+    assert shipped.shipped_for(("arm64-apple-darwin", "apple-m1", "+neon")) is not None
+    assert shipped.shipped_for(("riscv64-unknown-linux-gnu", "generic", "")) is None
+    assert shipped.baseline("AMD64") == name
+    assert shipped.baseline("riscv64") is None
+    monkeypatch.setattr(shipped, "FOLDER", tmp_path / "none")
+    assert shipped.shipped_for((triple, "znver3", has)) is None
 
 
 @COMPILES

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from frames import MotionError, MotionSet, NearFaultPulse, synthetic_near_fault
-from frames.hazard.near_fault_pulse import pulse_period
-from frames.hazard.stochastic_motion import PointSource, envelope, stochastic_acceleration
-from frames.hazard.synthetic_motions import PulseScatter, with_pulse
+from frames import MotionError
+from frames.design import MotionSet, NearFaultPulse, synthetic_near_fault
+from frames.design.hazard.near_fault_pulse import pulse_period
+from frames.design.hazard.stochastic_motion import PointSource, envelope, stochastic_acceleration
+from frames.design.hazard.synthetic_motions import PulseScatter, with_pulse
 from frames.motion.baseline import integrated
 from frames.motion.spectra import response_spectrum
 

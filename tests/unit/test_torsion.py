@@ -8,20 +8,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import (
+from frames import Frame, shear_building
+from frames.design import (
     ASCE7,
     EN1998,
     DesignTarget,
     EquivalentLinear,
-    Frame,
     IsolationSystem,
     NCh2745,
     Spectrum,
     Superstructure,
     design,
     equivalent_linear,
-    programme_of_tests,
-    shear_building,
+    prototype_tests,
 )
 from lir_element import CoulombFriction, LIRBearing
 
@@ -141,7 +140,7 @@ def test_axial_loads_are_judged_where_the_model_tells_them(options: dict[str, bo
     result = analysed(frame, ASCE, code, storeys=True)
     checks = [c for c in result.checks if "uplift" in c.title or "pressure" in c.title]
     assert checks
-    programme = programme_of_tests(result, IsolationSystem.from_frame(frame, s_ms=1.2))
+    programme = prototype_tests(result, IsolationSystem.from_frame(frame, s_ms=1.2))
     of_loads = programme["what"].str.contains("largest load|least load")
     assert of_loads.any()
     assert programme["vertical load [N]"][~of_loads].notna().all()

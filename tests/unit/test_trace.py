@@ -5,8 +5,8 @@ from xml.dom.minidom import parseString  # noqa: S408
 
 import pytest
 
-from frames import Check, CheckError, Checks, Trace
-from frames.checks.rendering import number, quantity
+from frames.design import Check, CheckError, Checks, Trace
+from frames.design.calculation.rendering import number, quantity
 
 
 def test_a_formula_is_shown_as_it_is_computed() -> None:

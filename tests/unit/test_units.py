@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from frames import Frame, GroundMotion, ModelError, MotionError, Section
-from frames.model.plausible import doubts
+from frames.model.sanity_checks import doubts
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
 
 PAPER: dict[str, Any] = {

@@ -10,10 +10,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from frames import Bilinear, BoucWen, HertzStop, ModelError, Pinching, Stop, Tie, ViscousDamper
+from frames import ModelError
 from frames.assembly.nonlinear import _law
 from frames.kernels.laws import uniaxial
-from frames.parts_layout import STATE_SIZE
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, Tie, ViscousDamper
+from frames.nonlinear_layout import STATE_SIZE
 
 LAWS = {
     "bilinear": Bilinear(stiffness=2e6, yield_force=1e4, hardening=0.05),
@@ -30,8 +31,8 @@ LAWS = {
     "linear damper": ViscousDamper(coefficient=3e4),
     "damper": ViscousDamper(coefficient=3e4, exponent=0.3),
     "maxwell": ViscousDamper(coefficient=3e4, exponent=0.4, stiffness=5e6),
-    "stop": Stop(gap=0.01, stiffness=5e6, damping=2e4),
-    "hertz": HertzStop(gap=0.01, stiffness=5e7, restitution=0.6),
+    "stop": Gap(gap=0.01, stiffness=5e6, damping=2e4),
+    "hertz": HertzGap(gap=0.01, stiffness=5e7, restitution=0.6),
 }
 AMPLITUDE, DT = 0.03, 0.002
 
@@ -251,15 +252,15 @@ def bounce(law, mass, speed, dt=1e-5):
 @pytest.mark.parametrize("restitution", [0.4, 0.6, 0.9])
 def test_walls_give_back_the_speed_that_was_asked_for(restitution):
     mass, k = 1e5, 2e8
-    damping = Stop.damping_for(restitution, k, mass)
-    left = bounce(Stop(gap=0.01, stiffness=k, damping=damping), mass, 0.5) / 0.5
+    damping = Gap.damping_for(restitution, k, mass)
+    left = bounce(Gap(gap=0.01, stiffness=k, damping=damping), mass, 0.5) / 0.5
     assert left == pytest.approx(restitution, abs=3e-3)
     for n in (1.0, 1.5, 2.0):
-        law = HertzStop(gap=0.01, stiffness=1e9, restitution=restitution, exponent=n)
+        law = HertzGap(gap=0.01, stiffness=1e9, restitution=restitution, exponent=n)
         assert bounce(law, mass, 0.5) / 0.5 == pytest.approx(restitution, abs=1e-3)
-    near = HertzStop(gap=0.0, stiffness=1.0, restitution=0.99).damping
+    near = HertzGap(gap=0.0, stiffness=1.0, restitution=0.99).damping
     assert near == pytest.approx(0.75 * (1.0 - 0.99**2), rel=0.02)
-    assert bounce(Stop(gap=0.01, stiffness=k), mass, 0.5) == pytest.approx(0.5, rel=1e-4)
+    assert bounce(Gap(gap=0.01, stiffness=k), mass, 0.5) == pytest.approx(0.5, rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -276,9 +277,9 @@ def test_walls_give_back_the_speed_that_was_asked_for(restitution):
         (lambda: Tie(stiffness=1.0, slack=-0.1), "Tie: slack"),
         (lambda: ViscousDamper(coefficient=1.0, exponent=3.0), "ViscousDamper: exponent"),
         (lambda: ViscousDamper(coefficient=math.nan), "ViscousDamper: coefficient"),
-        (lambda: Stop(gap=-1.0, stiffness=1.0), "Stop: gap"),
-        (lambda: Stop.damping_for(0.0, 1.0, 1.0), "Stop.damping_for: restitution"),
-        (lambda: HertzStop(gap=0.1, stiffness=1.0, restitution=0.0), "HertzStop: restitution"),
+        (lambda: Gap(gap=-1.0, stiffness=1.0), "Gap: gap"),
+        (lambda: Gap.damping_for(0.0, 1.0, 1.0), "Gap.damping_for: restitution"),
+        (lambda: HertzGap(gap=0.1, stiffness=1.0, restitution=0.0), "HertzGap: restitution"),
     ],
 )
 def test_numbers_out_of_bounds_are_refused(make, message):

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames import (
-    Features,
     Frame,
     GroundMotion,
     RayleighDamping,
@@ -24,7 +23,7 @@ from frames import (
     time_history,
 )
 from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction, Features, LIRBearing
 from lir_element.opensees import builtin_element
 from validation.cases import example_bearing
 from validation.claims.opensees_causes import F_MAX, LARGE, SLIP, STEP, VERTICAL, Gap, Rung

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
-from frames import Features, GroundMotion, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from frames import GroundMotion, lumped_mass, time_history
+from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import builtin_element
 from validation.cases import EXAMPLE_MASS, example_bearing

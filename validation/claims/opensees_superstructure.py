@@ -16,7 +16,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from frames import (
-    Features,
     Frame,
     ModelWarning,
     Section,
@@ -26,7 +25,7 @@ from frames import (
     moment_frame,
     time_history,
 )
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction, Features, LIRBearing
 from validation.opensees.frames import Built, add_loads, build
 from validation.opensees.isolators import (
     Isolator,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames import Bilinear, BoucWen, HertzStop, Pinching, Stop, Tie, ViscousDamper
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, Tie, ViscousDamper
 from lir_element.units import STANDARD_GRAVITY
 from validation.claims import opensees_yielding_section as section
 from validation.claims.opensees_yielding_figures import draw_column, draw_loops
@@ -89,8 +89,8 @@ LINEAR = ViscousDamper(coefficient=3e5)
 CURVED = ViscousDamper(coefficient=2e5, exponent=0.4)
 BRACED = ViscousDamper(coefficient=2e5, exponent=0.4, stiffness=5e7)
 TIE = Tie(stiffness=1e7, yield_force=2e5, hardening=0.02, slack=0.02)
-WALL = Stop(gap=0.15, stiffness=2e7)
-POUNDING = HertzStop(gap=0.15, stiffness=8e7, restitution=0.6)
+WALL = Gap(gap=0.15, stiffness=2e7)
+POUNDING = HertzGap(gap=0.15, stiffness=8e7, restitution=0.6)
 CASES = (
     Case("storeys, Bilinear", "Steel01", lambda: stick(3, _bilinear, 0.17), WEAK, 1e-3, 6.0),
     Case("storeys, BoucWen", "BoucWen", lambda: stick(2, _smooth), WEAK, 1e-3, 6.0),
@@ -207,7 +207,7 @@ def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> li
         f"{1e-3 * YIELD:g} kN, {100.0 * YIELD / (3.0 * MASS * STANDARD_GRAVITY):.0f} % of the "
         "weight, or a linear one with links at its base and in its first storey. The laws are the "
         "same in both programs. `ViscoelasticGap` pulls at the end of a damped contact and a "
-        "`Stop` never does: the elastic one is compared here. The energy of links that yield is "
+        "`Gap` never does: the elastic one is compared here. The energy of links that yield is "
         "without what is elastic at the end.",
         "## Hinges",
         "A steel moment frame of one bay and two storeys, hinges in the beams of its floors "

@@ -8,17 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import (
-    Bilinear,
-    BoucWen,
-    GroundMotion,
-    HertzStop,
-    PlasticHinge,
-    Stop,
-    moment_frame,
-    shear_building,
-    time_history,
-)
+from frames import GroundMotion, moment_frame, shear_building, time_history
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, PlasticHinge
 from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element
@@ -149,7 +140,7 @@ def stick(
 def equipped(law: Law) -> Frame:
     """Return a linear stick with links of a law: at the base in x and y, in its first storey."""
     frame = stick(2)
-    if isinstance(law, Stop | HertzStop):
+    if isinstance(law, Gap | HertzGap):
         frame.add_moat("moat", ["base"], law)
         return frame
     frame.add_link("base-x", "ground", "base", law, "ux")
@@ -235,9 +226,7 @@ class _Parts:
 def _links(ops: Any, frame: Frame, built: Built, names: list[str]) -> tuple[Any, Any]:
     # Gaps of OpenSees face the other way.
     tags = [built.links[name] for name in names]
-    signs = [
-        -1.0 if isinstance(link.law, Stop | HertzStop) else 1.0 for link in frame.links.values()
-    ]
+    signs = [-1.0 if isinstance(link.law, Gap | HertzGap) else 1.0 for link in frame.links.values()]
     return tuple(
         [sign * ops.eleResponse(tag, what)[0] for tag, sign in zip(tags, signs, strict=True)]
         for what in ("deformation", "basicForce")

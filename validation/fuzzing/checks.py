@@ -10,8 +10,8 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames import energy_error
-from frames.analysis.springs import guessed_springs, spring_forces
 from frames.assembly.assemble import assemble
+from frames.statics.springs import guessed_springs, spring_forces
 from lir_element import RunStatus
 from validation.fuzzing.ends import FAILED_BEARINGS, INACCURATE
 

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import (
+from frames import ModalDamping, moment_frame, shear_building
+from frames.laws import (
     Bilinear,
     BoucWen,
-    HertzStop,
-    ModalDamping,
+    Gap,
+    HertzGap,
     Pinching,
     PlasticHinge,
-    Stop,
     Tie,
     ViscousDamper,
-    moment_frame,
-    shear_building,
 )
 from lir_element import CoulombFriction, LIRBearing
 from validation.fuzzing.bearings import log_uniform
@@ -173,10 +171,10 @@ def _walls(rng: np.random.Generator, frame: Frame) -> str:
     stiffness = weight / len(nodes) * log_uniform(rng, 20.0, 2000.0)
     if rng.random() < 0.5:
         mass = weight / GRAVITY / len(nodes)
-        damping = Stop.damping_for(rng.uniform(0.4, 1.0), stiffness, mass)
-        frame.add_moat("moat", nodes, Stop(gap=gap, stiffness=stiffness, damping=damping))
+        damping = Gap.damping_for(rng.uniform(0.4, 1.0), stiffness, mass)
+        frame.add_moat("moat", nodes, Gap(gap=gap, stiffness=stiffness, damping=damping))
     else:
-        law = HertzStop(gap=gap, stiffness=5.0 * stiffness, restitution=rng.uniform(0.4, 1.0))
+        law = HertzGap(gap=gap, stiffness=5.0 * stiffness, restitution=rng.uniform(0.4, 1.0))
         frame.add_moat("moat", nodes, law)
     return f"walls at {gap:.2f} m"
 

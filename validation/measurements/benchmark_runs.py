@@ -105,6 +105,8 @@ class Setting:
         )
 
 
+_TIMED = ("frames.statics.", "frames.solve.", "frames.batch.")
+
 USUAL = Setting()
 """What manuals and examples show."""
 
@@ -114,7 +116,7 @@ def cpu_clock() -> Generator[None, None, None]:
     """Have analyses here tell CPU time of the process for the time by the clock."""
     with ExitStack() as stack:
         for name, module in list(sys.modules.items()):
-            if name.startswith("frames.analysis.") and hasattr(module, "perf_counter"):
+            if name.startswith(_TIMED) and hasattr(module, "perf_counter"):
                 stack.enter_context(mock.patch.object(module, "perf_counter", process_time))
         yield
 

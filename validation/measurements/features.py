@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames import Features, GroundMotion, audit, gravity, lumped_mass, moment_frame, time_history
-from frames.analysis.automatic import settle
+from frames import GroundMotion, audit, gravity, lumped_mass, moment_frame, time_history
 from frames.demo import design, pacoima
-from frames.results.auditing import is_missing
-from lir_element import AnalysisWarning
+from frames.results.assumption_checks import is_missing
+from frames.solve.level_escalation import settle
+from lir_element import AnalysisWarning, Features
 from validation.cases import example_bearing
 
 if TYPE_CHECKING:

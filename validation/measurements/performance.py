@@ -21,17 +21,9 @@ from typing import Any
 import numba
 import numpy as np
 
-from frames import (
-    Bilinear,
-    GroundMotion,
-    PlasticHinge,
-    gravity,
-    lumped_mass,
-    moment_frame,
-    shear_building,
-    time_history,
-)
+from frames import GroundMotion, gravity, lumped_mass, moment_frame, shear_building, time_history
 from frames._jit import kernel
+from frames.laws import Bilinear, PlasticHinge
 from lir_element import LIRBearing
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY

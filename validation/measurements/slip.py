@@ -19,7 +19,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from frames import audit
-from frames.results.auditing import needed_level
+from frames.results.assumption_checks import needed_level
 from validation import held_slip
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.rim_scenes import meeting, random_rim_scene

@@ -22,8 +22,9 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
-from frames import ModelWarning, open_campaign, time_histories
-from frames.hazard.fema_records import RECORD_SETS
+from frames import ModelWarning, time_histories
+from frames.design.hazard.fema_records import RECORD_SETS
+from frames.risk import open_campaign
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark import processor
 from validation.measurements.study_figures import figures
@@ -44,7 +45,8 @@ from validation.page import DPI, FOLDER
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping, Sequence
 
-    from frames import Campaign, GroundMotion
+    from frames import GroundMotion
+    from frames.risk import Campaign
 
     Sets = Mapping[str, Mapping[str, GroundMotion]]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.demo import bearing_for
-from frames.hazard.fema_records import RECORD_SETS
+from frames.design.hazard.fema_records import RECORD_SETS
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.study_figures import CURVES, FLOOR, MEDIANS, SHOWN
 from validation.measurements.study_runs import (

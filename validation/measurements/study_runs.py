@@ -13,22 +13,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import (
+from frames import MotionWarning
+from frames.demo import bearing_for
+from frames.design import MotionSet
+from frames.design.hazard.damping_factors import damping_factor
+from frames.design.hazard.fema_records import RECORD_SETS
+from frames.risk import (
     Campaign,
     FragilityError,
     Intensity,
     IntensityRuns,
     LimitState,
-    MotionSet,
-    MotionWarning,
     collapse_margin_ratio,
     compare_fragility,
     fragility_of,
 )
-from frames.demo import bearing_for
-from frames.fragility.resampling import RESAMPLES
-from frames.hazard.damping_factors import damping_factor
-from frames.hazard.fema_records import RECORD_SETS
+from frames.risk.fragility.resampling import RESAMPLES
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import (
     LIR,
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames import Frame, GroundMotion
-    from frames.fragility.curve import CollapseFragility, Fragility
+    from frames.risk.fragility.curve import CollapseFragility, Fragility
 
     Curves = dict[str, Fragility | CollapseFragility | str]
 

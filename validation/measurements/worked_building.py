@@ -24,22 +24,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.optimize import brentq
 
-from frames import (
-    bounded,
-    bounded_histories,
-    gravity,
-    history_demands,
-    pair_spectrum,
-    time_history,
-)
-from frames.analysis.modes import modes
-from frames.analysis.recording import Recording
-from frames.checks.demand_table import COUNTED, bounds_of
-from frames.project.design_run import Histories, judged_run, run_project
-from frames.project.groundwork import groundwork
-from frames.project.parts import Parts
-from frames.project.reading import read_project
-from frames.report.files import write_run
+from frames import gravity, time_history
+from frames.design import bounded_histories, history_demands, pair_spectrum, with_property_bounds
+from frames.design.histories.demand_table import COUNTED, bounds_of
+from frames.design.project.design_run import Histories, judged_run, run_project
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import groundwork
+from frames.design.project.reading import read_project
+from frames.design.report.files import write_run
+from frames.recording.recording import Recording
+from frames.statics.modes import modes
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.benchmark import machine
 from validation.measurements.worked_building_page import figures, page
@@ -48,10 +42,11 @@ from validation.page import DPI, FOLDER
 if TYPE_CHECKING:
     import pandas as pd
 
-    from frames import Frame, MotionSet
-    from frames.checks.bounds import BoundName
-    from frames.checks.outcome import BoundResult
-    from frames.project.groundwork import Groundwork
+    from frames import Frame
+    from frames.design import MotionSet
+    from frames.design.codes.bounds import BoundName
+    from frames.design.codes.outcome import BoundResult
+    from frames.design.project.preliminary import Groundwork
 
 NAME = "worked_building"
 GUIDE = FOLDER.parent / "design_guide.md"
@@ -154,15 +149,17 @@ def demands_by_bound(table: pd.DataFrame) -> dict[str, dict[str, float]]:
     return found | {"envelope": {row: float(table["envelope"][row]) for row in rows} | worst}
 
 
-def lenient_parts(source: Path, folder: Path) -> Parts:
+def lenient_parts(source: Path, folder: Path) -> ProjectInputs:
     """Return a project whose runs count where a bearing lifts off."""
     text = source.read_text(encoding="utf-8") + "[analysis]\nuplift_allowed = true\n"
     other = folder / "uplift.toml"
     other.write_text(text, encoding="utf-8")
-    return Parts(read_project(other), folder)
+    return ProjectInputs(read_project(other), folder)
 
 
-def device_numbers(parts: Parts, known: Groundwork, *, rims: bool) -> dict[str, dict[str, float]]:
+def device_numbers(
+    parts: ProjectInputs, known: Groundwork, *, rims: bool
+) -> dict[str, dict[str, float]]:
     """Return what the histories of a project ask of sliders in one piece, by bound."""
     plain = {n: link.bearing.as_dcfp(rims=rims) for n, link in known.frame.bearings.items()}
     runs = bounded_histories(
@@ -180,7 +177,7 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
     """Run the building under a code; times of its parts in seconds."""
     source = folder / "project.toml"
     source.write_text(project_text(code), encoding="utf-8")
-    parts = Parts(read_project(source), folder)
+    parts = ProjectInputs(read_project(source), folder)
     seconds, began = {}, time.perf_counter()
 
     def lap(name: str) -> None:
@@ -229,9 +226,9 @@ def at_levels(name: str, bound: BoundName) -> dict[str, dict[str, float]]:
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "project.toml"
         source.write_text(project_text(), encoding="utf-8")
-        parts = Parts(read_project(source), Path(folder))
+        parts = ProjectInputs(read_project(source), Path(folder))
         known = groundwork(parts)
-    frame, found = bounded(known.frame, bound, parts.bounds()), {}
+    frame, found = with_property_bounds(known.frame, bound, parts.bounds()), {}
     for level in ("pendulum", "contact"):
         began = time.perf_counter()
         data = time_history(frame, known.motions[name], level=level)

@@ -6,7 +6,7 @@ import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from frames.checks.demand_table import COUNTED
+from frames.design.histories.demand_table import COUNTED
 from frames.plots.plot_style import PALETTE, SMALL, caption, grid_of, new_figure
 from validation.page import table
 

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import Bilinear, BoucWen, energy_error, time_history
+from frames import energy_error, time_history
+from frames.laws import Bilinear, BoucWen
 from lir_element import RunStatus
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.yielding import random_yielding

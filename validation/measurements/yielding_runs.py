@@ -20,9 +20,7 @@ from frames import (
     Frame,
     GroundMotion,
     MotionWarning,
-    PlasticHinge,
     Section,
-    Stop,
     ductility,
     floor_acceleration,
     gravity,
@@ -32,8 +30,9 @@ from frames import (
     time_history,
 )
 from frames.demo import bearing_for, design, pacoima
+from frames.laws import Gap, PlasticHinge
 from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
-from frames.results.reached import in_plan
+from frames.results.peak_response import in_plan
 from lir_element.errors import AnalysisWarning
 from lir_element.units import STANDARD_GRAVITY
 
@@ -197,9 +196,9 @@ def model_of(structure: Structure, system: str, *, elastic: bool = False) -> Fra
 def _add_walls(frame: Frame, mass: float, gap: float, share: float) -> None:
     # Three nodes at each side run into a part of its wall.
     stiffness = share * WALL_STIFFNESS
-    wall = Stop(
+    wall = Gap(
         gap=gap, stiffness=stiffness / 3.0,
-        damping=Stop.damping_for(RESTITUTION, stiffness, mass) / 3.0,
+        damping=Gap.damping_for(RESTITUTION, stiffness, mass) / 3.0,
     )  # fmt: skip
     for side, nodes in {
         "x-": [(0, 0), (0, 1), (0, 2)], "x+": [(2, 0), (2, 1), (2, 2)],

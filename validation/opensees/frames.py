@@ -16,8 +16,8 @@ import numpy as np
 
 from frames.assembly.assemble import assemble
 from frames.model.axes import default_up
-from frames.model.parts import DOFS
-from frames.model.placing import member_ends
+from frames.model.components import DOFS
+from frames.model.geometry_checks import member_ends
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads
 from validation.opensees.nonlinear import add_links, hinged_member
 from validation.opensees.runs import Track, respond
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from frames import Frame, GroundMotion
-    from frames.model.parts import Member
+    from frames.model.components import Member
     from lir_element import LIRBearing
 
 PlaceBearing: TypeAlias = Callable[[int, int, int, "LIRBearing"], object]

@@ -16,17 +16,17 @@ import numpy as np
 from frames.model.laws import (
     Bilinear,
     BoucWen,
-    HertzStop,
+    Gap,
+    HertzGap,
     Law,
     PlasticHinge,
-    Stop,
     Tie,
     ViscousDamper,
 )
 
 if TYPE_CHECKING:
     from frames import Frame
-    from frames.model.parts import Link, Member
+    from frames.model.components import Link, Member
 
 FIRST = 500_000
 """First tag of materials, sections and elements made here."""
@@ -55,7 +55,7 @@ def material(ops: Any, tag: int, law: Law) -> None:
             ops.uniaxialMaterial("Viscous", tag, law.coefficient, law.exponent)
         else:
             ops.uniaxialMaterial("ViscousDamper", tag, law.stiffness, law.coefficient, law.exponent)
-    elif isinstance(law, Stop):
+    elif isinstance(law, Gap):
         _stop(ops, tag, law)
     else:
         _hertz(ops, tag, law)
@@ -79,12 +79,12 @@ def _bouc_wen(ops: Any, tag: int, law: BoucWen) -> None:
     )  # fmt: skip
 
 
-def _stop(ops: Any, tag: int, law: Stop) -> None:
+def _stop(ops: Any, tag: int, law: Gap) -> None:
     # OpenSees' gaps close in compression: what is pushed there has negative strains.
     ops.uniaxialMaterial("ViscoelasticGap", tag, law.stiffness, law.damping, -law.gap)
 
 
-def _hertz(ops: Any, tag: int, law: HertzStop) -> None:
+def _hertz(ops: Any, tag: int, law: HertzGap) -> None:
     ops.uniaxialMaterial(
         "Hertzdamp",
         tag,
@@ -110,7 +110,7 @@ def add_link(ops: Any, tag: int, link: Link, nodes: dict[str, int]) -> None:
     """Add a link whose material has the same tag; gaps face the other way."""
     direction = np.array(link.direction)
     ends = [nodes[link.i], nodes[link.j]]
-    if isinstance(link.law, Stop | HertzStop):
+    if isinstance(link.law, Gap | HertzGap):
         direction = -direction
     across = np.eye(3)[int(np.abs(direction).argmin())]
     across = across - (across @ direction) * direction

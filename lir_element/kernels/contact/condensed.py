@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import OWN, place_bodies, press, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.rotation import add_cross
 from lir_element.kernels.slip import step_share

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.pairs import matrix_of, turn_by
 from lir_element.kernels.rotation import rotate
 

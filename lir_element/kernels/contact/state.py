@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pair import set_tangents
 from lir_element.kernels.contact.pairs import (

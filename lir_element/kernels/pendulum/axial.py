@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import inlined, kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.heating import left_by_pressure
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 

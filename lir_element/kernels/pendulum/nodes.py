@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.kernels.pendulum.tangent import condense
 from lir_element.kernels.rotation import add_cross, spin_matrix
 

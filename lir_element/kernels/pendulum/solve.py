@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.kernels.heating import left_by_heat
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian

@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import inlined, kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rotation import turn_matrix

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._jit import inlined, kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.pendulum.axial import held_rate, held_rate_fused, tension_rates
 from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE

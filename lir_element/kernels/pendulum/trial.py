@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.pendulum.solve import solve_axis, start_search
 from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin

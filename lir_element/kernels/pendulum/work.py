@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._jit import kernel
+from lir_element._compile.jit import kernel
 from lir_element.kernels.pendulum.spin import spin_work
 from lir_element.kernels.slip import open_work, stored, surplus
 

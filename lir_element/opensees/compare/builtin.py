@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from lir_element.door import require_choice
+from lir_element.argument_checks import require_choice
 from lir_element.opensees.compare.builtin_mapping import builtin_values
 from lir_element.opensees.compare.builtin_writing import (
     BUILTIN_KINDS,

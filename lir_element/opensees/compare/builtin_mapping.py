@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from lir_element.argument_checks import require_positive
 from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
-from lir_element.door import require_positive
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing

@@ -13,9 +13,9 @@ import itertools
 import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from lir_element.argument_checks import require_choice, require_non_negative, require_positive
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
-from lir_element.door import require_choice, require_non_negative, require_positive
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:

@@ -20,13 +20,13 @@ from typing import Any
 import numpy as np
 
 from lir_element import CoulombFriction, LIRBearing
-from lir_element._cache import keep
-from lir_element._jit import OWN
-from lir_element._progress import say
+from lir_element._compile.cache import keep
+from lir_element._compile.jit import OWN
+from lir_element._compile.progress import say
 from lir_element.opensees.connection import add_host_element
-from lir_element.opensees.fast.grafted import Grafted
+from lir_element.opensees.element_memory import Hosted
+from lir_element.opensees.fast.in_process_element import Grafted
 from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
-from lir_element.opensees.hosted import Hosted
 from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.placement import place
 

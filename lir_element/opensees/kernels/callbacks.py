@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from numba import carray
 
-from lir_element._jit import entry_point
+from lir_element._compile.jit import entry_point
 from lir_element.opensees.block.layout import HOST, NOT_SAVED, RESPONSE
 from lir_element.opensees.block.pointers import (
     call_2,
@@ -24,7 +24,7 @@ from lir_element.opensees.block.pointers import (
     set_word,
     word_at,
 )
-from lir_element.opensees.kernels.hosted import host_restart, host_revert
+from lir_element.opensees.kernels.element_states import host_restart, host_revert
 from lir_element.opensees.kernels.motion import (
     block_of,
     copy_vector,

@@ -8,10 +8,15 @@ from __future__ import annotations
 
 from numba import carray
 
-from lir_element._jit import entry_point
+from lir_element._compile.jit import entry_point
 from lir_element.opensees.block.layout import HOST
 from lir_element.opensees.block.pointers import pointer
-from lir_element.opensees.kernels.hosted import contacts_at, host_commit, host_tangent, host_trial
+from lir_element.opensees.kernels.element_states import (
+    contacts_at,
+    host_commit,
+    host_tangent,
+    host_trial,
+)
 from lir_element.opensees.kernels.motion import block_of, fail, read_motion, tell
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from lir_element.device.bearing import LIRBearing
-    from lir_element.opensees.fast.manners import Manners
+    from lir_element.opensees.fast.portable_responses import Manners
     from lir_element.opensees.placement import Placement
 
 

@@ -24,7 +24,7 @@ import numpy as np
 from lir_element.errors import RunStatus
 from lir_element.opensees.block import protocol
 from lir_element.opensees.block.layout import MOST_DOFS
-from lir_element.opensees.hosted import Hosted
+from lir_element.opensees.element_memory import Hosted
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

@@ -1,1 +1,0 @@
-"""Gravity, modes, time histories."""

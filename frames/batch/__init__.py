@@ -1,0 +1,1 @@
+"""Many time histories at once: cases, runs, one Dataset."""

@@ -1,0 +1,277 @@
+"""Many results as one Dataset: what each run reached, side by side along the dimension `run`."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from frames.kernel_data import ENERGY_TERMS
+from frames.results.peak_response import with_exceeded
+from frames.results.recorded import REACHED
+from lir_element.results.dataset import labelled
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from frames._types import FloatArray, IntArray
+    from frames.batch.cases import Case
+    from frames.results.peaks import Peak
+
+NUMBERS = {
+    "energy_error": ("1", "largest gap of the energy ledger over the largest input"),
+    "numerical_share": ("1", "largest work that the time integration leaves over, over the input"),
+    "steps": ("1", "steps accepted"),
+    "halvings": ("1", "steps halved"),
+    "seconds_loop": ("s", "time of the compiled loop"),
+}
+"""Numbers of each run besides what it reached: unit and meaning."""
+
+_SAME_TIME = 1e-9  # s
+
+
+class Layout(NamedTuple):
+    """Where what the runs of one structure reached stands in a row of numbers."""
+
+    names: tuple[str, ...]
+    dims: tuple[tuple[str, ...], ...]
+    shapes: tuple[tuple[int, ...], ...]
+    starts: IntArray  # (n + 1,)
+    attrs: tuple[dict[str, Any], ...]
+    labels: dict[str, tuple[str, ...]]  # names along each dimension
+
+
+class Row(NamedTuple):
+    """What one run gave."""
+
+    place: int  # among the cases
+    status: str
+    message: str
+    failed_at: float  # s, NaN of a run that is complete
+    failed_where: str
+    audit: str
+    doubts: str
+    peaks: tuple[Peak, ...]
+    numbers: dict[str, float]
+    energy: FloatArray  # (n_terms,) at the last step
+    reached: FloatArray
+    layout: Layout | None  # None: there was no equilibrium to start from
+    histories: xr.Dataset | None
+
+
+def layout_of(judged: xr.Dataset) -> Layout:
+    """Return the layout of what the audit reads of a run."""
+    names = tuple(
+        str(name)
+        for name, variable in judged.variables.items()
+        if str(name).startswith(REACHED) and variable.dtype.kind == "f"
+    )
+    found = [judged.variables[name] for name in names]
+    used = {str(dim) for variable in found for dim in variable.dims}
+    return Layout(
+        names=names,
+        dims=tuple(tuple(str(dim) for dim in variable.dims) for variable in found),
+        shapes=tuple(variable.shape for variable in found),
+        starts=np.concatenate([[0], np.cumsum([variable.size for variable in found])]),
+        attrs=tuple(dict(variable.attrs) for variable in found),
+        labels={dim: _labels(judged, dim) for dim in used},
+    )
+
+
+def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
+    """Return what a run reached as a row of numbers."""
+    found = with_exceeded(judged).variables
+    return np.concatenate([np.ravel(found[name].to_numpy()) for name in layout.names])
+
+
+def stack(rows: Sequence[Row], cases: Sequence[Case], digests: Mapping[str, str]) -> xr.Dataset:
+    """Put rows together (docs/results.md).
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Of the runs done, in any order.
+    cases : sequence of Case
+        All of them.
+    digests : mapping of str to str
+        Of the motions by name, before they are scaled.
+
+    Returns
+    -------
+    xarray.Dataset
+        Runs in the order of the cases, without attributes.
+    """
+    rows = sorted(rows, key=lambda row: row.place)
+    of = [cases[row.place] for row in rows]
+    variables = _of_runs(rows) | _of_peaks(rows) | _of_reached(rows)
+    coordinates: dict[str, Any] = {
+        "run": np.array([row.place for row in rows], dtype=np.int64),
+        "model": ("run", _texts(case.model for case in of)),
+        "motion": ("run", _texts(case.motion for case in of)),
+        "scale": ("run", np.array([case.scale for case in of])),
+        "motion_digest": ("run", _texts(digests[case.motion] for case in of)),
+        "term": list(ENERGY_TERMS),
+    }
+    units = {peak.quantity: peak.unit for row in rows for peak in row.peaks}
+    coordinates["quantity"] = list(units)
+    coordinates["unit"] = ("quantity", list(units.values()))
+    labels = _union(row.layout.labels for row in _unlike(rows))
+    histories, more = _of_histories(rows)
+    return xr.Dataset(variables | histories, coordinates | labels | more)
+
+
+def _texts(values: Iterable[str]) -> Any:
+    found = list(values)
+    out = np.empty(len(found), dtype=object)
+    out[:] = found
+    return out
+
+
+def _of_runs(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+    # Status, message and numbers of each run.
+    found = {
+        "status": labelled(("run",), _texts(row.status for row in rows), "", "how the run ended"),
+        "message": labelled(("run",), _texts(row.message for row in rows), "", "the same in words"),
+        "failed_at": labelled(
+            ("run",), np.array([row.failed_at for row in rows]), "s",
+            "when it stopped; NaN where it is complete",
+        ),
+        "failed_where": labelled(
+            ("run",), _texts(row.failed_where for row in rows), "", "bearing or degree of freedom"
+        ),
+        "audit": labelled(
+            ("run",), _texts(row.audit for row in rows), "", "audit of the run, a line a finding"
+        ),
+        "doubts": labelled(
+            ("run",), _texts(row.doubts for row in rows), "", 'lines that the audit marks with "!"'
+        ),
+    }  # fmt: skip
+    for name, (unit, meaning) in NUMBERS.items():
+        values = np.array([row.numbers.get(name, math.nan) for row in rows])
+        found[name] = labelled(("run",), values, unit, meaning)
+    energy = np.array([row.energy for row in rows]).reshape(len(rows), len(ENERGY_TERMS))
+    found["energy"] = labelled(
+        ("run", "term"), energy, "J", "energy since gravity, at the last step"
+    )
+    return found
+
+
+def _of_peaks(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+    # The tables of peaks, side by side.
+    place = {name: k for k, name in enumerate({p.quantity: 0 for r in rows for p in r.peaks})}
+    size = len(rows), len(place)
+    value, time = np.full(size, np.nan), np.full(size, np.nan)
+    where = np.full(size, "", dtype=object)
+    for n, row in enumerate(rows):
+        for peak in row.peaks:
+            k = place[peak.quantity]
+            value[n, k], time[n, k], where[n, k] = peak.value, peak.time, peak.where
+    dims = ("run", "quantity")
+    return {
+        "peak": labelled(dims, value, "", "what was reached, in the unit of its quantity"),
+        "peak_time": labelled(dims, time, "s", "when"),
+        "peak_where": labelled(dims, where, "", "where"),
+    }
+
+
+def _of_reached(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+    # What was reached of each bearing, node, level: NaN where a run's structure has none such.
+    kinds = _unlike(rows)
+    labels = _union(kind.layout.labels for kind in kinds)
+    found: dict[str, xr.Variable] = {}
+    for kind in kinds:
+        runs = np.array([n for n, row in enumerate(rows) if row.layout is kind.layout])
+        whole = np.stack([rows[n].reached for n in runs])
+        layout = kind.layout
+        for k, name in enumerate(layout.names):
+            dims = layout.dims[k]
+            if name not in found:
+                size = (len(rows), *(len(labels[dim]) for dim in dims))
+                found[name] = xr.Variable(("run", *dims), np.full(size, np.nan), layout.attrs[k])
+            values = whole[:, layout.starts[k] : layout.starts[k + 1]]
+            values = values.reshape(len(runs), *layout.shapes[k])
+            at = _places(layout.labels, labels, dims)
+            found[name].data[np.ix_(runs, *at)] = values
+    return found
+
+
+class _Kind(NamedTuple):
+    layout: Layout
+
+
+def _unlike(rows: Sequence[Row]) -> list[_Kind]:
+    # The layouts of the rows, each once.
+    found = {id(row.layout): row.layout for row in rows if row.layout is not None}
+    return [_Kind(layout) for layout in found.values()]
+
+
+def _union(labels: Iterable[Mapping[str, tuple[str, ...]]]) -> dict[str, list[str]]:
+    # All names along each dimension, in the order of their first appearance.
+    found: dict[str, dict[str, None]] = {}
+    for one in labels:
+        for dim, names in one.items():
+            found.setdefault(dim, {}).update(dict.fromkeys(names))
+    return {dim: list(names) for dim, names in found.items()}
+
+
+def _places(
+    own: Mapping[str, tuple[str, ...]], union: Mapping[str, Sequence[str]], dims: Sequence[str]
+) -> list[IntArray]:
+    places = []
+    for dim in dims:
+        order = {name: k for k, name in enumerate(union[dim])}
+        places.append(np.array([order[name] for name in own[dim]], dtype=np.int64))
+    return places
+
+
+def _labels(data: xr.Dataset, dim: str) -> tuple[str, ...]:
+    return tuple(str(name) for name in data[dim].to_numpy())
+
+
+def _of_histories(rows: Sequence[Row]) -> tuple[dict[str, xr.Variable], dict[str, Any]]:
+    # Recorded histories: over `time` where all runs share a grid, else over `step`.
+    whole = [(n, row.histories) for n, row in enumerate(rows) if row.histories is not None]
+    if not whole:
+        return {}, {}
+    grids = [data["time"].to_numpy() for _, data in whole]
+    longest = max(grids, key=len)
+    shared = all(np.abs(grid - longest[: len(grid)]).max() < _SAME_TIME for grid in grids)
+    axis = "time" if shared else "step"
+    dims_of: dict[str, tuple[str, ...]] = {}
+    attrs: dict[str, dict[str, Any]] = {}
+    every = []
+    for _, data in whole:
+        for name, variable in data.data_vars.items():
+            dims_of[str(name)] = tuple(str(dim) for dim in variable.dims)
+            attrs[str(name)] = dict(variable.attrs)
+        used = {str(dim) for variable in data.data_vars.values() for dim in variable.dims}
+        every.append({dim: _labels(data, dim) for dim in used if dim != "time"})
+    labels = _union(every)
+    found: dict[str, xr.Variable] = {}
+    for name, dims in dims_of.items():
+        size = [len(longest) if dim == "time" else len(labels[dim]) for dim in dims]
+        values = np.full((len(rows), *size), np.nan)
+        for (n, data), own in zip(whole, every, strict=True):
+            if name in data:
+                at = _places_in_time(own, labels, dims, data.sizes["time"])
+                values[np.ix_(np.array([n]), *at)] = data[name].to_numpy()[None]
+        renamed = tuple(axis if dim == "time" else dim for dim in dims)
+        found[name] = xr.Variable(("run", *renamed), values, attrs[name])
+    if shared:
+        return found, labels | {"time": labelled(("time",), longest, "s", "time")}
+    times = np.full((len(rows), len(longest)), np.nan)
+    for (n, _), grid in zip(whole, grids, strict=True):
+        times[n, : len(grid)] = grid
+    found["time"] = labelled(("run", "step"), times, "s", "time of each step; NaN beyond the last")
+    return found, labels
+
+
+def _places_in_time(
+    own: Mapping[str, tuple[str, ...]],
+    union: Mapping[str, Sequence[str]],
+    dims: Sequence[str],
+    steps: int,
+) -> list[IntArray]:
+    return [np.arange(steps) if dim == "time" else _places(own, union, (dim,))[0] for dim in dims]

@@ -1,0 +1,276 @@
+"""The cases of many histories: structures, motions and scales by name, and how far they are."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from frames.model.frame_data import FrameContents
+from frames.motion.ground_motion import GroundMotion
+from lir_element._compile.progress import on_terminal
+from lir_element.argument_checks import require_finite, require_type
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+T = TypeVar("T")
+
+NOT_BUILT = "not_built"
+"""Status of a campaign's run whose model could not be built or set up."""
+
+_EVERY = 0.5, 30.0
+"""Time between two lines of progress on a terminal, and elsewhere [s]."""
+
+_WIDTH = 78
+
+
+class Case(NamedTuple):
+    """One history: names of its structure and motion, and the factor on the motion."""
+
+    model: str
+    motion: str
+    scale: float
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        return f'"{self.model}" under {self.scale:g} x "{self.motion}"'
+
+
+class BatchProgress(NamedTuple):
+    """How far `time_histories` is.
+
+    Attributes
+    ----------
+    done, total : int
+        Runs.
+    elapsed : float
+        Time since the first began [s].
+    failed : int
+        Of those done, runs that stopped before their end.
+    taken : int
+        Runs besides these that were complete before.
+    """
+
+    done: int
+    total: int
+    elapsed: float
+    failed: int
+    taken: int = 0
+
+    @property
+    def rate(self) -> float:
+        """Runs done in a second [1/s]."""
+        return self.done / self.elapsed if self.elapsed > 0.0 else math.nan
+
+    @property
+    def remaining(self) -> float:
+        """Time that the others will take at that rate [s]."""
+        return (self.total - self.done) / self.rate if self.done else math.nan
+
+    def __str__(self) -> str:
+        """Return it on one line."""
+        before = f" ({self.taken} more were complete before)" if self.taken else ""
+        if not self.done:
+            return f"{self.done} of {self.total} runs{before}"
+        left = f", {_clock(self.remaining)} left" if self.done < self.total else ""
+        stopped = f", {self.failed} stopped early" if self.failed else ""
+        return f"{self.done} of {self.total} runs{before}, {self.rate:.3g} runs/s{left}{stopped}"
+
+
+def _clock(seconds: float) -> str:
+    if seconds < 120.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def named_models(models: object) -> dict[str, FrameContents]:
+    """Return structures by name.
+
+    Parameters
+    ----------
+    models : Frame, or a sequence or mapping of them
+        What was given.
+
+    Returns
+    -------
+    dict of str to Frame
+        By the names of a mapping, else by their own.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If it is something else, holds none, or names are not unique.
+    """
+    return _named("models", models, FrameContents, "a Frame")
+
+
+def named_motions(motions: object) -> dict[str, GroundMotion]:
+    """Return ground motions by name, as `named_models` does structures."""
+    return _named("motions", motions, GroundMotion, "a GroundMotion")
+
+
+def grid(
+    models: Mapping[str, object],
+    motions: Mapping[str, object],
+    scales: object,
+    cases: object,
+) -> list[Case]:
+    """Return the cases in their order.
+
+    Parameters
+    ----------
+    models, motions : mapping
+        By name.
+    scales : float, sequence of float or None
+        Factors on the motions; None: 1.
+    cases : sequence of (str, str, float) or None
+        Cases in place of the grid.
+
+    Returns
+    -------
+    list of Case
+        Models, motions, scales: the last change first.
+
+    Raises
+    ------
+    ValueError
+        If both are given, or one is not known, or twice there.
+    TypeError
+        If they are of another kind.
+    """
+    if cases is None:
+        factors = _factors(scales)
+        return [Case(m, g, s) for m in models for g in motions for s in factors]
+    if scales is not None:
+        msg = "cases and scales are given: cases name the scale of each run, leave scales out"
+        raise ValueError(msg)
+    return _listed(cases, models, motions)
+
+
+def _listed(
+    cases: object, models: Mapping[str, object], motions: Mapping[str, object]
+) -> list[Case]:
+    if isinstance(cases, (str, Mapping)) or not isinstance(cases, Sequence):
+        msg = f"cases = {cases!r} must be a sequence of (name of model, name of motion, scale)"
+        raise TypeError(msg)
+    found = []
+    for one in cases:
+        if not isinstance(one, Sequence) or isinstance(one, str) or len(one) != 3:
+            msg = f"cases: {one!r} must be (name of model, name of motion, scale)"
+            raise TypeError(msg)
+        model, motion, scale = one
+        for name, known, what in ((model, models, "model"), (motion, motions, "motion")):
+            if name not in known:
+                msg = f"cases: no {what} {name!r}; there are {', '.join(map(repr, known))}"
+                raise ValueError(msg)
+        found.append(Case(model, motion, _factor(scale)))
+    return _unique(found, "cases")
+
+
+def _factors(scales: object) -> list[float]:
+    if scales is None:
+        return [1.0]
+    if isinstance(scales, (str, Mapping)) or not hasattr(scales, "__iter__"):
+        return [_factor(scales)]
+    return _unique([_factor(one) for one in scales], "scales")
+
+
+def _factor(value: object) -> float:
+    number = require_finite("scale of a motion", value)
+    if not abs(number) > 0.0:
+        msg = "scale of a motion = 0 leaves nothing of it: give a factor, 1 for the motion as it is"
+        raise ValueError(msg)
+    return number
+
+
+def _unique(values: list[T], what: str) -> list[T]:
+    if not values:
+        msg = f"{what} is empty: name at least one"
+        raise ValueError(msg)
+    seen: set[T] = set()
+    for value in values:
+        if value in seen:
+            msg = f"{what}: {value} is there twice: give each once"
+            raise ValueError(msg)
+        seen.add(value)
+    return values
+
+
+def _named(what: str, given: object, kind: type[T], one: str) -> dict[str, T]:
+    usage = f"{one}, or a sequence or mapping of them"
+    if isinstance(given, kind):
+        return {_own_name(given, what): given}
+    if isinstance(given, Mapping):
+        pairs = [(name, value) for name, value in given.items()]
+    elif isinstance(given, Sequence) and not isinstance(given, str):
+        pairs = [(_own_name(value, f"{what}[{k}]"), value) for k, value in enumerate(given)]
+    else:
+        require_type(what, given, kind, usage)
+        pairs = []
+    found: dict[str, T] = {}
+    for name, value in pairs:
+        require_type(f"{what}: {name!r}", name, str, "a name: a string")
+        require_type(f"{what}: {name}", value, kind, one)
+        if name in found:
+            msg = (
+                f'{what}: two have the name "{name}": give a mapping, {{"first": ..., "second": '
+                "...}, so that each run has a name of its own"
+            )
+            raise ValueError(msg)
+        found[name] = value
+    if not found:
+        msg = f"{what} is empty: give {usage}"
+        raise ValueError(msg)
+    return found
+
+
+def _own_name(value: object, otherwise: str) -> str:
+    return str(getattr(value, "name", "") or otherwise)
+
+
+def tell(progress: object) -> Callable[[BatchProgress], None] | None:
+    """Return whom to tell how far the runs are: nobody, a function, or the standard error.
+
+    Parameters
+    ----------
+    progress : callable, bool or None
+        As given.
+
+    Returns
+    -------
+    callable or None
+        Called with a `BatchProgress`.
+
+    Raises
+    ------
+    TypeError
+        If it is something else.
+    """
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return _Line()
+    if not callable(progress):
+        msg = f"progress = {progress!r} must be True, or a function of one BatchProgress"
+        raise TypeError(msg)
+    return progress
+
+
+class _Line:
+    # Writes progress to the standard error, now and then.
+
+    def __init__(self) -> None:
+        self._told = 0.0
+
+    def __call__(self, progress: BatchProgress) -> None:
+        ends, terminal = progress.done == progress.total, on_terminal()
+        if sys.stderr is None or not (
+            ends or progress.elapsed - self._told >= _EVERY[0 if terminal else 1]
+        ):
+            return
+        self._told = progress.elapsed
+        text = f"\r{progress!s:{_WIDTH}}" if terminal else str(progress)
+        sys.stderr.write(text + ("\n" if ends or not terminal else ""))
+        sys.stderr.flush()

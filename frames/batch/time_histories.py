@@ -1,0 +1,322 @@
+"""Many time histories at once: structures, motions and scales on all processors, one Dataset."""
+
+from __future__ import annotations
+
+import math
+import os
+import queue
+import threading
+import warnings
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from time import perf_counter, sleep
+from typing import TYPE_CHECKING, Literal
+
+from frames._errors import AuditWarning, ModelWarning
+from frames._fingerprint import motion_digest
+from frames._provenance import provenance
+from frames.batch.batch_dataset import Row, stack
+from frames.batch.batch_run import Kept, Runner
+from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
+from frames.batch.completed_runs import KeptRuns
+from frames.recording.recording import Recording, whole_steps
+from frames.solve.options import check_options, options_of
+from frames.statics.blas_threads import blas_threads_for
+from frames.statics.sanity_checks import motion_doubts
+from lir_element.argument_checks import require_choice
+from lir_element.device.features import Features
+from lir_element.errors import AnalysisInterrupted, AnalysisWarning, RunStatus
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    import xarray as xr
+
+    from frames.batch.cases import Case
+    from frames.model.frame_data import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+
+_ATTENTIVE = 0.02  # s between two looks whether a run is done
+
+
+def time_histories(
+    models: FrameContents | Sequence[FrameContents] | Mapping[str, FrameContents],
+    motions: GroundMotion | Sequence[GroundMotion] | Mapping[str, GroundMotion],
+    *,
+    scales: float | Sequence[float] | None = None,
+    cases: Sequence[tuple[str, str, float]] | None = None,
+    duration: float | None = None,
+    dt: float | None = None,
+    level: str | Mapping[str, str] = "pendulum",
+    method: Literal["direct"] = "direct",
+    integrator: Literal["newmark", "generalised-alpha"] | None = None,
+    spectral_radius: float = 0.8,
+    tolerance: float | None = None,
+    features: Features | None = None,
+    record: Literal["peaks"] | Recording | None = None,
+    workers: int | None = None,
+    progress: Callable[[BatchProgress], None] | bool | None = None,
+    resume: str | Path | None = None,
+) -> xr.Dataset:
+    """Analyse structures under many ground motions and scales, on all processors.
+
+    Each run gives the numbers that `time_history` gives of it, whatever the number of workers. A
+    structure is assembled and brought into equilibrium once for all of its runs.
+
+    Parameters
+    ----------
+    models : Frame, or a sequence or mapping of them
+        The structures, by the names of a mapping, else by their own.
+    motions : GroundMotion, or a sequence or mapping of them
+        Accelerations of the ground, by name as the structures.
+    scales : float or sequence of float, optional
+        Factors on the motions [-]; 1 if None.
+    cases : sequence of (str, str, float), optional
+        Runs by name of model, name of motion, and scale, in place of all combinations of models,
+        motions and scales: such as motions that are scaled each by a factor of its own.
+    duration, dt, level, method, integrator, spectral_radius, tolerance, features
+        As for `time_history`, the same for all runs. `duration` None: each motion's own. The
+        levels "auto" and "rigid_body" are those of single runs.
+    record : {None, "peaks"} or Recording
+        Besides what every run reached, which is kept always: histories, as `Recording` says.
+    workers : int, optional
+        Runs at a time, each in a thread: the compiled loops do not hold each other up. None: as
+        many as the process has processors.
+    progress : callable or bool, optional
+        Called with a `BatchProgress` after each run; True writes it to the standard error.
+    resume : str or path, optional
+        Folder that keeps each run as it completes, and from which runs are taken that were complete
+        before: those of the same model, motion, scale, options, version and sources. What comes out
+        is what an undisturbed batch gives. The folder stays; its files are of no other use.
+
+    Returns
+    -------
+    xarray.Dataset
+        A row a run along `run`, in the order models, motions, scales (the last change first) or
+        that of the cases; `model`, `motion` and `scale` are coordinates. See docs/results.md. A run
+        that stopped early is a row like the others, with its `status` and `message`; what it
+        reached is until then. Two warnings at most tell how many runs stopped or are inaccurate,
+        and in how many the audit marks something.
+
+    Raises
+    ------
+    ValueError
+        If an option is out of bounds, names are not unique, or the results would not fit.
+    TypeError
+        If an argument is of another kind.
+    frames.ModelError
+        If a model cannot work.
+    lir_element.AnalysisInterrupted
+        After Ctrl-C, a KeyboardInterrupt whose `data` holds the runs that were complete.
+    KeyboardInterrupt
+        After Ctrl-C before the first run was complete.
+    """
+    structures, grounds = named_models(models), named_motions(motions)
+    runs = grid(structures, grounds, scales, cases)
+    require_choice("method", method, ("direct",))
+    check_options(level, method, integrator, "warn", features)
+    if level in {"auto", "rigid_body"} if isinstance(level, str) else False:
+        msg = (
+            f'level = "{level}" is one of single runs: call time_history for each, or take another'
+        )
+        raise ValueError(msg)
+    kept = _kept(record)
+    options = {
+        name: options_of(
+            motion, duration, dt, method=method, integrator=integrator,
+            spectral_radius=spectral_radius, tolerance=tolerance,
+            recording=kept.recording, progress=None,
+        )
+        for name, motion in grounds.items()
+    }  # fmt: skip
+    _warn_of_motions(structures, grounds, runs)
+    chosen = Features.all() if features is None else features
+    count = _processors() if workers is None else whole_steps("workers", workers)
+    began = perf_counter()
+    with blas_threads_for(*structures.values()):
+        keeper, before = None, list[Row]()
+        if resume is not None:
+            asked = (chosen, level)
+            keeper = KeptRuns(Path(resume), structures, grounds, options, asked, kept)
+            before = keeper.rows(runs)
+        todo = sorted({*range(len(runs))} - {row.place for row in before})
+        runner = Runner(structures, grounds, options, [runs[k] for k in todo], chosen, level, kept)
+        new, is_whole = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
+        rows = before + [row._replace(place=todo[row.place]) for row in new]
+    if not rows:
+        raise KeyboardInterrupt
+    data = stack(rows, runs, {name: motion_digest(each) for name, each in grounds.items()})
+    data.attrs = {
+        "title": f"{len(runs)} time histories",
+        "status": "ok" if is_whole else "interrupted",
+        "runs_asked_for": len(runs),
+        "level": level if isinstance(level, str) else str(dict(level)),
+        "features_left_out": ", ".join(chosen.left_out) or "none",
+        "recording": str(kept.recording) if kept.histories else "what was reached",
+        "method": method,
+        "integrator": integrator or "newmark",
+        "spectral_radius": float(spectral_radius),
+        "seconds": perf_counter() - began,
+        "lir_dcfp_version": package_version(),
+        **provenance(dated=False),
+    }
+    if not is_whole:
+        stop: AnalysisInterrupted = _Interrupted(_computed(data), data)
+        raise stop
+    _warn_of_runs(rows)
+    return data
+
+
+def _computed(data: xr.Dataset) -> float:
+    # Time of motion that was gone through in all [s].
+    return float(data["reached_until"].sum()) if "reached_until" in data else 0.0
+
+
+class _Interrupted(AnalysisInterrupted):
+    # Ctrl-C between runs.
+
+    def __str__(self) -> str:
+        done, total = self.data.sizes["run"], self.data.attrs["runs_asked_for"]
+        return (
+            f"interrupted after {done} of {total} runs: they are in the attribute `data` of this "
+            "AnalysisInterrupted"
+        )
+
+
+def _all(
+    runner: Runner,
+    workers: int,
+    told: Callable[[BatchProgress], None] | None,
+    keeper: KeptRuns | None,
+    taken: int,
+) -> tuple[list[Row], bool]:
+    # All rows, and whether they are all: Ctrl-C leaves those that are done.
+    if taken and told is not None:
+        told(BatchProgress(0, len(runner.cases), 0.0, 0, taken))
+    if not runner.cases:
+        return [], True
+    results: queue.SimpleQueue[Row | None] = queue.SimpleQueue()  # None: a worker has ended
+    todo, lock, stop = iter(range(len(runner.cases))), threading.Lock(), threading.Event()
+
+    def next_place() -> int | None:
+        with lock:
+            return None if stop.is_set() else next(todo, None)
+
+    def work() -> None:
+        own, is_done = runner.worker(stop.is_set), False
+        try:
+            while (place := next_place()) is not None:
+                row = own.row(place)
+                if row is not None:
+                    results.put(row)
+            is_done = True
+        finally:
+            if not is_done:  # the others need not go on
+                stop.set()
+            results.put(None)
+
+    rows: list[Row] = []
+    is_whole = True
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(work) for _ in range(workers)]
+        try:
+            for row in _arriving(results, workers, len(runner.cases), told, taken):
+                rows.append(row)  # those that came before an interruption stay
+                if keeper is not None:
+                    keeper.keep(row, runner.cases[row.place])
+        except KeyboardInterrupt:
+            is_whole = False
+        finally:
+            stop.set()
+    for future in futures:
+        future.result()  # raises what ended a worker
+    while not results.empty():
+        late = results.get()
+        if late is not None:
+            rows.append(late)
+            if keeper is not None:
+                keeper.keep(late, runner.cases[late.place])
+    return rows, is_whole or len(rows) == len(runner.cases)
+
+
+def _arriving(
+    results: queue.SimpleQueue[Row | None],
+    workers: int,
+    total: int,
+    told: Callable[[BatchProgress], None] | None,
+    taken: int,
+) -> Iterator[Row]:
+    # Rows as they are done, until all workers have ended.
+    began, done, failed = perf_counter(), 0, 0
+    while workers:
+        while results.empty():
+            sleep(_ATTENTIVE)  # Ctrl-C breaks it on every system
+        row = results.get()
+        if row is None:
+            workers -= 1
+            continue
+        yield row
+        done += 1
+        failed += math.isfinite(row.failed_at)
+        if told is not None:
+            told(BatchProgress(done, total, perf_counter() - began, failed, taken))
+
+
+def _kept(record: object) -> Kept:
+    if record is None or record == "peaks":
+        return Kept(Recording(every=None), histories=False)
+    if not isinstance(record, Recording):
+        msg = f'record = {record!r} must be None or "peaks", or a Recording such as Recording()'
+        raise TypeError(msg)
+    return Kept(record, histories=True)
+
+
+def _processors() -> int:
+    # Those that this process may use.
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _warn_of_motions(
+    models: Mapping[str, FrameContents], motions: Mapping[str, GroundMotion], runs: Sequence[Case]
+) -> None:
+    # What is strange about a motion under a structure, once for all of them.
+    found = [
+        (case, doubt)
+        for case in runs
+        for doubt in motion_doubts(models[case.model], motions[case.motion].scaled(case.scale))
+    ]
+    if found:
+        (case, doubt), others = found[0], len(found) - 1
+        more = f" (and {others} more of the {len(runs)} runs)" if others else ""
+        warnings.warn(f"{case}: {doubt}{more}", ModelWarning, stacklevel=3)
+
+
+def _warn_of_runs(rows: Sequence[Row]) -> None:
+    # How many runs did not end well, and how many are to be looked at.
+    ill = sorted((row for row in rows if row.status != RunStatus.OK.name.lower()), key=_place)
+    if ill:
+        kinds = Counter(row.status for row in ill)
+        text = ", ".join(f"{count} {status}" for status, count in kinds.items())
+        warnings.warn(
+            f"{len(ill)} of {len(rows)} runs stopped early or are doubtful ({text}); the first, "
+            f"run {ill[0].place}: {ill[0].message.rstrip('.')}. "
+            "See the variables status and message",
+            AnalysisWarning,
+            stacklevel=3,
+        )
+    marked = [row for row in rows if row.doubts and math.isnan(row.failed_at)]
+    if marked:
+        first = min(marked, key=_place)
+        warnings.warn(
+            f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; the first, "
+            f"run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
+            AuditWarning, stacklevel=3,
+        )  # fmt: skip
+
+
+def _place(row: Row) -> int:
+    return row.place

@@ -1,1 +1,0 @@
-"""Design checks with their calculation, property bounds, equivalent-linear analysis by code."""

@@ -1,0 +1,1 @@
+"""Calculations and checks as values: the formula that is shown is the one that is evaluated."""

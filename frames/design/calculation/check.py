@@ -1,0 +1,304 @@
+"""Design checks as values: demand, limit, clause, and the calculation that led to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Literal, overload
+
+from frames.design._errors import CheckError
+from frames.design.calculation.rendering import quantity, scale, usual_unit
+from frames.design.calculation.trace import Trace
+from lir_element.argument_checks import as_number, require_choice, require_type
+from lir_element.tables import html_table, text_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Bound = Literal["lower", "nominal", "upper", ""]
+Scope = Literal["any", "demand", "procedure"]
+Verdict = Literal["ok", "FAILS", "does not apply"]
+CONFIRMED = "confirmed"
+TO_BE_CONFIRMED = "to be confirmed against the standard"
+_ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Check:
+    """A demand against its limit.
+
+    Parameters
+    ----------
+    clause : str
+        Standard and clause, or what else asks for it.
+    title : str
+        What is checked, in a few words.
+    demand, limit : float
+        In `unit`; infinite where there is none, as the capacity of a bearing without rims.
+    symbol : str
+        Symbol of the demand in the calculation.
+    unit : str
+        SI unit, "-" for a pure number.
+    relation : {"<=", ">="}
+        What the demand must be to the limit.
+    trace : Trace, optional
+        The calculation; what was entered later does not change the check.
+    standing : str
+        "confirmed", or "to be confirmed against the standard" where clause number, formula or
+        factor were not read in the standard itself.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings it holds for.
+    subject : str
+        Bearing or storey that it concerns; empty for the whole.
+    note : str
+        What else a reader should know.
+    shown : str
+        Unit to show it in; kN for forces, otherwise `unit`.
+    void : str
+        Why the demand is no value for design, as after runs that failed: the check then fails,
+        whatever demand and limit are. The demand is what was reached.
+    scope : {"any", "demand", "procedure"}
+        What it holds for: any analysis; a demand that a time history finds anew; or a limit of
+        the equivalent-linear procedure. Where such a limit is exceeded the procedure does not
+        apply: that is no failure of the structure. Not in tables, which show the `verdict`.
+    level : str
+        Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
+        empty where none enters.
+
+    Raises
+    ------
+    CheckError, TypeError
+        If demand or limit is NaN, or a word is none of those allowed.
+
+    Examples
+    --------
+    >>> check = Check(clause="ASCE 7-22 17.5.6", title="storey drift", symbol="Delta",
+    ...               demand=0.030, limit=0.045, unit="m", shown="mm", subject="storey 2")
+    >>> check.passed, round(check.ratio, 3)
+    (True, 0.667)
+    """
+
+    clause: str
+    title: str
+    demand: float
+    limit: float
+    symbol: str = ""
+    unit: str = "-"
+    relation: Literal["<=", ">="] = "<="
+    trace: Trace = Trace()  # noqa: RUF009  (copied, never added to)
+    standing: str = CONFIRMED
+    bound: Bound = ""
+    subject: str = ""
+    note: str = ""
+    shown: str = ""
+    void: str = ""
+    scope: Scope = "any"
+    level: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("demand", "limit"):
+            value = as_number(f"{name} of {self.title!r}", getattr(self, name), self.unit)
+            if math.isnan(value):
+                msg = f"{name} of {self.title!r} ({self.clause}) is not a number: see its trace"
+                raise CheckError(msg)
+            object.__setattr__(self, name, value)
+        if math.isinf(self.demand) and math.isinf(self.limit):
+            msg = f"demand and limit of {self.title!r} ({self.clause}) are infinite: give one"
+            raise CheckError(msg)
+        require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
+        require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
+        bounds = ("lower", "nominal", "upper", "")
+        require_choice("bound", self.bound, bounds, error=CheckError)
+        scopes = ("any", "demand", "procedure")
+        require_choice("scope", self.scope, scopes, error=CheckError)
+        object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
+        try:
+            scale(self.unit, self.shown)
+        except KeyError as cause:
+            msg = f"{self.title!r} is in {self.unit}, which cannot be shown in {self.shown!r}"
+            raise CheckError(msg) from cause
+        object.__setattr__(self, "trace", self.trace.copy())
+
+    @property
+    def ratio(self) -> float:
+        """Utilisation [-]: at most 1 where the check passes, whichever the relation.
+
+        Of the two sides, the one that must be smaller over the other; 0 where a side that must
+        be at least 0 or less is beyond that, infinite where no factor would help, and of a check
+        that is `void`.
+        """
+        return math.inf if self.void else self.compared
+
+    @property
+    def compared(self) -> float:
+        """The ratio of demand and limit alone, also of a check that is `void` [-]."""
+        below, above = self.demand, self.limit
+        if self.relation == ">=":
+            below, above = above, below
+        if above > 0.0:
+            return max(below / above, 0.0)
+        if above < 0.0:
+            return above / below if below < 0.0 else math.inf
+        return 0.0 if below <= 0.0 else math.inf
+
+    @property
+    def passed(self) -> bool:
+        """Whether demand and limit are as they must be, round-off (1e-9) aside."""
+        return self.ratio <= 1.0 + _ROUND_OFF
+
+    @property
+    def verdict(self) -> Verdict:
+        """Outcome: "ok", "FAILS", or "does not apply" where a limit of a procedure is exceeded."""
+        if self.passed:
+            return "ok"
+        return "does not apply" if self.scope == "procedure" else "FAILS"
+
+    @property
+    def concerns(self) -> str:
+        """Subject, bound of the properties and level of the action, on one line."""
+        return ", ".join(part for part in (self.subject, self.bound, self.level) if part)
+
+    @property
+    def cited(self) -> str:
+        """The clause, with a star where it is to be confirmed."""
+        return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
+
+    @property
+    def said(self) -> tuple[str, str, str]:
+        """Demand, limit and ratio as tables show them."""
+        demand = quantity(self.demand, self.unit, self.shown)
+        limit = quantity(self.limit, self.unit, self.shown)
+        if self.void:
+            return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
+        return demand, limit, f"{self.ratio:.3f}"
+
+    @property
+    def statement(self) -> str:
+        """What is checked, with its numbers, on one line."""
+        where = self.concerns
+        demand, limit, _ = self.said
+        title = f"{self.title}{f' ({where})' if where else ''}"
+        if self.void:
+            return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
+        return f"{title}: {demand} {self.relation} {limit}, ratio {self.ratio:.3g}"
+
+    def __str__(self) -> str:
+        """Return the check on one line."""
+        word = {"ok": "passed", "FAILS": "FAILED"}.get(self.verdict, self.verdict)
+        return f"{self.statement}, {word} [{self.clause}]"
+
+
+_HEAD = ("check", "concerns", "bound", "level", "demand", "", "limit", "ratio", "", "clause")
+
+
+class Checks(Sequence[Check]):
+    """Design checks, in order.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        What it is made of.
+    """
+
+    def __init__(self, checks: Iterable[Check] = ()) -> None:
+        self._checks = tuple(checks)
+        for check in self._checks:
+            require_type("check", check, Check, "a Check")
+
+    @overload
+    def __getitem__(self, k: int) -> Check: ...
+    @overload
+    def __getitem__(self, k: slice) -> Checks: ...
+    def __getitem__(self, k: int | slice) -> Check | Checks:
+        return Checks(self._checks[k]) if isinstance(k, slice) else self._checks[k]
+
+    def __len__(self) -> int:
+        return len(self._checks)
+
+    def __add__(self, other: Iterable[Check]) -> Checks:
+        return Checks((*self, *other))
+
+    @property
+    def passed(self) -> bool:
+        """Whether there are checks and none fails; limits of a procedure do not count."""
+        return bool(self._checks) and not self.failed
+
+    @property
+    def failed(self) -> Checks:
+        """Those that fail; limits of a procedure are not among them."""
+        return Checks(check for check in self if check.verdict == "FAILS")
+
+    @property
+    def inapplicable(self) -> Checks:
+        """Limits of a procedure that are exceeded, so that it does not apply."""
+        return Checks(check for check in self if check.verdict == "does not apply")
+
+    @property
+    def tally(self) -> str:
+        """How many there are, how many fail, and how many limits of a procedure are exceeded."""
+        beyond = len(self.inapplicable)
+        more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
+        return f"{len(self)} checks, {len(self.failed)} failed{more}"
+
+    @property
+    def governing(self) -> Check:
+        """The check of the largest ratio.
+
+        Raises
+        ------
+        CheckError
+            If there is none.
+        """
+        if not self._checks:
+            msg = "there are no checks: none governs"
+            raise CheckError(msg)
+        return max(self._checks, key=lambda check: check.ratio)
+
+    def of(self, clause: str = "", *, bound: Bound | None = None, subject: str = "") -> Checks:
+        """Return those whose clause and subject have these words, and that are of this bound."""
+        return Checks(
+            c
+            for c in self
+            if clause in c.clause and subject in c.subject and bound in {None, c.bound}
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a table with a row for each check, numbers in SI units."""
+        import pandas as pd
+
+        names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
+        rows = [
+            {name: getattr(c, name) for name in (*names, "ratio", "passed", "verdict")}
+            for c in self
+        ]
+        return pd.DataFrame(rows, columns=[*names, "ratio", "passed", "verdict"])
+
+    def __str__(self) -> str:
+        """Return a table for people."""
+        return text_table(self._rows(), _HEAD, left=4) if self._checks else "no checks"
+
+    def __repr__(self) -> str:
+        """Return how many there are, and which governs."""
+        if not self._checks:
+            return "Checks: none"
+        return f"Checks: {self.tally}; governing: {self.governing}"
+
+    def _repr_html_(self) -> str:
+        return html_table(self.tally, self._rows(), _HEAD)
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        return [
+            (
+                c.title,
+                c.subject,
+                c.bound,
+                c.level,
+                c.said[0],
+                "" if c.void else c.relation,
+                *c.said[1:],
+                c.verdict,
+                c.cited,
+            )
+            for c in self
+        ]

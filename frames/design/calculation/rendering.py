@@ -1,0 +1,202 @@
+"""Formulas and numbers as a reader sees them: text, and MathML for pages."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from html import escape
+from typing import NamedTuple
+
+from frames.design.calculation.formula import Value, call
+
+
+class Style(NamedTuple):
+    """How a formula is written.
+
+    Attributes
+    ----------
+    show : callable
+        What stands for a name: its symbol, or its number.
+    dots : bool
+        Whether products have a dot, as between numbers.
+    """
+
+    show: Callable[[str], str]
+    dots: bool
+
+
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ",
+    "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω", "Delta": "Δ", "Theta": "Θ",
+    "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "pi": "π",
+}  # fmt: skip
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_USUAL = {"N": "kN", "N/m": "kN/m", "Pa": "MPa", "J": "kJ", "N m": "kN m"}
+_SCALE = {
+    ("N", "kN"): 1e3, ("N", "MN"): 1e6, ("N/m", "kN/m"): 1e3, ("N/m", "kN/mm"): 1e6,
+    ("Pa", "kPa"): 1e3, ("Pa", "MPa"): 1e6, ("J", "kJ"): 1e3, ("N m", "kN m"): 1e3,
+    ("m", "mm"): 1e-3, ("m", "cm"): 1e-2, ("-", "%"): 1e-2, ("kg", "t"): 1e3,
+    ("m/s2", "g"): 9.80665,
+}  # fmt: skip
+_SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)
+
+
+def usual_unit(unit: str) -> str:
+    """Return the unit in which engineers read a quantity that is kept in `unit`."""
+    return _USUAL.get(unit, unit)
+
+
+def scale(unit: str, shown: str) -> float:
+    """Return what one of the shown unit is in the unit kept; KeyError if there is no such pair."""
+    return 1.0 if unit == shown else _SCALE[unit, shown]
+
+
+def number(value: float) -> str:
+    """Return a number with four significant digits, with a power of ten where it needs one."""
+    if not (1e-4 <= abs(value) < 1e6 or abs(value) <= 0.0):
+        mantissa, _, exponent = f"{value:.3e}".partition("e")
+        short = mantissa.rstrip("0").rstrip(".")
+        return f"{short}·10{str(int(exponent)).translate(_RAISED)}" if exponent else short
+    return f"{value:.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
+
+
+def quantity(value: Value, unit: str, shown: str, *, units: bool = True) -> str:
+    """Return a value in the unit shown, four entries of several at most."""
+    factor = scale(unit, shown)
+    if isinstance(value, float):
+        text = number(value / factor)
+    else:
+        entries = [number(v / factor) for v in value]
+        more = [*entries[:2], "…", entries[-1]] if len(entries) > 4 else entries
+        text = f"({', '.join(more)})"
+    return f"{text} {shown.translate(_RAISED)}" if units and shown != "-" else text
+
+
+def symbol_text(name: str) -> str:
+    """Return a name with Greek letters: ``beta_M`` as β_M."""
+    return "_".join(_GREEK.get(part, part) for part in name.split("_")).replace("_prime", "′")
+
+
+def symbol_mathml(name: str) -> str:
+    """Return a name as MathML, what follows the first underscore as subscript."""
+    head, _, tail = symbol_text(name).partition("_")
+    plain = f"<mi>{escape(head)}</mi>"
+    return f"<msub>{plain}<mi>{escape(tail.replace('_', ','))}</mi></msub>" if tail else plain
+
+
+def text(tree: ast.expr, style: Style) -> str:
+    """Return a formula as a line of text.
+
+    Parameters
+    ----------
+    tree : ast.expr
+        The formula.
+    style : Style
+        How.
+
+    Returns
+    -------
+    str
+        As in "g T² / (4 π²)".
+    """
+    return _text(tree, style)[0]
+
+
+def _text(node: ast.expr, style: Style) -> tuple[str, int]:
+    # What stands for a part, and how strongly it holds together.
+    if isinstance(node, ast.Constant):
+        return number(float(str(node.value))), _ATOM
+    if isinstance(node, ast.Name):
+        found = "π" if node.id == "pi" else style.show(node.id)
+        return found, _POWER if found.startswith("-") or "·" in found or " " in found else _ATOM
+    if isinstance(node, ast.UnaryOp):
+        return f"-{_held(node.operand, style, _SIGN)}", _SIGN
+    if isinstance(node, ast.BinOp):
+        return _operation(node, style)
+    name, arguments = call(node)
+    inner = ", ".join(text(argument, style) for argument in arguments)
+    if name in {"abs", "sqrt", "sum"}:
+        around = {"abs": "|{}|", "sqrt": "√({})", "sum": "Σ({})"}[name]
+        return around.format(inner), _ATOM
+    return f"{name}({inner})", _ATOM
+
+
+def _held(node: ast.expr, style: Style, least: int) -> str:
+    found, strength = _text(node, style)
+    return found if strength >= least else f"({found})"
+
+
+def _operation(node: ast.BinOp, style: Style) -> tuple[str, int]:
+    if isinstance(node.op, (ast.Add, ast.Sub)):
+        sign = "+" if isinstance(node.op, ast.Add) else "-"
+        least = _SUM if sign == "+" else _PRODUCT
+        right = _held(node.right, style, least)
+        right = f"({right})" if right.startswith("-") else right
+        return f"{_held(node.left, style, _SUM)} {sign} {right}", _SUM
+    if isinstance(node.op, ast.Mult):
+        left, right = _held(node.left, style, _PRODUCT), _held(node.right, style, _PRODUCT)
+        right = f"({right})" if right.startswith("-") else right
+        divides = isinstance(node.left, ast.BinOp) and isinstance(node.left.op, ast.Div)
+        dot = divides or right[0].isdigit() or right[0] == "("
+        dot |= style.dots and right[0] != "π"
+        return f"{left}{' · ' if dot else ' '}{right}", _PRODUCT
+    if isinstance(node.op, ast.Div):
+        return f"{_held(node.left, style, _PRODUCT)} / {_held(node.right, style, _SIGN)}", _PRODUCT
+    base = _held(node.left, style, _ATOM)
+    whole = isinstance(node.right, ast.Constant) and float(str(node.right.value)).is_integer()
+    exponent = text(node.right, style)
+    return f"{base}{exponent.translate(_RAISED) if whole else f'^({exponent})'}", _POWER
+
+
+def mathml(tree: ast.expr) -> str:
+    """Return a formula as MathML Core, without the element `math` around it."""
+    return _mathml(tree, 0)
+
+
+def _mathml(node: ast.expr, least: int) -> str:
+    if isinstance(node, ast.Constant):
+        return f"<mn>{number(float(str(node.value)))}</mn>"
+    if isinstance(node, ast.Name):
+        return symbol_mathml(node.id)
+    if isinstance(node, ast.UnaryOp):
+        return _fenced(f"<mo>-</mo>{_mathml(node.operand, _SIGN)}", least > _SIGN)
+    if isinstance(node, ast.BinOp):
+        return _operation_mathml(node, least)
+    name, arguments = call(node)
+    inner = "<mo>,</mo>".join(_mathml(argument, 0) for argument in arguments)
+    if name == "sqrt":
+        return f"<msqrt>{inner}</msqrt>"
+    if name == "abs":
+        return f"<mrow><mo>|</mo>{inner}<mo>|</mo></mrow>"
+    head = "<mo>∑</mo>" if name == "sum" else f"<mi>{name}</mi>"
+    return f"<mrow>{head}{_fenced(inner, True)}</mrow>"
+
+
+def _operation_mathml(node: ast.BinOp, least: int) -> str:
+    if isinstance(node.op, ast.Div):
+        return _fenced(f"<mfrac>{_row(node.left)}{_row(node.right)}</mfrac>", least > _SIGN)
+    if isinstance(node.op, ast.Pow):
+        inner = f"<msup><mrow>{_mathml(node.left, _ATOM)}</mrow>{_row(node.right)}</msup>"
+        return _fenced(inner, least > _POWER)
+    if isinstance(node.op, ast.Mult):
+        dot = isinstance(node.right, ast.Constant) or isinstance(node.left, ast.Constant)
+        sign = "<mo>·</mo>" if dot else "<mo>&#x2062;</mo>"
+        inner = f"{_mathml(node.left, _PRODUCT)}{sign}{_right(node.right, _PRODUCT)}"
+        return _fenced(inner, least > _PRODUCT)
+    minus = isinstance(node.op, ast.Sub)
+    right = _right(node.right, _PRODUCT if minus else _SUM)
+    inner = f"{_mathml(node.left, _SUM)}<mo>{'-' if minus else '+'}</mo>{right}"
+    return _fenced(inner, least > _SUM)
+
+
+def _right(node: ast.expr, least: int) -> str:
+    return _mathml(node, _POWER if isinstance(node, ast.UnaryOp) else least)
+
+
+def _row(node: ast.expr) -> str:
+    return f"<mrow>{_mathml(node, 0)}</mrow>"
+
+
+def _fenced(inner: str, fence: bool) -> str:
+    return f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>" if fence else f"<mrow>{inner}</mrow>"

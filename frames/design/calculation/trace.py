@@ -1,0 +1,283 @@
+"""A calculation as an engineer writes it: each formula once, which is shown and evaluated."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+
+from frames.design._errors import CheckError
+from frames.design.calculation.formula import RESERVED, Value, evaluate, names, parse
+from frames.design.calculation.rendering import scale, usual_unit
+from frames.design.calculation.step import Quantity, Step
+
+
+class Trace:
+    """A calculation in order, each line from what stands above it.
+
+    Parameters
+    ----------
+    steps : iterable of Step
+        Lines to begin with; none for a new calculation.
+
+    Examples
+    --------
+    >>> t = Trace()
+    >>> W = t.given("W", 1500e3, "N")
+    >>> R = t.given("R", 2.5, "m")
+    >>> D = t.given("D", 0.30, "m")
+    >>> mu = t.given("mu", 0.06)
+    >>> F = t("F", "W * (D / R + mu)", "N", source="force of a friction pendulum")
+    >>> print(t["F"].text())
+    F = W · (D / R + μ) = 1500 kN · (0.3 m / 2.5 m + 0.06) = 270 kN
+    """
+
+    def __init__(self, steps: Iterable[Step] = ()) -> None:
+        self._steps = {step.symbol: step for step in steps}
+
+    def given(
+        self,
+        symbol: str,
+        value: float,
+        unit: str = "-",
+        *,
+        source: str = "",
+        note: str = "",
+        shown: str = "",
+    ) -> float:
+        """Enter a number that does not follow from others, and return it.
+
+        Parameters
+        ----------
+        symbol : str
+            Its name: letters, digits and underscores; ``beta_M`` is shown as β_M.
+        value : float
+            The number, in `unit`.
+        unit : str
+            SI unit, or what the clause has; "-" for a pure number.
+        source, note : str
+            Where it comes from, and what a reader should know.
+        shown : str
+            Unit to show it in: forces in kN and stresses in MPa unless it says otherwise, "mm"
+            for a length in mm, "%" for a ratio in per cent.
+
+        Returns
+        -------
+        float
+            The number.
+
+        Raises
+        ------
+        CheckError
+            If the symbol is taken or no name, or the value is NaN.
+        """
+        return _single(self._add(symbol, float(value), unit, source=source, note=note, shown=shown))
+
+    def given_each(
+        self,
+        symbol: str,
+        values: Sequence[float],
+        unit: str = "-",
+        *,
+        source: str = "",
+        note: str = "",
+        shown: str = "",
+    ) -> tuple[float, ...]:
+        """Enter a number for each of several (bearings, storeys), as `given`, and return them."""
+        found = tuple(map(float, values))
+        return _several(self._add(symbol, found, unit, source=source, note=note, shown=shown))
+
+    def looked_up(
+        self,
+        symbol: str,
+        value: float,
+        at: Sequence[str],
+        unit: str = "-",
+        *,
+        source: str = "",
+        note: str = "",
+        shown: str = "",
+    ) -> float:
+        """Enter a number that a table or a spectrum has at values above, as `given`.
+
+        Parameters
+        ----------
+        symbol, value, unit, source, note, shown
+            As in `given`.
+        at : sequence of str
+            Symbols of what it was looked up at.
+
+        Returns
+        -------
+        float
+            The number.
+        """
+        found = self._add(
+            symbol, float(value), unit, entered=at, source=source, note=note, shown=shown
+        )
+        return _single(found)
+
+    def __call__(
+        self,
+        symbol: str,
+        formula: str,
+        unit: str = "-",
+        *,
+        source: str = "",
+        note: str = "",
+        shown: str = "",
+    ) -> float:
+        """Evaluate a formula, enter its line and return its value.
+
+        Parameters
+        ----------
+        symbol : str
+            Name of what it gives.
+        formula : str
+            As `parse` has it, of names that stand above.
+        unit, source, note, shown : str
+            As in `given`.
+
+        Returns
+        -------
+        float
+            The value, in `unit`.
+
+        Raises
+        ------
+        CheckError
+            If a name is not known, or the value is NaN, infinite or no single number.
+        """
+        return _single(self._formed(symbol, formula, unit, source, note, shown))
+
+    def each(
+        self,
+        symbol: str,
+        formula: str,
+        unit: str = "-",
+        *,
+        source: str = "",
+        note: str = "",
+        shown: str = "",
+    ) -> tuple[float, ...]:
+        """Evaluate a formula for each of several, as a call does for one, and return the values."""
+        return _several(self._formed(symbol, formula, unit, source, note, shown))
+
+    def of(self, *symbols: str) -> Trace:
+        """Return the calculation of some symbols alone: them, and all that they follow from."""
+        wanted, queue = set[str](), list(symbols)
+        while queue:
+            name = queue.pop()
+            if name not in wanted:
+                wanted.add(name)
+                queue += [e.symbol for e in self[name].entered]
+        return Trace(step for step in self if step.symbol in wanted)
+
+    def copy(self) -> Trace:
+        """Return the same calculation, to be gone on with apart."""
+        return Trace(self)
+
+    def value(self, symbol: str) -> float:
+        """Return the number of a symbol."""
+        return _single(self[symbol])
+
+    def values(self, symbol: str) -> tuple[float, ...]:
+        """Return the numbers of a symbol of several."""
+        return _several(self[symbol])
+
+    def text(self) -> str:
+        """Return all lines, each with its source and note."""
+        return "\n".join(
+            "   ".join(part for part in (step.text(), step.said) if part) for step in self
+        )
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td style='text-align: left'>{step.mathml()}</td>"
+            f"<td style='text-align: left'>{escape(step.said)}</td></tr>"
+            for step in self
+        )
+        return f"<table>{rows}</table>"
+
+    def __getitem__(self, symbol: str) -> Step:
+        """Return the line of a symbol."""
+        if symbol not in self._steps:
+            msg = f"no {symbol!r} in the calculation: it has {', '.join(self._steps) or 'nothing'}"
+            raise CheckError(msg)
+        return self._steps[symbol]
+
+    def __contains__(self, symbol: object) -> bool:
+        return symbol in self._steps
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self._steps.values())
+
+    def __len__(self) -> int:
+        return len(self._steps)
+
+    def __repr__(self) -> str:
+        """Return the symbols."""
+        return f"Trace of {', '.join(self._steps) or 'nothing'}"
+
+    def _formed(
+        self, symbol: str, formula: str, unit: str, source: str, note: str, shown: str
+    ) -> Step:
+        tree = parse(formula)
+        entered = names(tree)
+        try:
+            found = evaluate(tree, {name: self[name].value for name in entered})
+        except ValueError as cause:
+            msg = f"{symbol} = {formula} takes together what there are unlike numbers of: {cause}"
+            raise CheckError(msg) from cause
+        numbers = found if isinstance(found, tuple) else (found,)
+        if not all(map(math.isfinite, numbers)):
+            where = ", ".join(f"{name} = {self[name].result}" for name in entered)
+            msg = f"{symbol} = {formula} has no finite value at {where}: see what was given"
+            raise CheckError(msg)
+        return self._add(
+            symbol, found, unit, formula, entered, source=source, note=note, shown=shown
+        )
+
+    def _add(
+        self,
+        symbol: str,
+        value: Value,
+        unit: str,
+        formula: str = "",
+        entered: Sequence[str] = (),
+        *,
+        source: str,
+        note: str,
+        shown: str,
+    ) -> Step:
+        if not symbol.isidentifier() or symbol in RESERVED or symbol in self._steps:
+            why = "is taken" if symbol in self._steps else "is no name for a formula"
+            msg = f"symbol {symbol!r} {why}: a calculation has each once, of letters, digits and _"
+            raise CheckError(msg)
+        if any(map(math.isnan, value if isinstance(value, tuple) else (value,))):
+            msg = f"{symbol} = {value} is not a number: give one in {unit}"
+            raise CheckError(msg)
+        shown = shown or usual_unit(unit)
+        try:
+            scale(unit, shown)
+        except KeyError as cause:
+            msg = f"{symbol} is in {unit}, which cannot be shown in {shown!r}: leave it out"
+            raise CheckError(msg) from cause
+        quantities = tuple(self[name].result for name in entered)
+        step = Step(Quantity(symbol, value, unit, shown), formula, quantities, source, note)
+        self._steps[symbol] = step
+        return step
+
+
+def _single(step: Step) -> float:
+    if isinstance(step.value, tuple):
+        msg = f"{step.symbol} has {len(step.value)} values: take sum, min or max, or use `each`"
+        raise CheckError(msg)
+    return step.value
+
+
+def _several(step: Step) -> tuple[float, ...]:
+    if isinstance(step.value, float):
+        msg = f"{step.symbol} has one value: call the calculation itself for it"
+        raise CheckError(msg)
+    return step.value

@@ -1,0 +1,57 @@
+"""Checks whose demand a model cannot tell: never passed, and they say why."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from frames.design.calculation.check import Checks
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from frames.design.calculation.check import Check
+
+OF_AXIAL_FORCES = ("N", "t_up", "g", "N_land")
+"""Symbols of axial force, time lifted off, gap and force of landing in checks of time histories."""
+
+NOT_EVALUATED = "not evaluated"
+"""Stands in the title of a check that was not evaluated."""
+
+
+def not_evaluated(checks: Iterable[Check], why: str, needs: Iterable[str] = ()) -> Checks:
+    """Return checks that do not pass, for what they need is not known.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        The checks.
+    why : str
+        Why it is not known; if empty, all checks are returned as they are.
+    needs : iterable of str
+        Only checks whose calculation has one of these symbols; all of them if none is given.
+
+    Returns
+    -------
+    Checks
+        In place of each a check without a demand: infinite, on the side that does not pass. Its
+        note begins with the reason.
+    """
+    symbols = tuple(needs)
+    return Checks(
+        _without_demand(check, why)
+        if why and (not symbols or any(symbol in check.trace for symbol in symbols))
+        else check
+        for check in checks
+    )
+
+
+def _without_demand(check: Check, why: str) -> Check:
+    if math.isinf(check.limit):
+        return check  # nothing is asked
+    worst = math.inf if check.relation == "<=" else -math.inf
+    return replace(
+        check, demand=worst, title=f"{check.title}: {NOT_EVALUATED}", scope="any",
+        note=f"{why}; {check.note}" if check.note else why,
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Design codes: equivalent-linear analysis, rules of histories, property bounds."""

@@ -1,0 +1,271 @@
+"""Equivalent lateral force analysis and checks of ASCE 7-22, chapter 17."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.codes.common import (
+    capacity_check,
+    drift_checks,
+    eccentricities,
+    enter_restoring,
+    enter_storeys,
+    overturning,
+    vertical_checks,
+)
+from frames.design.codes.levels import MCE_R
+from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+
+if TYPE_CHECKING:
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
+    from frames.design.hazard.spectrum import Spectrum
+
+_SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ASCE7:
+    """Factors of ASCE 7-22, chapter 17; clause numbers to be confirmed against the standard.
+
+    Parameters
+    ----------
+    accidental_eccentricity : float
+        Share of the longest side of the plan (17.5.3.3).
+    least_torsion : float
+        Least D_TM over D_M (17.5.3.3).
+    restoring : float
+        Force that the second half of D_M must add, over W (17.2.4.4).
+    exponent : float
+        Of damping in (17.5-7): 3.5 where sliding sets in abruptly, as on the concave surfaces of
+        all bearings here; 2.5 where the transition is gradual.
+    response_share, largest_reduction : float
+        R_I = 3/8 R, between 1 and 2 (17.5.4.2).
+    activation : float
+        Factor on the nominal force that starts sliding (17.5.4.3).
+    drift : float
+        Limit of storey drift over height (17.5.6).
+    longest_period, most_damping, period_ratio, stiffness_ratio, storeys, height : float
+        Limits of the procedure (17.4.1): T_M [s], beta_M, T_M over T_fb, k(D_M) over k(0.2 D_M);
+        storeys and height [m] count unless `no_tension`.
+    history_share : float
+        Of V_s that time histories keep at least (17.6.4): 1 until the edition's wording is read,
+        which is on the safe side; ASCE 7-10 had 0.6, and 0.8 of irregular structures.
+    irregular : bool
+        Whether the structure is irregular: the procedure does not apply then (17.4.1).
+    no_tension : bool
+        Whether analysis shows that no bearing is pulled or lifts, so that height is free.
+    orthogonal : float
+        Share of the other direction's overturning that acts with it.
+    pressure_limit : float, optional
+        Pressure that the sliders stand [Pa] (17.2.4.6).
+
+    Notes
+    -----
+    The centre of mass is the system's, else that of its loads, unless it has an eccentricity.
+    V_s is at least the force that starts sliding, not reduced by weight or R_I, which is on the
+    safe side.
+    """
+
+    accidental_eccentricity: float = 0.05
+    least_torsion: float = 1.15
+    restoring: float = 0.025
+    exponent: float = 3.5
+    response_share: float = 3.0 / 8.0
+    largest_reduction: float = 2.0
+    activation: float = 1.5
+    drift: float = 0.015
+    longest_period: float = 5.0
+    most_damping: float = 0.30
+    period_ratio: float = 3.0
+    stiffness_ratio: float = 1.0 / 3.0
+    storeys: float = 4.0
+    height: float = 19.8
+    history_share: float = 1.0
+    irregular: bool = False
+    no_tension: bool = False
+    orthogonal: float = 0.3
+    pressure_limit: float | None = None
+    name: ClassVar[str] = "ASCE 7-22"
+    spectra: ClassVar[str] = "ASCE 7"
+
+    def analyse(
+        self,
+        system: IsolationSystem,
+        spectrum: Spectrum,
+        bound: Bound,
+        superstructure: Superstructure | None,
+        extremes: Extremes,
+    ) -> BoundResult:
+        """Return analysis and checks at one bound.
+
+        Parameters
+        ----------
+        system : IsolationSystem
+            With properties at that bound.
+        spectrum : Spectrum
+            MCE_R.
+        bound : {"lower", "nominal", "upper"}
+            The bound.
+        superstructure : Superstructure, optional
+            What stands on it.
+        extremes : Extremes
+            The system with nominal and with upper properties.
+
+        Returns
+        -------
+        BoundResult
+            The analysis.
+
+        Raises
+        ------
+        CheckError
+            If the spectrum has no S_MS or S_M1, or no displacement is found.
+        """
+        missing = [name for name in ("S_MS", "S_M1") if name not in spectrum.parameters]
+        if missing:
+            msg = f"the spectrum has no {' and '.join(missing)}: give one made by Spectrum.asce7"
+            raise CheckError(msg)
+        s_m1 = spectrum.parameters["S_M1"]
+
+        def step(displacement: float) -> Trace:
+            t = enter_system(system)
+            t.given("S_MS", spectrum.parameters["S_MS"], note="in g")
+            t.given("S_M1", s_m1, note="in g")
+            t.given("D_0", displacement, "m", note="assumed, and found again")
+            secant(t, "D_0", _SYMBOLS, "ASCE 7-22 17.2.8, (17.5-2)")
+            factor = spectrum.damping_factor(t.value("beta_M"))
+            t.looked_up("B_M", factor, ["beta_M"], source="ASCE 7-22 Table 17.5-1")
+            source = "ASCE 7-22 (17.5-1)"
+            t("D_M", "g * S_M1 * T_M / (4 * pi**2 * B_M)", "m", source=source, shown="mm")
+            return t
+
+        start = system.gravity * s_m1 / 10.0
+        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
+        for pendulum in system.pendulums:
+            pendulum.require_sliding(t.value("D_M"))
+        self._total(t, system)
+        t("V_b", "k_M * D_M", "N", source="ASCE 7-22 (17.5-5)")
+        judge = CheckBuilder(t, bound, level=MCE_R)
+        checks = self._device_checks(t, system, judge)
+        if superstructure is not None:
+            self._shears(t, superstructure, spectrum, extremes)
+            checks += self._structure_checks(t, superstructure, judge)
+            overturning(t, "M_o", "o")
+            clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
+            checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
+        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
+        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("D_T"), forces, checks)
+
+    def _total(self, t: Trace, system: IsolationSystem) -> None:
+        source = "ASCE 7-22 (17.5-3)"
+        t.given("a_e", self.accidental_eccentricity, source="ASCE 7-22 17.5.3.3")
+        t.given("a_T", self.least_torsion, source="ASCE 7-22 17.5.3.3")
+        eccentricities(t, system, "a_e", source, by_direction=False)
+        t.given("N", float(len(system.loads)), note="bearings")
+        t("r_I", "sqrt((b**2 + d**2) / 12)", "m", source="ASCE 7-22 (17.5-4)")
+        formula = "max(sqrt(sum((x - x_M)**2 + (y - y_M)**2) / N) / r_I, 1)"
+        t("P_T", formula, source="ASCE 7-22 (17.5-4)")
+        for along, across in (("x", "y"), ("y", "x")):
+            t.each(
+                f"D_T{along}",
+                f"D_M * max(1 + abs({across} - {across}_R) / P_T**2 * 12 * e_{across} "
+                "/ (b**2 + d**2), a_T)",
+                "m", source=source, shown="mm", note=f"of each bearing, motion along {along}",
+            )  # fmt: skip
+        t.each("D_T", "max(D_Tx, D_Ty)", "m", shown="mm")
+        t("D_TM", "max(D_T)", "m", source=source, shown="mm")
+
+    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        enter_restoring(t, "D_M", self.restoring)
+        t.given("T_lim", self.longest_period, "s")
+        t.given("beta_lim", self.most_damping, shown="%")
+        t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
+        t.given("a_k", self.stiffness_ratio)
+        t("k_lim", "a_k * k_02", "N/m")
+        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
+        return Checks(
+            [
+                capacity_check(t, system, judge, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
+                judge("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+                limit(limits, "effective period", "T_M", "<=", "T_lim"),
+                limit(limits, "effective damping", "beta_M", "<=", "beta_lim"),
+                limit(limits, "stiffness over that at 0.2 D_M", "k_M", ">=", "k_lim"),
+            ]
+        )
+
+    def _shears(
+        self,
+        t: Trace,
+        above: Superstructure,
+        spectrum: Spectrum,
+        extremes: Extremes,
+    ) -> None:
+        enter_storeys(t, above)
+        t("W_s", "sum(w_x)", "N")
+        t.given("n_beta", self.exponent, source="ASCE 7-22 (17.5-7)")
+        source = "ASCE 7-22 (17.5-7)"
+        t("V_st", "V_b * (W_s / W)**(1 - n_beta * beta_M)", "N", source=source)
+        t.given("R", above.R)
+        t.given("a_I", self.response_share)
+        t.given("R_max", self.largest_reduction)
+        t("R_I", "min(max(a_I * R, 1), R_max)", source="ASCE 7-22 17.5.4.2")
+        t("V_red", "V_st / R_I", "N", source="ASCE 7-22 (17.5-6)")
+        least = "ASCE 7-22 17.5.4.3"
+        t("S_DS", "2 / 3 * S_MS", source="ASCE 7-22 (11.4-3)")
+        t("S_D1", "2 / 3 * S_M1", source="ASCE 7-22 (11.4-4)")
+        t.given("I_e", above.importance)
+        formula = "max(min(S_DS, S_D1 / T_M) * I_e / R, 0.044 * S_DS * I_e, 0.01)"
+        t("C_s", formula, source="ASCE 7-22 12.8.1.1", note="fixed base, at T_M")
+        t("V_fixed", "C_s * W_s", "N", source=least)
+        t.given("V_wind", above.wind_shear, "N", source=least)
+        t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
+        t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
+        t.given("a_Q", self.activation)
+        t("V_act", "max(Q_up, a_Q * Q_nom)", "N", source=least)
+        t("V_s", "max(V_red, V_fixed, V_wind, V_act)", "N", source="ASCE 7-22 17.5.4")
+        t.given("T_fb", above.fixed_base_period, "s")
+        vertical = "ASCE 7-22 17.5.5"
+        t("F_1", "(V_b - V_st) / R_I", "N", source="ASCE 7-22 (17.5-8)", note="at the base level")
+        t("k_v", "14 * beta_M * T_fb", source="ASCE 7-22 (17.5-11)", note="exponent; T_fb in s")
+        t.each("C_vx", "w_x * h_x**k_v / sum(w_x * h_x**k_v)", source=vertical)
+        t.each("F_x", "C_vx * V_s", "N", source="ASCE 7-22 (17.5-9)")
+        t("M_o", "sum(C_vx * V_st * h_x)", "N m", note="overturning, unreduced")
+        t.given("o", self.orthogonal, note="share of the other direction")
+        self._dynamic_minima(t)
+
+    def _dynamic_minima(self, t: Trace) -> None:
+        source = "ASCE 7-22 17.6.4"
+        t.given("a_dyn", self.history_share, source=source)
+        t("D_prime_M", "D_M / sqrt(1 + (T_fb / T_M)**2)", "m", source="ASCE 7-22 (17.6-1)",
+          shown="mm")  # fmt: skip
+        note = "least of a time history"
+        formula = "0.8 * D_TM * D_prime_M / D_M"
+        t("D_TM_dyn", formula, "m", source=source, note=note, shown="mm")
+        t("V_b_dyn", "0.9 * V_b", "N", source=source, note=note)
+        t("V_s_dyn", "a_dyn * V_s", "N", source=source, note=note)
+
+    def _structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
+        t.given("a_fb", self.period_ratio)
+        t("T_least", "a_fb * T_fb", "s")
+        found: list[Check] = [limit(limits, "period over fixed base", "T_M", ">=", "T_least")]
+        if self.irregular:
+            t.given("n_irr", 1.0, note="irregular, as given")
+            t.given("n_irr_lim", 0.0)
+            found.append(limit(limits, "irregular structure", "n_irr", "<=", "n_irr_lim"))
+        if not self.no_tension:
+            t.given("n", float(len(above.storey_weights)))
+            t.given("n_lim", self.storeys)
+            t("h_n", "max(h_x)", "m")
+            t.given("h_lim", self.height, "m")
+            found.append(limit(limits, "storeys", "n", "<=", "n_lim"))
+            found.append(limit(limits, "height", "h_n", "<=", "h_lim"))
+        clause = "ASCE 7-22 17.5.6"
+        drift = drift_checks(t, above, judge, clause, limit=self.drift, factor="R_I")
+        return Checks([*found, *drift])

@@ -1,0 +1,261 @@
+"""What the codes share of torsion, overturning, vertical loads, rims and drifts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.unevaluated import not_evaluated
+from frames.design.codes.secant import CheckBuilder
+from lir_element.device.bearing import LIRBearing
+
+_SAME_CENTRE = 1e-3
+"""Distance of two centres over the side of the plan, below which they are one."""
+
+if TYPE_CHECKING:
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
+
+
+def eccentricities(
+    t: Trace, system: IsolationSystem, accidental: str, source: str, *, by_direction: bool
+) -> None:
+    """Enter plan, distances from the centres, and eccentricities e_x and e_y.
+
+    Parameters
+    ----------
+    t : Trace
+        With loads P and forces F of the bearings.
+    system : IsolationSystem
+        The system.
+    accidental : str
+        Symbol of the accidental eccentricity over the side.
+    source : str
+        Clause.
+    by_direction : bool
+        Whether the accidental eccentricity along an axis goes by the side along that axis, or by
+        the longest side whichever the axis.
+    """
+    t.given("b", system.plan[0], "m", note="side of the plan along x")
+    t.given("d", system.plan[1], "m", note="side of the plan along y")
+    for k, axis in enumerate("xy"):
+        t.given_each(axis, [place[k] for place in system.positions], "m")
+        t(f"{axis}_R", f"sum(F * {axis}) / sum(F)", "m", note="centre of stiffness")
+        if system.eccentricity is not None:
+            t.given(f"e_{axis}0", system.eccentricity[k], "m", note="as given")
+            t(f"{axis}_M", f"{axis}_R + e_{axis}0", "m", note="centre of mass")
+        elif system.centre_of_mass is not None:
+            t.given(f"{axis}_M", system.centre_of_mass[k], "m", note=_of_masses(system, k))
+        else:
+            t(f"{axis}_M", f"sum(P * {axis}) / sum(P)", "m", note="centre of mass, by the loads")
+    sides = {"x": "b", "y": "d"} if by_direction else dict.fromkeys("xy", "max(b, d)")
+    for axis, side in sides.items():
+        t(f"e_{axis}", f"abs({axis}_M - {axis}_R) + {accidental} * {side}", "m", source=source)
+
+
+def _of_masses(system: IsolationSystem, k: int) -> str:
+    # Where the centre of mass is from, and why that of the loads is another.
+    pairs = zip(system.loads, system.positions, strict=True)
+    centre = sum(load * place[k] for load, place in pairs) / sum(system.loads)
+    given = 0.0 if system.centre_of_mass is None else system.centre_of_mass[k]
+    if abs(centre - given) <= _SAME_CENTRE * system.plan[k]:
+        return "centre of mass, of the model's masses"
+    why = "the model holds its tilt" if system.unknown_loads else "loads that are not masses"
+    own = f"{round(centre, 3) + 0.0:.3f} m"
+    return f"centre of mass, of the model's masses; that of the bearings' loads: {own}, {why}"
+
+
+def enter_storeys(t: Trace, above: Superstructure) -> None:
+    """Enter w_x and h_x, weights and elevations of the floors."""
+    t.given_each("w_x", above.storey_weights, "N", note="floors, lowest first")
+    t.given_each("h_x", above.elevations, "m", note="above the base level")
+
+
+def enter_restoring(t: Trace, displacement: str, share: float) -> None:
+    """Enter Delta_F, the force that the second half of a displacement adds, and its limit.
+
+    Parameters
+    ----------
+    t : Trace
+        With loads P, radii L, frictions mu and the weight W.
+    displacement : str
+        Symbol of the displacement.
+    share : float
+        Of the weight that the force must reach.
+    """
+    d = displacement
+    t.given("a_R", share)
+    t("Delta_F", f"sum(P * ({d} / L + mu)) - sum(P * ({d} / (2 * L) + mu))", "N")
+    t("Delta_F_lim", "a_R * W", "N")
+
+
+def overturning(t: Trace, moment: str, share: str) -> None:
+    """Enter N_E, axial loads of the bearings from an overturning moment in any direction.
+
+    The base is rigid: loads go by the distance from the bearings' centre; `share` of what the
+    other direction gives adds. A direction in which all bearings stand in one line has no lever
+    and is left out.
+
+    Parameters
+    ----------
+    t : Trace
+        With the bearings' places x and y.
+    moment, share : str
+        Symbols of the moment, and of the share.
+    """
+    t.given("n_b", float(len(t.values("x"))), note="bearings")
+    loads: list[str] = []
+    for axis in "xy":
+        t.each(f"l_{axis}", f"{axis} - sum({axis}) / n_b", "m", note="levers")
+        if t(f"I_{axis}", f"sum(l_{axis}**2)", "m2") > 0.0:
+            loads.append(f"N_E{axis}")
+            t.each(loads[-1], f"{moment} * abs(l_{axis}) / I_{axis}", "N")
+    if len(loads) == 2:
+        one, two = loads
+        formula = f"max({one} + {share} * {two}, {share} * {one} + {two})"
+    else:
+        formula = loads[0] if loads else f"0 * {moment} * x"
+    t.each("N_E", formula, "N", note="axial loads from overturning, rigid base")
+
+
+def vertical_checks(
+    t: Trace,
+    system: IsolationSystem,
+    judge: CheckBuilder,
+    clause: str,
+    pressure_limit: float | None,
+) -> Checks:
+    """Return the checks of axial loads: no uplift, and pressure on the sliders.
+
+    Parameters
+    ----------
+    t : Trace
+        With axial loads N_E from overturning; the loads of all combinations are entered.
+    system : IsolationSystem
+        The system with its combinations.
+    judge : CheckBuilder
+        Makes the checks.
+    clause : str
+        Clause.
+    pressure_limit : float, optional
+        Pressure that sliders stand at the largest displacement [Pa]; not checked if None.
+
+    Returns
+    -------
+    Checks
+        For each combination the bearing that is worst; not evaluated where the loads of single
+        bearings are not known.
+
+    Raises
+    ------
+    CheckError
+        If pressure is to be checked of something that has no slider.
+    """
+    found: list[Check] = []
+    sliders = [b.slider_radius for b in system.bearings if isinstance(b, LIRBearing)]
+    if system.combinations:
+        t.given("N_0", 0.0, "N")
+    if pressure_limit is not None and system.combinations:
+        if len(sliders) < len(system.bearings):
+            msg = "pressure_limit needs bearings with a slider_radius: give LIRBearing for all"
+            raise CheckError(msg)
+        t.given_each("r_s", sliders, "m", note="radius of the sliders")
+        t.given("p_lim", pressure_limit, "Pa")
+    for name, loads in system.combinations.items():
+        word = name if name.isidentifier() else f"c{len(found)}"
+        t.given_each(f"N_{word}", loads, "N", note=f"combination {name}, without earthquake")
+        t.each(f"N_least_{word}", f"N_{word} - N_E", "N")
+        found.append(
+            judge.of("procedure").worst(
+                clause, f"no uplift, {name}", f"N_least_{word}", ">=", "N_0",
+                subjects=system.labels,
+            )
+        )  # fmt: skip
+        if "p_lim" in t:
+            t.each(f"p_{word}", f"(N_{word} + N_E) / (pi * r_s**2)", "Pa")
+            found.append(
+                judge.of("demand").worst(
+                    clause, f"pressure on the slider, {name}", f"p_{word}", "<=", "p_lim",
+                    subjects=system.labels,
+                )
+            )  # fmt: skip
+    why = system.unknown_loads
+    if not why and len(system.loads) == 1 and t.value("M_o") > 0.0:
+        why = "one bearing has no lever against the overturning moment M_o"
+    return not_evaluated(found, why)
+
+
+def capacity_check(
+    t: Trace, system: IsolationSystem, judge: CheckBuilder, clause: str, demand: str
+) -> Check:
+    """Return the check of the rims' displacement against the demand, for the worst bearing.
+
+    Parameters
+    ----------
+    t : Trace
+        With the demand of each bearing.
+    system : IsolationSystem
+        The system.
+    judge : CheckBuilder
+        Makes the check.
+    clause, demand : str
+        Clause, and symbol of the demand.
+
+    Returns
+    -------
+    Check
+        Its note says where the rim is met.
+    """
+    t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
+                 note="displacement at the first rim contact")  # fmt: skip
+    title = "rims free at the total displacement"
+    limit = judge.of("procedure")
+    check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
+    if check.passed:
+        return check
+    note = (
+        f"the rim is met at {100.0 / check.ratio:.0f} % of the displacement: equivalent-linear "
+        "analysis does not hold, do a time history with the rims modelled"
+    )
+    return replace(check, note=note)
+
+
+def drift_checks(
+    t: Trace, above: Superstructure, judge: CheckBuilder, clause: str, *, limit: float, factor: str
+) -> Checks:
+    """Return the check of storey drifts under the floors' forces F_x, for the worst storey.
+
+    Parameters
+    ----------
+    t : Trace
+        With the forces.
+    above : Superstructure
+        With the stiffness of its storeys.
+    judge : CheckBuilder
+        Makes the check.
+    clause : str
+        Clause.
+    limit : float
+        Drift over height [-].
+    factor : str
+        What the drifts are multiplied by, a formula.
+
+    Returns
+    -------
+    Checks
+        One check; none where the storeys' stiffness is not known.
+    """
+    if above.storey_stiffness is None:
+        return Checks()
+    t.given_each("k_x", above.storey_stiffness, "N/m")
+    t.given_each("h_s", above.storey_heights, "m")
+    t.given("a_d", limit)
+    note = "above: sum over the storey and those above it"
+    t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm", note=note)
+    t.each("Delta_a", "a_d * h_s", "m", shown="mm")
+    names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
+    found = judge.of("demand")
+    return Checks([found.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])

@@ -1,0 +1,235 @@
+"""Equivalent linear analysis and checks of EN 1998-1 chapter 10, EN 1998-2 chapter 7, EN 15129."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Bound, Checks
+from frames.design.codes.common import (
+    capacity_check,
+    drift_checks,
+    eccentricities,
+    enter_restoring,
+    enter_storeys,
+    overturning,
+    vertical_checks,
+)
+from frames.design.codes.levels import DESIGN
+from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+
+if TYPE_CHECKING:
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
+    from frames.design.hazard.spectrum import Spectrum
+
+_SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
+
+
+@dataclass(frozen=True, kw_only=True)
+class EN1998:
+    """Factors of EN 1998-1 and -2 and EN 15129; clause numbers to be confirmed.
+
+    Parameters
+    ----------
+    reliability : float
+        Factor on the displacement that bearings must allow: gamma_x = 1.2 for buildings
+        (EN 1998-1 10.3), gamma_IS = 1.5 for bridges (EN 1998-2 7.6.2).
+    accidental_eccentricity : float
+        Over the side of the plan (EN 1998-1 4.3.2).
+    behaviour : float
+        Behaviour factor q of the superstructure, 1.5 at most (EN 1998-1 10.10).
+    energy_ratio : float
+        Least stored over dissipated energy, E_S / E_H (EN 15129 4.3).
+    recentring : float
+        Least displacement over the largest residual one, d_cd / d_r (EN 1998-2 7.7.1).
+    restoring : float
+        Force that the second half of the displacement must add, over W (EN 1998-1 10.9.2).
+    stiffness_ratio, most_damping : float
+        Least K_eff over that at 0.2 d_dc, and largest damping (EN 1998-1 10.9.2).
+    property_variation : float, optional
+        How far properties vary with rate and load in the range of interest [-], from tests.
+    most_variation : float
+        Its limit (EN 1998-1 10.9.2).
+    simplified : bool
+        Whether the limits of the simplified linear analysis are checked (EN 1998-1 10.9.3).
+    fault_distance : float, optional
+        Distance of the nearest fault of magnitude 6.5 and more [m], for these limits.
+    least_distance, largest_side, longest_period, period_ratio, vertical_period : float
+        These limits: distance [m], side of the plan [m], T_eff [s], T_eff over T_f, T_v [s].
+    drift, reduction : float
+        Limit of storey drift over height, 0.005 with brittle elements up to 0.010, and factor nu
+        on the drift for the more frequent earthquake (EN 1998-1 4.4.3.2).
+    orthogonal : float
+        Share of the other direction's overturning that acts with it (EN 1998-1 4.3.3.5).
+    pressure_limit : float, optional
+        Pressure that the sliders stand [Pa].
+    """
+
+    reliability: float = 1.2
+    accidental_eccentricity: float = 0.05
+    behaviour: float = 1.5
+    energy_ratio: float = 0.25
+    recentring: float = 0.5
+    restoring: float = 0.025
+    stiffness_ratio: float = 0.5
+    most_damping: float = 0.30
+    property_variation: float | None = None
+    most_variation: float = 0.10
+    simplified: bool = False
+    fault_distance: float | None = None
+    least_distance: float = 15e3
+    largest_side: float = 50.0
+    longest_period: float = 3.0
+    period_ratio: float = 3.0
+    vertical_period: float = 0.1
+    drift: float = 0.005
+    reduction: float = 0.5
+    orthogonal: float = 0.3
+    pressure_limit: float | None = None
+    name: ClassVar[str] = "EN 1998"
+    spectra: ClassVar[str] = "EN 1998"
+
+    def analyse(
+        self,
+        system: IsolationSystem,
+        spectrum: Spectrum,
+        bound: Bound,
+        superstructure: Superstructure | None,
+        extremes: Extremes,
+    ) -> BoundResult:
+        """Return analysis and checks at one bound, as `ASCE7.analyse`; `extremes` is not used."""
+        if self.simplified:
+            self._require_simplified(superstructure)
+
+        def step(displacement: float) -> Trace:
+            t = enter_system(system)
+            t.given("d_0", displacement, "m", note="assumed, and found again")
+            secant(t, "d_0", _SYMBOLS, "EN 1998-1 10.9.2; EN 15129 8.3")
+            damping = t.value("xi_eff")
+            factor = spectrum.damping_factor(damping)
+            t.looked_up("eta", 1.0 / factor, ["xi_eff"], source="EN 1998-1 (3.6)")
+            acceleration = spectrum.acceleration(t.value("T_eff"), damping)
+            at, source = ["T_eff", "xi_eff"], "EN 1998-1 3.2.2.2"
+            t.looked_up("S_e", float(acceleration), at, "m/s2", source=source)
+            t("M", "W / g", "kg", shown="t")
+            t("d_dc", "M * S_e / K_eff", "m", source="EN 1998-1 (10.4)", shown="mm")
+            return t
+
+        start = 0.1 * max(p.effective_radius for p in system.pendulums)
+        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
+        for pendulum in system.pendulums:
+            pendulum.require_sliding(t.value("d_dc"))
+        self._torsion(t, system)
+        t("V_b", "K_eff * d_dc", "N", source="EN 1998-1 10.9.3")
+        judge = CheckBuilder(t, bound, level=DESIGN)
+        checks = self._device_checks(t, system, judge)
+        if superstructure is not None:
+            self._shears(t, superstructure)
+            t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
+            clause = "EN 1998-1 4.4.3.2"
+            limit = self.drift
+            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="nu * q")
+            overturning(t, "M_o", "o")
+            clause = "EN 15129 8.3, EN 1998-1 10.10"
+            checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
+            if self.simplified:
+                checks += self._simplified_checks(t, superstructure, judge)
+        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
+        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_bi"), forces, checks)
+
+    def _torsion(self, t: Trace, system: IsolationSystem) -> None:
+        t.given("a_e", self.accidental_eccentricity, source="EN 1998-1 4.3.2")
+        source = "EN 1998-1 (10.5)"
+        eccentricities(t, system, "a_e", "EN 1998-1 4.3.2", by_direction=True)
+        t.each("x_i", "x - x_R", "m")
+        t.each("y_i", "y - y_R", "m")
+        t("r2", "sum(F * (x_i**2 + y_i**2)) / sum(F)", "m2", note="torsional radius squared")
+        for along, across in (("x", "y"), ("y", "x")):
+            lever = f"e_{across} / r2" if t.value("r2") > 0.0 else "0"
+            formula = f"1 + {lever} * abs({across}_i)"
+            t.each(f"delta_{along}", formula, source=source, note=f"motion along {along}")
+        t.each("d_bi", "d_dc * max(delta_x, delta_y)", "m", shown="mm")
+        t.given("gamma_x", self.reliability)
+        t.each("d_Ed", "gamma_x * d_bi", "m", source="EN 1998-1 10.3", shown="mm")
+        t("d_bd", "max(d_bi)", "m", shown="mm")
+        t("d_max", "max(d_Ed)", "m", shown="mm", note="that bearings must allow")
+
+    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        t.given("a_k", self.stiffness_ratio)
+        t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
+        t("K_lim", "a_k * K_02", "N/m")
+        t.given("xi_lim", self.most_damping, shown="%")
+        enter_restoring(t, "d_dc", self.restoring)
+        t.given("a_S", self.energy_ratio)
+        t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
+        t.each("E_H", "P * mu * d_dc", "J", source="EN 15129 4.3", note="dissipated, 0 to d_dc")
+        t.each("E_lim", "a_S * E_H", "J")
+        t.given("a_r", self.recentring)
+        t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
+        t.each("d_least", "a_r * d_r", "m", shown="mm")
+        limits, names = "EN 1998-1 10.9.2", system.labels
+        limit = judge.of("procedure")
+        found = [
+            capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed"),
+            judge.worst(
+                "EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names
+            ),
+            judge.worst(
+                "EN 1998-2 7.7.1", "recentring, displacement", "d_dc", ">=", "d_least",
+                subjects=names, note="else capacity must be d_o + gamma_du rho_d d_bi,d",
+            ),
+            limit(limits, "stiffness over that at 0.2 d_dc", "K_eff", ">=", "K_lim"),
+            limit(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
+            limit(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+        ]  # fmt: skip
+        if self.property_variation is not None:
+            t.given("v", self.property_variation, shown="%")
+            t.given("v_lim", self.most_variation, shown="%")
+            found.append(limit(limits, "variation of properties", "v", "<=", "v_lim"))
+        return Checks(found)
+
+    def _shears(self, t: Trace, above: Superstructure) -> None:
+        enter_storeys(t, above)
+        t.given("q", self.behaviour, source="EN 1998-1 10.10")
+        source = "EN 1998-1 (10.9)"
+        t.each("f_x", "w_x / g * S_e", "N", source=source, note="forces of the floors, q = 1")
+        t.each("F_x", "f_x / q", "N", note="design forces of the floors")
+        t("V_s", "sum(F_x)", "N", note="design shear above the base level")
+        t("F_1", "(W - sum(w_x)) / g * S_e / q", "N", source=source, note="at the base level")
+        t.given("T_f", above.fixed_base_period, "s")
+        t("M_o", "sum(f_x * h_x)", "N m", note="overturning, q = 1")
+        t.given("o", self.orthogonal, source="EN 1998-1 4.3.3.5")
+
+    def _require_simplified(self, above: Superstructure | None) -> None:
+        vertical = None if above is None else above.vertical_period
+        if self.fault_distance is None or vertical is None:
+            msg = (
+                "the limits of the simplified analysis need fault_distance of EN1998, and a "
+                "superstructure with its vertical_period: give them, or simplified=False"
+            )
+            raise CheckError(msg)
+
+    def _simplified_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        t("B_plan", "max(b, d)", "m")
+        t.given("B_lim", self.largest_side, "m")
+        t.given("T_lim", self.longest_period, "s")
+        t.given("r_f", self.fault_distance or 0.0, "m")
+        t.given("r_lim", self.least_distance, "m")
+        t.given("a_f", self.period_ratio)
+        t("T_least", "a_f * T_f", "s")
+        t.given("T_v", above.vertical_period or 0.0, "s")
+        t.given("T_v_lim", self.vertical_period, "s")
+        clause, limit = "EN 1998-1 10.9.3", judge.of("procedure")
+        return Checks(
+            [
+                limit(clause, "side of the plan", "B_plan", "<=", "B_lim"),
+                limit(clause, "effective period", "T_eff", "<=", "T_lim"),
+                limit(clause, "distance to the fault", "r_f", ">=", "r_lim"),
+                limit(clause, "period over fixed base", "T_eff", ">=", "T_least"),
+                limit(clause, "vertical period", "T_v", "<=", "T_v_lim"),
+            ]
+        )

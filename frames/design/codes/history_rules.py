@@ -1,0 +1,152 @@
+"""How codes count time histories: number of motions, mean or largest, what a failed run is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from frames.design._errors import CheckError
+from frames.design.codes.levels import DESIGN, MAXIMUM, MCE_R, NCH_MAXIMUM, ActionLevel
+from lir_element.argument_checks import (
+    require_between,
+    require_choice,
+    require_non_negative,
+    require_positive,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HistoryRules:
+    """Rules of a code for time histories; clause numbers to be confirmed against the standard.
+
+    `HISTORY_RULES` has those of three codes; `dataclasses.replace` changes a factor.
+
+    Parameters
+    ----------
+    code : str
+        Standard, as clauses begin.
+    least : int
+        Least number of motions.
+    mean_from : int
+        Number of motions from which on the mean of their largest values counts, below it the
+        largest.
+    drift : float, optional
+        Limit of the storey drift ratio [-]; None where the code has none for this level of motion.
+    displacement_factor : float
+        On the isolators' displacement [-].
+    uplift_allowed : bool
+        Whether bearings may lift off; where not, a run in which one does is unacceptable.
+    least_gap : float
+        Gap up to which a bearing counts as in contact all the same [m]. A proposal: what sliders
+        and liners under a common pressure spring back by, 60 MPa times 225 mm over 20 GPa
+        (docs/choices.md) is 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
+    unacceptable_allowed : int
+        How many runs may fail while the mean of the others stands for all: then the median of all
+        times `median_factor` is its lower bound.
+    median_factor : float
+        That factor [-].
+    engagement : float, optional
+        Share of the displacement below which rims must not engage [-]; that of the code,
+        `RIM_RULES`, if None.
+    has_minima : bool
+        Whether an equivalent-linear analysis gives least values.
+    levels : tuple of ActionLevel
+        Levels of the seismic action at which histories are run, and what is judged at each.
+    statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
+        Clauses; `uplift_clause` that of what bearings must keep where they lift off.
+    """
+
+    code: str
+    least: int
+    mean_from: int
+    drift: float | None = None
+    displacement_factor: float = 1.0
+    uplift_allowed: bool = False
+    least_gap: float = 1e-3
+    unacceptable_allowed: int = 0
+    median_factor: float = 1.2
+    engagement: float | None = None
+    has_minima: bool = False
+    levels: tuple[ActionLevel, ...] = (ActionLevel(DESIGN),)
+    statistic_clause: str = ""
+    displacement_clause: str = ""
+    drift_clause: str = ""
+    force_clause: str = ""
+    uplift_clause: str = ""
+
+    def __post_init__(self) -> None:
+        require_between("least", self.least, 1, 1000, "-", error=CheckError)
+        require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
+        require_between("displacement_factor", self.displacement_factor, 1.0, 10.0, "-",
+                        error=CheckError)  # fmt: skip
+        require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
+        require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
+        for name in ("drift", "engagement"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name), "-", error=CheckError)
+        if not self.levels:
+            msg = "levels is empty: give one level of the seismic action at least"
+            raise CheckError(msg)
+
+    def level(self, name: str = "") -> ActionLevel:
+        """Return a level by its name, the only one if "".
+
+        Parameters
+        ----------
+        name : str
+            Of one of `levels`.
+
+        Returns
+        -------
+        ActionLevel
+            That one.
+
+        Raises
+        ------
+        CheckError
+            If there is none of that name, or none is named of several.
+        """
+        names = [each.name for each in self.levels]
+        if not name and len(names) > 1:
+            factors = ", ".join(
+                f"{each.name!r} (motions times {each.factor:g}: {each.judges})"
+                for each in self.levels
+            )
+            msg = (
+                f"{self.code} judges at {len(names)} levels, {factors}: say of which the runs are, "
+                f"action_level={names[0]!r}"
+            )
+            raise CheckError(msg)
+        require_choice("action_level", name or names[0], tuple(names), error=CheckError)
+        return self.levels[names.index(name or names[0])]
+
+
+RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
+    "ASCE 7-22": "ASCE 7-22",
+    "EN 1998": "EN 1998-1",
+    "NCh2745": "NCh2745",
+}
+"""Rules for motions and time histories by the code of an equivalent-linear analysis."""
+
+HISTORY_RULES = {
+    "ASCE 7-22": HistoryRules(
+        code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True,
+        has_minima=True, levels=(ActionLevel(MCE_R),), statistic_clause="17.3.3",
+        displacement_clause="17.6.4", drift_clause="17.6.4.4", force_clause="17.6.4",
+        uplift_clause="17.2.4.7",
+    ),
+    "EN 1998-1": HistoryRules(
+        code="EN 1998-1", least=3, mean_from=7, displacement_factor=1.2,
+        statistic_clause="4.3.3.4.3(3)", displacement_clause="10.3(2)", drift_clause="4.4.3.2",
+        force_clause="10.10",
+    ),
+    "NCh2745": HistoryRules(
+        code="NCh2745", least=3, mean_from=7, drift=0.003, statistic_clause="8.4",
+        displacement_clause="8", drift_clause="8.8", force_clause="8",
+        levels=(
+            ActionLevel(DESIGN, judges="superstructure"),
+            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
+        ),
+    ),
+}  # fmt: skip
+"""Rules by code."""

@@ -1,0 +1,169 @@
+"""Static analysis and checks of NCh2745 (Chile)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from frames.design.calculation.check import Bound, Checks
+from frames.design.codes.common import (
+    capacity_check,
+    drift_checks,
+    eccentricities,
+    enter_restoring,
+    enter_storeys,
+    overturning,
+    vertical_checks,
+)
+from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM
+from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+
+if TYPE_CHECKING:
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
+    from frames.design.hazard.spectrum import Spectrum
+
+_DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
+_MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+_LONG = 4.0  # s, beyond all T_d
+
+
+@dataclass(frozen=True, kw_only=True)
+class NCh2745:
+    """Factors of NCh2745; clause numbers and factors to be confirmed against the standard.
+
+    Parameters
+    ----------
+    maximum : float
+        M_M, maximum over design displacement at equal damping.
+    accidental_eccentricity : float
+        Share of the longest side of the plan.
+    least_torsion : float
+        Least total over central displacement.
+    largest_reduction : float
+        R_1 of the superstructure.
+    restoring : float
+        Force that the second half of the displacement must add, over W.
+    activation : float
+        Factor on the nominal force that starts sliding, as least V_s.
+    drift : float
+        Limit of storey drift over height, static analysis.
+    orthogonal : float
+        Share of the other direction's overturning that acts with it.
+    pressure_limit : float, optional
+        Pressure that the sliders stand [Pa].
+
+    Notes
+    -----
+    Combinations of vertical loads for `IsolationSystem` are of the kind 1.2 D + L and 0.8 D (6.2).
+    The base shear goes by the largest stiffness at the displacement, that of the upper bound.
+    """
+
+    maximum: float = NCH_MAXIMUM
+    accidental_eccentricity: float = 0.05
+    least_torsion: float = 1.1
+    largest_reduction: float = 2.0
+    restoring: float = 0.025
+    activation: float = 1.5
+    drift: float = 0.0025
+    orthogonal: float = 0.3
+    pressure_limit: float | None = None
+    name: ClassVar[str] = "NCh2745"
+    spectra: ClassVar[str] = "NCh2745"
+
+    def analyse(
+        self,
+        system: IsolationSystem,
+        spectrum: Spectrum,
+        bound: Bound,
+        superstructure: Superstructure | None,
+        extremes: Extremes,
+    ) -> BoundResult:
+        """Return analysis and checks at one bound, as `ASCE7.analyse`."""
+        held = held_by(system, spectrum)
+        design, _ = settle(lambda d: self._design(system, spectrum, d), 0.1, _DESIGN, held)
+
+        def step(displacement: float) -> Trace:
+            t = design.copy()
+            t.given("D_0M", displacement, "m", note="assumed, and found again")
+            secant(t, "D_0M", _MAXIMUM, "NCh2745 7", "_M")
+            factor = spectrum.damping_factor(t.value("beta_M"))
+            t.looked_up("B_M", factor, ["beta_M"], source="NCh2745 7.3")
+            t.given("M_M", self.maximum)
+            t("C_M", "M_M * C_D", "m", shown="mm")
+            t("D_M", "C_M / B_M", "m", source="NCh2745 7.3", shown="mm")
+            return t
+
+        t, rounds = settle(step, design.value("D_D"), _MAXIMUM)
+        for pendulum in system.pendulums:
+            pendulum.require_sliding(t.value("D_D"))
+        self._totals(t, system)
+        friction = [p.effective_friction for p in extremes.upper.pendulums]
+        t.given_each("mu_up", friction, note="effective friction, upper properties")
+        t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
+        t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
+        t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
+        judge = CheckBuilder(t, bound, level=DESIGN)
+        checks = self._device_checks(t, system, judge)
+        if superstructure is not None:
+            self._shears(t, superstructure, extremes)
+            clause, limit = "NCh2745 7.6", self.drift
+            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
+            overturning(t, "M_o", "o")
+            at = judge.at(MAXIMUM)
+            checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
+        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
+        return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
+
+    def _design(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+        t = enter_system(system)
+        t.given("D_0", displacement, "m", note="assumed, and found again")
+        secant(t, "D_0", _DESIGN, "NCh2745 7")
+        factor = spectrum.damping_factor(t.value("beta_D"))
+        t.looked_up("B_D", factor, ["beta_D"], source="NCh2745 7.3")
+        plateau = spectrum.acceleration(_LONG) * (0.5 * _LONG / math.pi) ** 2
+        note = "200 Z, 300 Z, 330 Z mm for soils I, II, III: the spectrum's displacement, B = 1"
+        t.given("C_D", plateau, "m", shown="mm", source="NCh2745 7.3", note=note)
+        t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
+        return t
+
+    def _totals(self, t: Trace, system: IsolationSystem) -> None:
+        t.given("a_e", self.accidental_eccentricity, source="NCh2745 7.3")
+        t.given("a_T", self.least_torsion, source="NCh2745 7.3")
+        eccentricities(t, system, "a_e", "NCh2745 7.3", by_direction=False)
+        t.each("tau_x", "1 + abs(y - y_R) * 12 * e_y / (b**2 + d**2)", note="motion along x")
+        t.each("tau_y", "1 + abs(x - x_R) * 12 * e_x / (b**2 + d**2)", note="motion along y")
+        for level in ("D", "M"):
+            formula = f"D_{level} * max(tau_x, tau_y, a_T)"
+            t.each(f"D_T{level}_i", formula, "m", source="NCh2745 7.3", shown="mm")
+            t(f"D_T{level}", f"max(D_T{level}_i)", "m", shown="mm")
+
+    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        enter_restoring(t, "D_D", self.restoring)
+        note = "else the capacity must be 3 D_TM"
+        return Checks(
+            [
+                capacity_check(t, system, judge.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
+                judge("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
+            ]
+        )
+
+    def _shears(self, t: Trace, above: Superstructure, extremes: Extremes) -> None:
+        enter_storeys(t, above)
+        t.given("R", above.R)
+        t.given("R_max", self.largest_reduction)
+        t("R_1", "max(min(R, R_max), 1)", source="NCh2745 7.4")
+        t.given("V_wind", above.wind_shear, "N", source="NCh2745 7.4")
+        t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
+        t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
+        t.given("a_Q", self.activation)
+        t("V_s", "max(V_b / R_1, V_wind, Q_up, a_Q * Q_nom)", "N", source="NCh2745 7.4")
+        t.each("F_x", "V_s * w_x * h_x / sum(w_x * h_x)", "N", source="NCh2745 7.5")
+        t("F_1", "V_b / R_1 * (1 - sum(w_x) / W)", "N", note="at the base level")
+        t("V_M", "k_Mmax * D_M", "N", note="at the maximum level, for axial loads at D_TM")
+        t("M_o", "sum(w_x * h_x**2) / sum(w_x * h_x) * V_M", "N m", source="NCh2745 6.2",
+          note="overturning, unreduced, at the maximum level")  # fmt: skip
+        t.given("o", self.orthogonal, note="share of the other direction")

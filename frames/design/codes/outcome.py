@@ -1,0 +1,257 @@
+"""What an equivalent-linear analysis gives: at each bound, and over all bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Bound, Checks
+from frames.design.calculation.rendering import quantity
+from frames.design.calculation.trace import Trace
+from lir_element.tables import html_table, text_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Symbols(NamedTuple):
+    """How a code calls what its equivalent-linear analysis finds.
+
+    Attributes
+    ----------
+    displacement, total : str
+        Displacement at the centre, and the largest of a bearing with torsion.
+    stiffness, damping, period : str
+        Effective stiffness, damping ratio and period.
+    factor : str
+        Damping factor.
+    base_shear, shear : str
+        Shear of the isolation system, and design shear above it.
+    allowed : str
+        Displacement that bearings must allow, where that is more than the total one.
+    """
+
+    displacement: str
+    total: str
+    stiffness: str
+    damping: str
+    period: str
+    factor: str
+    base_shear: str
+    shear: str
+    allowed: str = ""
+
+
+class Iteration(NamedTuple):
+    """A round of the search for the displacement.
+
+    Attributes
+    ----------
+    assumed, found : float
+        Displacement that stiffness and damping were taken at, and that which they give [m].
+    stiffness : float
+        Effective stiffness [N/m].
+    damping : float
+        Effective damping ratio [-].
+    period : float
+        Effective period [s].
+    """
+
+    assumed: float
+    stiffness: float
+    damping: float
+    period: float
+    found: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundResult:
+    """The equivalent-linear analysis at one bound of the bearings' properties.
+
+    Attributes
+    ----------
+    bound : {"lower", "nominal", "upper"}
+        Which.
+    trace : Trace
+        The whole calculation, by the code's symbols.
+    symbols : Symbols
+        How the code calls displacement, stiffness and so on.
+    iterations : tuple of Iteration
+        How the displacement was found.
+    displacements : tuple of float, (n_bearings,)
+        Largest displacement of each bearing, torsion included [m].
+    storey_forces : tuple of float, (1 + n_storeys,)
+        Design forces at the base level and at each floor above [N]; empty without superstructure.
+    checks : Checks
+        Checks at this bound.
+    """
+
+    bound: Bound
+    trace: Trace
+    symbols: Symbols
+    iterations: tuple[Iteration, ...]
+    displacements: tuple[float, ...]
+    storey_forces: tuple[float, ...]
+    checks: Checks
+
+    @property
+    def displacement(self) -> float:
+        """Displacement at the centre [m]."""
+        return self.trace.value(self.symbols.displacement)
+
+    @property
+    def total_displacement(self) -> float:
+        """Largest displacement of a bearing, torsion included [m]."""
+        return self.trace.value(self.symbols.total)
+
+    @property
+    def allowed_displacement(self) -> float:
+        """Largest displacement that a bearing must allow, with the code's factor on it [m]."""
+        return self.trace.value(self.symbols.allowed or self.symbols.total)
+
+    @property
+    def stiffness(self) -> float:
+        """Effective stiffness [N/m]."""
+        return self.trace.value(self.symbols.stiffness)
+
+    @property
+    def damping(self) -> float:
+        """Effective damping ratio [-]."""
+        return self.trace.value(self.symbols.damping)
+
+    @property
+    def period(self) -> float:
+        """Effective period [s]."""
+        return self.trace.value(self.symbols.period)
+
+    @property
+    def damping_factor(self) -> float:
+        """Damping factor, as the code has it [-]."""
+        return self.trace.value(self.symbols.factor)
+
+    @property
+    def base_shear(self) -> float:
+        """Shear of the isolation system [N]."""
+        return self.trace.value(self.symbols.base_shear)
+
+    @property
+    def superstructure_shear(self) -> float | None:
+        """Design shear above the isolation system [N]; None without superstructure."""
+        name = self.symbols.shear
+        return self.trace.value(name) if name in self.trace else None
+
+    def __repr__(self) -> str:
+        """Return the main numbers on one line."""
+        return (
+            f"{self.bound}: displacement {1e3 * self.displacement:.0f} mm, with torsion "
+            f"{1e3 * self.total_displacement:.0f} mm; period {self.period:.2f} s, damping "
+            f"{100.0 * self.damping:.1f} %, base shear {1e-3 * self.base_shear:.0f} kN"
+        )
+
+
+_COLUMNS = (
+    ("displacement", "m", "mm"), ("total_displacement", "m", "mm"), ("period", "s", "s"),
+    ("damping", "-", "%"), ("damping_factor", "-", "-"), ("stiffness", "N/m", "kN/m"),
+    ("base_shear", "N", "kN"), ("superstructure_shear", "N", "kN"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EquivalentLinear:
+    """What an equivalent-linear analysis gives, at all bounds.
+
+    Attributes
+    ----------
+    code : str
+        Standard.
+    bounds : mapping of str to BoundResult
+        Results at "lower" and "upper" bound, or at "nominal" alone.
+    general : Checks
+        Checks that both bounds enter.
+    """
+
+    code: str
+    bounds: Mapping[str, BoundResult]
+    general: Checks
+
+    @property
+    def checks(self) -> Checks:
+        """All checks."""
+        return Checks([*(c for each in self.bounds.values() for c in each.checks), *self.general])
+
+    @property
+    def displacement(self) -> float:
+        """Largest displacement at the centre [m]."""
+        return max(each.displacement for each in self.bounds.values())
+
+    @property
+    def total_displacement(self) -> float:
+        """Largest displacement of a bearing, torsion included [m]."""
+        return max(each.total_displacement for each in self.bounds.values())
+
+    @property
+    def allowed_displacement(self) -> float:
+        """Largest displacement that a bearing must allow, with the code's factor on it [m]."""
+        return max(each.allowed_displacement for each in self.bounds.values())
+
+    @property
+    def base_shear(self) -> float:
+        """Largest shear of the isolation system [N]."""
+        return max(each.base_shear for each in self.bounds.values())
+
+    @property
+    def superstructure_shear(self) -> float | None:
+        """Largest design shear above the isolation system [N]; None without superstructure."""
+        found = [each.superstructure_shear for each in self.bounds.values()]
+        return max((v for v in found if v is not None), default=None)
+
+    def __getitem__(self, bound: str) -> BoundResult:
+        """Return the result at a bound."""
+        if bound not in self.bounds:
+            msg = f"no bound {bound!r}: choose one of {tuple(self.bounds)}"
+            raise CheckError(msg)
+        return self.bounds[bound]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a table with a row for each bound, numbers in SI units."""
+        import pandas as pd
+
+        rows = {
+            name: [getattr(each, column) for column, *_ in _COLUMNS]
+            for name, each in self.bounds.items()
+        }
+        columns = [f"{name} [{unit}]" for name, unit, _ in _COLUMNS]
+        return pd.DataFrame.from_dict(rows, orient="index", columns=columns)
+
+    def __str__(self) -> str:
+        """Return results and checks as tables."""
+        return f"{text_table(self.rows(), self.head())}\n\n{self.checks}"
+
+    def __repr__(self) -> str:
+        """Return the main numbers of each bound."""
+        return "\n".join([f"{self.code}, equivalent-linear", *map(repr, self.bounds.values())])
+
+    def _repr_html_(self) -> str:
+        table = html_table(f"{self.code}, equivalent-linear", self.rows(), self.head())
+        return table + self.checks._repr_html_()
+
+    def head(self) -> tuple[str, ...]:
+        """Return the titles of `rows`, with units: mm, kN, per cent."""
+        return ("bound", *(f"{name.replace('_', ' ')} [{u}]" for name, _, u in _COLUMNS))
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """Return a row for each bound as text, for tables."""
+        return [
+            (
+                name,
+                *(
+                    ""
+                    if (value := getattr(each, column)) is None
+                    else quantity(value, unit, shown, units=False)
+                    for column, unit, shown in _COLUMNS
+                ),
+            )
+            for name, each in self.bounds.items()
+        ]

@@ -1,0 +1,213 @@
+"""Equivalent-linear analysis: what the codes share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import TO_BE_CONFIRMED, Bound, Check, Scope
+from frames.design.calculation.trace import Trace
+from frames.design.codes.outcome import Iteration, Symbols
+
+if TYPE_CHECKING:
+    from typing import Literal
+
+    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.hazard.spectrum import Spectrum
+
+_MOST_ROUNDS = 500
+_SETTLED = 1e-12
+_NOTHING = 1e-5  # m
+
+
+def enter_system(system: IsolationSystem) -> Trace:
+    """Return a calculation with a system's bearings, loads and weight."""
+    t = Trace()
+    t.given("g", system.gravity, "m/s2")
+    t.given("W", system.seismic_weight, "N", note="seismic weight above the isolation interface")
+    t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
+    pendulums = system.pendulums
+    t.given_each("L", [p.effective_radius for p in pendulums], "m", note="effective radii")
+    t.given_each("mu", [p.effective_friction for p in pendulums], note="effective friction")
+    loss = [p.corner_loss for p in pendulums]
+    if any(loss):
+        t.given_each("c", loss, "m", note="corners of the loop, over the load")
+    return t
+
+
+def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: str = "") -> None:
+    """Enter effective stiffness, damping and period of a system at a displacement.
+
+    Parameters
+    ----------
+    t : Trace
+        From `enter_system`, with the displacement.
+    displacement : str
+        Symbol of the displacement.
+    symbols : Symbols
+        How they are called.
+    source : str
+        Clause.
+    level : str
+        Ends the symbols F and E of force and energy, where there are several levels.
+    """
+    k, beta, d = symbols.stiffness, symbols.damping, displacement
+    t.each(f"F{level}", f"P * ({d} / L + mu)", "N", note="force of each bearing")
+    t(k, f"sum(F{level}) / {d}", "N/m", source=source)
+    loss = " - c" if "c" in t else ""
+    t.each(f"E{level}", f"P * (4 * mu * {d}{loss})", "J", note="energy of each bearing's cycle")
+    t(beta, f"sum(E{level}) / (2 * pi * {k} * {d}**2)", source=source, shown="%")
+    t(symbols.period, f"2 * pi * sqrt(W / ({k} * g))", "s", source=source)
+
+
+def held_by(system: IsolationSystem, spectrum: Spectrum) -> str:
+    """Return peak acceleration and friction in words, for the message of `settle`."""
+    peak = float(spectrum.acceleration(spectrum.reach[0])) / system.gravity
+    friction = system.strength / system.seismic_weight
+    return f" (peak acceleration {peak:.3g} g, friction {friction:.3g} of the weight)"
+
+
+def settle(
+    step: Callable[[float], Trace], start: float, symbols: Symbols, held: str = ""
+) -> tuple[Trace, tuple[Iteration, ...]]:
+    """Find the displacement at which stiffness and damping give that displacement.
+
+    Parameters
+    ----------
+    step : callable
+        Calculation from an assumed displacement [m].
+    start : float
+        First assumption [m].
+    symbols : Symbols
+        What the calculation calls displacement, stiffness, damping and period.
+    held : str
+        Peak acceleration and friction in words, for a message.
+
+    Returns
+    -------
+    Trace
+        Of the last round, whose assumed and found displacements agree.
+    tuple of Iteration
+        All rounds.
+
+    Raises
+    ------
+    CheckError
+        If they do not agree after 500 rounds, or nothing slides.
+    """
+    rounds: list[Iteration] = []
+    assumed = start
+    for _ in range(_MOST_ROUNDS):
+        t = step(assumed)
+        k, beta, period = (
+            t.value(name) for name in (symbols.stiffness, symbols.damping, symbols.period)
+        )
+        found = t.value(symbols.displacement)
+        rounds.append(Iteration(assumed, k, beta, period, found))
+        if abs(found - assumed) <= _SETTLED * found:
+            return t, tuple(rounds)
+        if found < _NOTHING:
+            msg = (
+                f"nothing slides at this hazard: the displacement falls below {_NOTHING:g} m, as "
+                "the acceleration at short periods over its damping factor is below the friction"
+                f"{held}: look at the unit of the spectrum (0.25 g are 2.45 m/s2), or lower it"
+            )
+            raise CheckError(msg)
+        assumed = found
+    msg = (
+        f"the displacement does not settle: {assumed:.4g} m after {_MOST_ROUNDS} rounds; the "
+        "equivalent-linear analysis does not fit this system: see its friction and the spectrum"
+    )
+    raise CheckError(msg)
+
+
+@dataclass(frozen=True)
+class CheckBuilder:
+    """Makes checks from what a calculation holds.
+
+    Parameters
+    ----------
+    t : Trace
+        The calculation.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings that it is for.
+    standing : str
+        Of its checks.
+    scope : {"any", "demand", "procedure"}
+        Of its checks.
+    void : str
+        Why its demands are no values for design.
+    level : str
+        Level of the seismic action of its checks.
+    """
+
+    t: Trace
+    bound: Bound
+    standing: str = TO_BE_CONFIRMED
+    scope: Scope = "any"
+    void: str = ""
+    level: str = ""
+
+    def of(self, scope: Scope) -> CheckBuilder:
+        """Return one that makes checks of this scope."""
+        return replace(self, scope=scope)
+
+    def at(self, level: str) -> CheckBuilder:
+        """Return one that makes checks at this level of the seismic action."""
+        return replace(self, level=level)
+
+    def __call__(
+        self,
+        clause: str,
+        title: str,
+        symbol: str,
+        relation: Literal["<=", ">="],
+        limit: str,
+        *,
+        note: str = "",
+    ) -> Check:
+        """Return the check of one symbol against another."""
+        return self._made(clause, title, (symbol, limit), relation, note=note)
+
+    def worst(
+        self,
+        clause: str,
+        title: str,
+        symbol: str,
+        relation: Literal["<=", ">="],
+        limit: str,
+        *,
+        subjects: tuple[str, ...],
+        note: str = "",
+    ) -> Check:
+        """Return the check of largest ratio of those for each of several, named by `subjects`."""
+        pair = (symbol, limit)
+        return max(
+            (
+                self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
+                for k, subject in enumerate(subjects)
+            ),
+            key=lambda check: (check.ratio, abs(check.limit) - abs(check.demand)),
+        )
+
+    def _made(
+        self,
+        clause: str,
+        title: str,
+        pair: tuple[str, str],
+        relation: Literal["<=", ">="],
+        *,
+        note: str,
+        k: int = 0,
+        subject: str = "",
+    ) -> Check:
+        steps = [self.t[name] for name in pair]
+        demand, limit = (s.value[k] if isinstance(s.value, tuple) else s.value for s in steps)
+        return Check(
+            clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
+            unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
+            trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
+            note=note, scope=self.scope, void=self.void, level=self.level,
+        )  # fmt: skip

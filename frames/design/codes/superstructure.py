@@ -1,0 +1,136 @@
+"""What an equivalent-linear analysis knows of the structure above the bearings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design._errors import CheckError
+from frames.statics.gravity import gravity
+from lir_element.argument_checks import require_non_negative, require_positive, require_vector
+
+if TYPE_CHECKING:
+    from frames.frame import Frame
+
+
+@dataclass(frozen=True, kw_only=True)
+class Superstructure:
+    """What stands on the isolation system, as design formulas need it.
+
+    Parameters
+    ----------
+    fixed_base_period : float
+        Period of the structure on a fixed base, T_fb [s].
+    storey_weights : tuple of float, (n,)
+        Weight of each floor above the base level, lowest first [N]; the base level itself is what
+        the seismic weight has beyond their sum.
+    storey_heights : tuple of float, (n,)
+        Height of each storey [m].
+    R : float
+        Response modification factor of the same structure on a fixed base [-]; EN 1998 has the
+        behaviour factor of `EN1998` instead.
+    importance : float
+        Importance factor I_e of the fixed-base structure [-], for least shears of ASCE 7.
+    storey_stiffness : tuple of float, (n,), optional
+        Lateral stiffness of each storey [N/m], for drifts; without it they are not checked.
+    wind_shear : float
+        Factored wind shear of the superstructure [N], least V_s of ASCE 7 and NCh2745.
+    vertical_period : float, optional
+        Vertical period T_v of the structure on its bearings [s], for the simplified analysis of
+        EN 1998.
+
+    Raises
+    ------
+    CheckError, ValueError, TypeError
+        If numbers are out of bounds or of unlike count.
+    """
+
+    fixed_base_period: float
+    storey_weights: tuple[float, ...]
+    storey_heights: tuple[float, ...]
+    R: float
+    importance: float = 1.0
+    storey_stiffness: tuple[float, ...] | None = None
+    wind_shear: float = 0.0
+    vertical_period: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("storey_weights", "storey_heights", "storey_stiffness"):
+            values = getattr(self, name)
+            if values is None:
+                continue
+            count = len(self.storey_weights)
+            for value in require_vector(name, values, count, error=CheckError):
+                require_positive(name, value, error=CheckError)
+            object.__setattr__(self, name, tuple(map(float, values)))
+        if not self.storey_weights:
+            msg = "storey_weights is empty: give the weight of one floor at least"
+            raise CheckError(msg)
+        for name in ("fixed_base_period", "R", "importance"):
+            require_positive(name, getattr(self, name), error=CheckError)
+        require_non_negative("wind_shear", self.wind_shear, "N", error=CheckError)
+        if self.vertical_period is not None:
+            require_positive("vertical_period", self.vertical_period, "s", error=CheckError)
+
+    @classmethod
+    def from_frame(
+        cls,
+        frame: Frame,
+        *,
+        R: float,  # noqa: N803
+        importance: float = 1.0,
+        storey_stiffness: tuple[float, ...] | None = None,
+        wind_shear: float = 0.0,
+        vertical_period: float | None = None,
+    ) -> Superstructure:
+        """Return what stands on the bearings of a frame: weights, heights and period.
+
+        Parameters
+        ----------
+        frame : Frame
+            The model, whose lowest level is the base above the bearings (`Frame.add_level`); each
+            node's mass belongs to the level that is nearest in height.
+        R, importance, storey_stiffness, wind_shear, vertical_period
+            As in `Superstructure`.
+
+        Returns
+        -------
+        Superstructure
+            Its fixed-base period is the longest of the frame with bearings and base held.
+
+        Raises
+        ------
+        CheckError
+            If the frame has no level above its base.
+        ModelError
+            If the frame has no equilibrium.
+        """
+        levels = np.array([level.z for level in frame.levels])
+        if len(levels) < 2:
+            msg = f"{len(levels)} levels: name the base and each floor above by Frame.add_level"
+            raise CheckError(msg)
+        state = gravity(frame)
+        away = np.abs(state.system.coordinates[:, 2, None] - levels)
+        mass = np.bincount(away.argmin(axis=1), state.system.node_mass[:, 0], len(levels))
+        return cls(
+            fixed_base_period=state.held_periods[0],
+            storey_weights=tuple((frame.gravity * mass[1:]).tolist()),
+            storey_heights=tuple(np.diff(levels).tolist()),
+            R=R,
+            importance=importance,
+            storey_stiffness=storey_stiffness,
+            wind_shear=wind_shear,
+            vertical_period=vertical_period,
+        )
+
+    @property
+    def weight(self) -> float:
+        """W_s, weight above the base level [N]."""
+        return sum(self.storey_weights)
+
+    @property
+    def elevations(self) -> tuple[float, ...]:
+        """Height of each floor above the base level [m]."""
+        return tuple(np.cumsum(self.storey_heights).tolist())

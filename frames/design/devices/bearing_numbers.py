@@ -1,0 +1,152 @@
+"""A bearing's numbers as calculations begin with them: geometry, frictions at their bounds."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames.design._errors import CheckError
+from frames.design.calculation.trace import Trace
+from lir_element.argument_checks import require_non_negative, require_positive
+from lir_element.device.sliders import interface_height
+
+if TYPE_CHECKING:
+    from frames.design.codes.bounds import PropertyBounds
+    from lir_element import LIRBearing
+
+NO_CODE = "no code: docs/theory.md"
+"""Clause of checks that no code has."""
+
+SURFACES = ("bottom", "top")
+
+
+def require_rims(bearing: LIRBearing) -> None:
+    """Raise a CheckError where a bearing has no rims."""
+    if not math.isfinite(bearing.lateral_capacity):
+        msg = "the bearing has no rims: give it a capacity, or leave this check out"
+        raise CheckError(msg)
+
+
+def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
+    """Return a least and a largest axial force [N], or raise a CheckError."""
+    least, most = (require_positive("axial load", load, "N", error=CheckError) for load in loads)
+    if least > most:
+        msg = f"loads = {loads}: give the least first, then the largest [N]"
+        raise CheckError(msg)
+    return least, most
+
+
+def enter_geometry(bearing: LIRBearing) -> Trace:
+    """Return a calculation with radii, rims, effective radius L and displacement U_cap at a rim."""
+    t = Trace()
+    for k, (radius, rim) in enumerate(
+        zip(bearing.radii, bearing.rim_displacement, strict=True), start=1
+    ):
+        t.given(f"R_{k}", radius, "m")
+        t.given(f"d_rim_{k}", rim, "m", shown="mm", note="sliding at which the rim is met")
+    t.given("h", bearing.slider_height, "m", shown="mm")
+    t("L", "R_1 + R_2 - h", "m")
+    t("U_cap", "L * min(d_rim_1 / R_1, d_rim_2 / R_2)", "m", shown="mm")
+    return t
+
+
+def enter_bearing(
+    bearing: LIRBearing,
+    bounds: PropertyBounds | None,
+    loads: tuple[float, float] | None = None,
+) -> Trace:
+    """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        A bearing with rims, its slider in two pieces, friction nominal.
+    bounds : PropertyBounds or None
+        Factors of its friction; that of the bearing alone if None.
+    loads : (float, float), optional
+        Least and largest axial force [N], entered as N_min and N_max: friction that depends on
+        pressure is then at its upper bound that of the least, at its lower one that of the
+        largest pressure. None: that of its reference pressure.
+
+    Returns
+    -------
+    Trace
+        The calculation: R_1, R_2, h, L, d_rim_1, d_rim_2, U_cap, a; h_1 and h_2, the heights of
+        the bottom and the top slider; mu_1, mu_2 and mu_h with _U and _L, upper and lower;
+        mu_e, sliding force over load; s_star, s_cap, and s_lim, the smaller of both.
+
+    Raises
+    ------
+    CheckError
+        If it has no rims, or its slider is in one piece.
+    """
+    require_rims(bearing)
+    if bearing.is_dcfp:
+        msg = "the slider is in one piece: it has no interface to check"
+        raise CheckError(msg)
+    t = enter_geometry(bearing)
+    t.given("a", bearing.slider_radius, "m", shown="mm")
+    height = float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
+    t.given("h_1", height, "m", shown="mm", note="interface above the bottom vertex")
+    t("h_2", "h - h_1", "m", shown="mm")
+    if loads is not None:
+        for symbol, load in zip(("N_min", "N_max"), loads, strict=True):
+            t.given(symbol, load, "N")
+        _enter_pressure(t, bearing)
+    _enter_frictions(t, bearing, bounds)
+    t("mu_e", "(mu_1_U * R_1 + mu_2_U * R_2) / L", source="docs/theory.md, section 2")
+    source = "docs/theory.md (2.7)"
+    t("s_star", "L * mu_h_L - mu_1_U * R_1 - mu_2_U * R_2", "m", shown="mm", source=source,
+      note="slip that holds")  # fmt: skip
+    note = "slip at which the sliders' overlap ends"
+    t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)
+    t("s_lim", "max(min(s_cap, s_star), 0)", "m", shown="mm")
+    return t
+
+
+def _enter_pressure(t: Trace, bearing: LIRBearing) -> None:
+    # Factors of the surfaces' friction: upper at the least pressure, lower at the largest.
+    law = bearing.pressure_dependence
+    if law is None:
+        return
+    reference = law.reference_pressure
+    if reference is None:
+        t.given("N_0", bearing.resolved()["design_load"], "N", note="design load")
+        t("p_0", "N_0 / (pi * a**2)", "Pa", note="at which friction was measured")
+    else:
+        t.given("p_0", reference, "Pa", note="at which friction was measured")
+    t.given("r_p", law.rate, "1/Pa", note="fall of friction with the pressure")
+    for bound, load in (("U", "N_min"), ("L", "N_max")):
+        t(f"k_p_{bound}", f"exp(-r_p * ({load} / (pi * a**2) - p_0))",
+          source="docs/theory.md (11.1)")  # fmt: skip
+
+
+def _enter_frictions(t: Trace, bearing: LIRBearing, bounds: PropertyBounds | None) -> None:
+    # Upper friction of the surfaces is that of high speed, lower one that of no speed.
+    nominal = {f"mu_{k}": law for k, law in enumerate(bearing.frictions, start=1)}
+    values = {f"{name}_U": law.f_max for name, law in nominal.items()}
+    values |= {f"{name}_L": law.f_min for name, law in nominal.items()}
+    values |= dict.fromkeys(("mu_h_U", "mu_h_L"), bearing.interface_friction)
+    for symbol, value in values.items():
+        at = "upper" if symbol.endswith("U") else "lower"
+        inner = symbol.startswith("mu_h")
+        factors = []
+        if bounds is not None:
+            factor = f"lambda_{'h' if inner else 'd'}_{at}"
+            if factor not in t:
+                given = bounds.interface_factors if inner else bounds.friction
+                t.given(factor, given.at("upper" if at == "upper" else "lower"))
+            factors.append(factor)
+        if not inner and f"k_p_{symbol[-1]}" in t:
+            factors.append(f"k_p_{symbol[-1]}")
+        if factors:
+            t.given(f"{symbol}0", value, note="nominal")
+            t(symbol, " * ".join([*factors, f"{symbol}0"]))
+        else:
+            t.given(symbol, value)
+
+
+def enter_length(t: Trace, symbol: str, value: float, note: str = "") -> None:
+    """Enter a length that must not be negative [m]."""
+    found = require_non_negative(symbol, value, "m", error=CheckError)
+    t.given(symbol, found, "m", shown="mm", note=note)

@@ -1,0 +1,211 @@
+"""Capacity of the LIR-DCFP as the sum of its three parts, and where its rims are met."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.codes.secant import CheckBuilder
+from frames.design.devices.bearing_numbers import (
+    NO_CODE,
+    SURFACES,
+    enter_bearing,
+    enter_geometry,
+    enter_length,
+    require_rims,
+)
+from frames.design.devices.limits import PROJECT_LIMIT
+from lir_element.argument_checks import require_choice, require_positive
+
+if TYPE_CHECKING:
+    from frames.design.codes.bounds import PropertyBounds
+    from lir_element import LIRBearing
+
+
+def capacity_checks(
+    bearing: LIRBearing,
+    displacement: float,
+    *,
+    slip_left: float = 0.0,
+    bounds: PropertyBounds | None = None,
+    bound: Bound = "",
+) -> Checks:
+    """Check a displacement against the sum of the three parts that make it, and each part.
+
+    Both surfaces slide together, as the slider tilts, until a rim is met; the interface does the
+    rest.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The bearing, friction nominal.
+    displacement : float
+        Design displacement, in any direction [m].
+    slip_left : float
+        Interface slip that an earlier event left in that direction [m].
+    bounds : PropertyBounds, optional
+        Bounds of friction, for the slip that holds.
+    bound : {"lower", "nominal", "upper", ""}
+        Bound that the displacement belongs to.
+
+    Returns
+    -------
+    Checks
+        Sliding on the bottom and the top surface against their rims; interface slip against the
+        smaller of overlap and s*; the whole displacement against the capacity.
+
+    Raises
+    ------
+    CheckError
+        If the slider is in one piece or has no rims, or a number is out of bounds.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> [round(check.ratio, 3) for check in capacity_checks(bearing, 0.2)]
+    [1.0, 1.0, 0.315, 0.787]
+    """
+    t = enter_bearing(bearing, bounds)
+    enter_length(t, "D", displacement)
+    enter_length(t, "s_left", slip_left, note="left by an earlier event")
+    t("U_slide", "min(D, U_cap)", "m", shown="mm", note="both surfaces, as the slider tilts")
+    t("s_D", "max(D - U_cap, 0) + s_left", "m", shown="mm")
+    t("U_max", "U_cap + s_lim - s_left", "m", shown="mm")
+    judge, clause = CheckBuilder(t, bound, CONFIRMED), f"{NO_CODE}, section 2"
+    found = []
+    for k, name in enumerate(SURFACES, start=1):
+        t(f"d_{k}", f"R_{k} * U_slide / L", "m", shown="mm")
+        found.append(judge(clause, f"sliding on the {name} surface", f"d_{k}", "<=", f"d_rim_{k}"))
+    found.append(judge(clause, "slip of the interface", "s_D", "<=", "s_lim"))
+    found.append(judge(clause, "displacement over the sum of the parts", "D", "<=", "U_max"))
+    return Checks(found)
+
+
+class RimRule(NamedTuple):
+    """What a code asks of the displacement at which rims are met.
+
+    Attributes
+    ----------
+    clause : str
+        Clause.
+    symbol : str
+        How the code calls the displacement that bearings must allow.
+    least : float
+        Share of it below which rims must not be met [-].
+    note : str
+        What rims that are met below it mean under the code.
+    """
+
+    clause: str
+    symbol: str
+    least: float
+    note: str
+
+
+RIM_RULES: dict[str, RimRule] = {
+    "ASCE 7-22": RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
+    "EN 1998-1": RimRule(
+        "EN 1998-1 10.3(2), EN 15129", "gamma_x d_bd", 1.0,
+        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
+        "implements them, wants end stops that leave this displacement free. Needs the agreement "
+        "of the authority, time histories with the rims, and tests of impact and return",
+    ),
+    "NCh2745": RimRule(
+        "NCh2745 7.3", "D_TM", 1.0,
+        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
+        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
+        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+    ),
+}  # fmt: skip
+"""Rules by code; clauses and shares to be confirmed against the standards."""
+
+
+def engagement_checks(
+    bearing: LIRBearing,
+    displacement: float | Mapping[Bound, float],
+    *,
+    least: float | None = None,
+    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] = "ASCE 7-22",
+    agreed: float | None = None,
+) -> Checks:
+    """Check at which share of the displacement that bearings must allow each rim is met.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The bearing.
+    displacement : float or mapping
+        Displacement that bearings must allow [m], one or one for each bound: D_TM of ASCE 7-22, and
+        of NCh2745 at its maximum level; gamma_x d_bd of EN 1998-1.
+    least : float, optional
+        Share of it below which a rim must not be met [-]; that of the code if None: 0.60 of
+        ASCE 7-22, whose wording has to be read, 1 of the others, which have no rule for rims that
+        are met by intent.
+    code : {"ASCE 7-22", "EN 1998-1", "NCh2745"}
+        The code.
+    agreed : float, optional
+        Share that the authority agreed to, or that tests prove [-]: checked beside that of the
+        code.
+
+    Returns
+    -------
+    Checks
+        A check for each rim and bound; of a code without a rule for rims met by intent that of the
+        rim and bound that are worst. With an agreed share as many again.
+
+    Raises
+    ------
+    CheckError
+        If the bearing has no rims, the code is not known, or a number is out of bounds.
+
+    Notes
+    -----
+    A rim is met at ``U = L d / R``, plates parallel, no slip left.
+    """
+    require_rims(bearing)
+    require_choice("code", code, tuple(RIM_RULES), error=CheckError)
+    rule = RIM_RULES[code]
+    share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
+    asked = [(rule.clause, share, rule.note)]
+    if agreed is not None:
+        require_positive("agreed", agreed, "-", error=CheckError)
+        asked.append((PROJECT_LIMIT, agreed, "as agreed; the code's own is checked beside it"))
+    of: Mapping[Bound, float] = (
+        displacement if isinstance(displacement, Mapping) else {"": displacement}
+    )
+    for bound, value in of.items():
+        require_positive(f"displacement {bound}".strip(), value, "m", error=CheckError)
+    rims = [k for k in range(len(SURFACES)) if math.isfinite(bearing.rim_displacement[k])]
+    found: list[Check] = []
+    for each in asked:
+        made = [_met(bearing, k, at, rule.symbol, *each) for at in of.items() for k in rims]
+        found += made if rule.least < 1.0 else [max(made, key=lambda check: check.ratio)]
+    return Checks(found)
+
+
+def _met(
+    bearing: LIRBearing,
+    k: int,
+    at: tuple[Bound, float],
+    symbol: str,
+    clause: str,
+    least: float,
+    said: str,
+) -> Check:
+    # Where a rim is met, over the displacement that a bearing must allow.
+    t = enter_geometry(bearing)
+    t.given("D_allowed", at[1], "m", shown="mm", note=symbol)
+    t.given("eta_least", least)
+    name = SURFACES[k]
+    t("U_rim", f"L * d_rim_{k + 1} / R_{k + 1}", "m", shown="mm", note=f"{name} rim is met")
+    share = t("eta", "U_rim / D_allowed")
+    standing = CONFIRMED if clause == PROJECT_LIMIT else TO_BE_CONFIRMED
+    return CheckBuilder(t, at[0], standing).worst(
+        clause, f"displacement where a rim engages, over {symbol}", "eta", ">=", "eta_least",
+        subjects=(f"{name} rim",), note=f"not met below {symbol}" if share >= 1.0 else said,
+    )  # fmt: skip

@@ -1,0 +1,181 @@
+"""Checks of the LIR-DCFP that no code has, from the bearing's own numbers, before any run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames.design.calculation.check import CONFIRMED, Check, Checks
+from frames.design.codes.secant import CheckBuilder
+from frames.design.devices.bearing_numbers import (
+    NO_CODE,
+    SURFACES,
+    enter_bearing,
+    enter_length,
+    ordered_loads,
+)
+from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
+from frames.design.devices.overlap import liner_pressure, pressure
+
+if TYPE_CHECKING:
+    from frames.design.codes.bounds import PropertyBounds
+    from lir_element import LIRBearing
+
+_SAME = 1e-9
+
+
+def device_checks(
+    bearing: LIRBearing,
+    loads: tuple[float, float],
+    *,
+    slip: float,
+    slip_left: float = 0.0,
+    bounds: PropertyBounds | None = None,
+    limits: DesignLimits | None = None,
+) -> Checks:
+    """Check a bearing by what its geometry and friction alone decide.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The bearing, friction nominal. A slider in two pieces, with rims.
+    loads : (float, float)
+        Least and largest axial force along the slider while it works, N_min and N_max [N], > 0. At
+        a rim it exceeds the vertical load by ``1 / (cos(theta) - mu_h sin(theta))``.
+    slip : float
+        Largest interface slip that is reckoned with [m].
+    slip_left : float
+        Interface slip that an earlier event left, in the worse direction [m].
+    bounds : PropertyBounds, optional
+        Bounds of friction; nominal friction if None. The low friction is taken at its upper bound
+        and that of the interface at its lower one where the interface must hold, the other way
+        round where it must slip.
+    limits : DesignLimits, optional
+        What it may be asked for.
+
+    Returns
+    -------
+    Checks
+        That the interface holds until a rim is met, at both loads; that its slip holds; that it
+        slips before a rim breaks; that the resultant stays on the slider; pressures and lateral
+        force where they have a limit.
+
+    Raises
+    ------
+    CheckError
+        If the slider is in one piece or has no rims, or a number is out of bounds.
+
+    Notes
+    -----
+    Source: docs/theory.md, sections 2 and 10: the moments of the slider about its spheres'
+    centres, in a plane, the plates parallel. Friction that depends on pressure counts at N_min in
+    its upper bound and at N_max in its lower one; what heat takes of it belongs into the lower
+    factor of `bounds`, for its temperature is not known here. Friction counts at high speed where
+    it loads the interface, and at low speed where it relieves a rim. With one rim pressed alone the
+    resultant is that of the first slip: as the interface slips on, the rim springs back, friction
+    on the surfaces fades with it, and the offset grows; runs tell by how much (`impact_checks`).
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> checks = device_checks(bearing, (100e3, 150e3), slip=0.02)
+    >>> print(checks[2])
+    slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
+    """
+    limits = DesignLimits() if limits is None else limits
+    t = enter_bearing(bearing, bounds, ordered_loads(loads))
+    enter_length(t, "s", slip)
+    enter_length(t, "s_left", slip_left, note="left by an earlier event")
+    judge = CheckBuilder(t, "", CONFIRMED)
+    return Checks([
+        *_holds(judge, limits), _stable(judge), *_rims(judge, bearing, limits),
+        _eccentricity(judge, limits), *_pressures(judge, limits), *_lateral(judge, limits),
+    ])  # fmt: skip
+
+
+def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
+    # Below the rims L F_h = N s + mu_1 N R_1 + mu_2 N R_2.
+    t, found = judge.t, []
+    own = limits.clause_of("margin") == PROJECT_LIMIT
+    t.given("gamma", limits.margin, note=f"margin; {'of the project' if own else 'a proposal'}")
+    for name in ("min", "max"):
+        t(f"F_{name}", f"N_{name} * (mu_e + s_left / L)", "N",
+          source="docs/theory.md (2.1)", note="interface, before a rim is met")  # fmt: skip
+        t(f"H_{name}", f"mu_h_L * N_{name} / gamma", "N")
+        found.append(
+            judge.worst(f"{NO_CODE} (2.1)", "interface holds until a rim is met",
+                        f"F_{name}", "<=", f"H_{name}", subjects=(f"N_{name}",))
+        )  # fmt: skip
+    return found
+
+
+def _stable(judge: CheckBuilder) -> Check:
+    note = "low friction at its upper bound, the interface's at its lower"
+    return judge(f"{NO_CODE} (2.7)", "slip that holds", "s", "<=", "s_star", note=note)
+
+
+def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> list[Check]:
+    # At slip L mu_h N = -N s_left + sum of R (F + P cos theta), s_left against the motion.
+    if limits.rim_strength is None:
+        return []
+    t, found = judge.t, []
+    t("cos_theta", "sqrt(1 - (U_cap / L)**2)")
+    moment = "N_max * (L * mu_h_U + s_left - mu_1_L * R_1 - mu_2_L * R_2) / cos_theta"
+    note = "moment of the rims where the interface slips"
+    t("M_P", moment, "N m", source="docs/theory.md (2.1)", note=note)
+    t.given("P_R", limits.rim_strength, "N", note="strength of a rim")
+    reach = [d / r for d, r in zip(bearing.rim_displacement, bearing.radii, strict=True)]
+    met = [k for k in (0, 1) if reach[k] <= min(reach) * (1.0 + _SAME)]
+    shared = limits.rims_together and len(met) == 2
+    for k in met:
+        formula = f"M_P * R_{k + 1} / (R_1**2 + R_2**2)" if shared else f"M_P / R_{k + 1}"
+        t(f"P_{k + 1}", formula, "N", note="both rims press" if shared else "this rim alone")
+        found.append(
+            judge.worst(f"{NO_CODE} (2.1)", "interface slips before the rim breaks",
+                        f"P_{k + 1}", "<=", "P_R", subjects=(f"{SURFACES[k]} rim",))
+        )  # fmt: skip
+    return found
+
+
+def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
+    # Of the resultant in the interface from both sliders' axes, (10.2): rims free, then each alone.
+    t = judge.t
+    t("e_1", "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U", "m", shown="mm", note="rims free")
+    t("e_2", "(R_2 - h_2) * mu_h_U - mu_2_L * R_2", "m", shown="mm", note="bottom rim alone")
+    t("e_3", "(R_1 - h_1) * mu_h_U - mu_1_L * R_1", "m", shown="mm", note="top rim alone")
+    free, alone = "abs(e_1), abs(e_1 - s)", "abs(e_2 - s), abs(e_3 - s)"
+    left = "abs(e_2) + s_left, abs(e_3) + s_left"
+    t("epsilon", f"max({free}, {alone}, {left}) / a", source="docs/theory.md (10.2)")
+    own = limits.clause_of("eccentricity") == PROJECT_LIMIT
+    t.given("epsilon_lim", limits.eccentricity, note="of the project" if own else "a proposal")
+    title, note = "resultant between the sliders", "over their radius; tips at 1"
+    return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
+
+
+def _pressures(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
+    t, found, clause = judge.t, [], "no code: liner's maker"
+    if limits.interface_pressure is not None:
+        t.given("p_i_lim", limits.interface_pressure, "Pa")
+        pressure(t, "p_i", "N_max", "s")
+        found.append(judge(clause, "pressure on the sliders' overlap", "p_i", "<=", "p_i_lim"))
+    if limits.liner_pressure is not None:
+        t.given("p_lim", limits.liner_pressure, "Pa")
+        for k, name in enumerate(SURFACES, start=1):
+            liner_pressure(t, k, "N_max")
+            title = "pressure on the liner around its resultant"
+            where = (f"{name} surface",)
+            found.append(judge.worst(clause, title, f"p_{k}", "<=", "p_lim", subjects=where))
+    return found
+
+
+def _lateral(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
+    if limits.lateral_force is None:
+        return []
+    t = judge.t
+    t.given("H_R", limits.lateral_force, "N")
+    formula = "N_max * (U_cap / L + mu_h_U * sqrt(1 - (U_cap / L)**2))"
+    source = "docs/theory.md (2.2), the interface slipping at the rim's tilt"
+    t("H_slip", formula, "N", source=source)
+    title = "lateral force that the bearing passes on"
+    return [judge(f"{NO_CODE}, section 2", title, "H_slip", "<=", "H_R")]

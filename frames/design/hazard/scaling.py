@@ -1,0 +1,192 @@
+"""How a set of motions is scaled to a target: the rules of the codes, and the factors."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames._errors import MotionError, MotionWarning
+from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.hazard.spectrum import Spectrum
+from lir_element.argument_checks import require_choice, require_positive, require_type
+
+if TYPE_CHECKING:
+    from frames.motion.ground_motion import GroundMotion
+
+POINTS = 60
+"""Periods of the range at which motions and target are compared."""
+
+
+class ScalingRule(NamedTuple):
+    """What a code asks of the mean spectrum of a set.
+
+    Attributes
+    ----------
+    measure : str
+        Measure of a pair (`frames.design.hazard.pair_spectra.MEASURES`).
+    part : float
+        What the mean must reach at least, as a part of the target [-].
+    at_zero : float
+        The same at the period zero [-]; 0 where nothing is asked.
+    least : int
+        Number of pairs from which the mean response may be used.
+    clause : str
+        Where the code says so; to be confirmed against the standard.
+    """
+
+    measure: str
+    part: float
+    at_zero: float
+    least: int
+    clause: str
+
+
+SCALING_RULES = {
+    "ASCE 7-22": ScalingRule("RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3"),
+    "ASCE 7-10": ScalingRule("SRSS", 1.0, 0.0, 7, "ASCE 7-10 17.3.2"),
+    "EN 1998-1": ScalingRule(
+        "arithmetic mean", 0.9, 1.0, 7, "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3"
+    ),
+    "EN 1998-2": ScalingRule("SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3"),
+    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
+    "NCh2745": ScalingRule("SRSS", 1.17, 0.0, 7, "NCh2745 8.4"),
+}
+"""Rules by code. Ranges of periods: ASCE 7-22 0.75 T_M of the upper bound to 1.25 T_M of the
+lower bound; EN 1998-1 0.2 T to 2 T; EN 1998-2 0.2 T to 1.5 T; NCh2745 0.5 T_D to 1.25 T_M."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scaling:
+    """How a set was scaled.
+
+    Attributes
+    ----------
+    target : Spectrum
+        What it was scaled to.
+    rule : str
+        Whose rule, of `SCALING_RULES`.
+    measure : str
+        Measure of a pair.
+    part : float
+        What the mean must reach, as a part of the target [-].
+    periods : tuple of float
+        Range of periods [s].
+    damping : float
+        Damping of the spectra [-].
+    factors : mapping of str to float
+        Factor of each motion [-], on all its components.
+    least_ratio : float
+        Smallest mean over target within the range [-].
+    largest_ratio : float
+        Largest one [-].
+    """
+
+    target: Spectrum
+    rule: str
+    measure: str
+    part: float
+    periods: tuple[float, float]
+    damping: float
+    factors: Mapping[str, float]
+    least_ratio: float
+    largest_ratio: float
+
+
+def scaled_so(
+    motions: Mapping[str, GroundMotion],
+    before: Mapping[str, float],
+    spectrum: Spectrum,
+    rule: str,
+    periods: tuple[float, float],
+    how: str,
+    measure: str | None,
+    part: float | None,
+    damping: float,
+    limits: tuple[float, float],
+    least: int | None,
+) -> Scaling:
+    """Find how motions are to be scaled.
+
+    Parameters
+    ----------
+    motions : mapping of str to GroundMotion
+        The motions.
+    before : mapping of str to float
+        Factors that are on the motions already; the new ones include them.
+    spectrum, rule, periods, how, measure, part, damping, limits, least
+        As in `MotionSet.scaled_to`.
+
+    Returns
+    -------
+    Scaling
+        Factors, and what they were found for.
+
+    Raises
+    ------
+    MotionError
+        If an argument is out of its bounds, or a component is missing or zero.
+    """
+    require_type("spectrum", spectrum, Spectrum, "a Spectrum")
+    require_choice("rule", rule, tuple(SCALING_RULES), error=MotionError)
+    require_choice("how", how, ("amplitude", "common"), error=MotionError)
+    code = SCALING_RULES[rule]
+    low, high = checked_range(periods)
+    wanted = code.part if part is None else require_positive("part", part, error=MotionError)
+    kind = code.measure if measure is None else measure
+    grid = np.concatenate([np.geomspace(low, high, POINTS), [0.0] if code.at_zero else []])
+    target = np.asarray(spectrum.acceleration(grid, damping), dtype=np.float64)
+    found = np.array([pair_spectrum(m, grid, damping, kind) for m in motions.values()])
+    if not (found > 0.0).all():
+        name = list(motions)[int(np.argmin(found.min(axis=1)))]
+        msg = f"{name} does not move in the measure {kind!r}: leave it out of the set"
+        raise MotionError(msg)
+    factors = np.ones(len(motions))
+    if how == "amplitude":  # least squares of the logarithms
+        factors = np.exp(np.log(target / found)[:, :POINTS].mean(axis=1))
+    floor = target * np.where(grid > 0.0, wanted, code.at_zero)
+    mean = (factors[:, None] * found).mean(axis=0)
+    factors *= (floor / mean).max()
+    ratio = (factors[:, None] * found).mean(axis=0)[:POINTS] / target[:POINTS]
+    total = {
+        name: float(factor) * before.get(name, 1.0)
+        for name, factor in zip(motions, factors, strict=True)
+    }
+    _warn_of(total, limits, code.least if least is None else least, rule)
+    return Scaling(
+        spectrum, rule, kind, wanted, (low, high), damping, total,
+        float(ratio.min()), float(ratio.max()),
+    )  # fmt: skip
+
+
+def checked_range(periods: tuple[float, float]) -> tuple[float, float]:
+    """Return a range of periods [s], or raise a MotionError."""
+    if np.shape(periods) != (2,):
+        msg = f"periods = {periods!r}: give the shortest and the longest period in s"
+        raise MotionError(msg)
+    low = require_positive("periods[0]", periods[0], "s", error=MotionError)
+    high = require_positive("periods[1]", periods[1], "s", error=MotionError)
+    if not low < high:
+        msg = f"periods = ({low:g}, {high:g}) s: the first must be below the second"
+        raise MotionError(msg)
+    return low, high
+
+
+def _warn_of(
+    factors: Mapping[str, float], limits: tuple[float, float], least: int, rule: str
+) -> None:
+    """Warn of factors that are out of the limits, and of too few motions."""
+    low, high = limits
+    far = [f"{name} {value:.3g}" for name, value in factors.items() if not low <= value <= high]
+    if far:
+        msg = (
+            f"factors out of {low:g} to {high:g}: {', '.join(far)}; take records of a strength "
+            "like that of the target, or pass limits="
+        )
+        warnings.warn(msg, MotionWarning, stacklevel=4)
+    if len(factors) < least:
+        msg = f"{len(factors)} motions: {rule} takes the mean response of {least} or more"
+        warnings.warn(msg, MotionWarning, stacklevel=4)

@@ -1,0 +1,237 @@
+r"""Stochastic ground motion: filtered and modulated noise with the spectrum of a point source.
+
+White Gaussian noise in an envelope of Saragoni and Hart is given the Fourier amplitudes
+
+.. math::
+
+    Y(f) = \frac{0.55 \cdot 2 \cdot 0.707}{4 \pi \rho \beta^3 R} M_0
+           \frac{(2 \pi f)^2}{1 + (f / f_c)^2}
+           \exp\left(-\frac{\pi f R}{Q \beta} - \pi \kappa f\right), \qquad
+    f_c = 0.49 \beta \left(\frac{\Delta \sigma}{M_0}\right)^{1/3}
+
+(Boore 2003, Pure Appl. Geophys. 160:635-676; in SI units), with Q = Q_0 f^n. Near the fault R is
+the effective distance, which magnitude keeps from vanishing.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import MotionError
+from lir_element.argument_checks import (
+    require_between,
+    require_non_negative,
+    require_positive,
+    require_type,
+)
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from frames._types import FloatArray
+
+KILOMETRE = 1000.0
+
+GENERIC_ROCK = (
+    (0.01, 1.00), (0.09, 1.10), (0.16, 1.18), (0.51, 1.42), (0.84, 1.58), (1.25, 1.74),
+    (2.26, 2.06), (3.17, 2.25), (6.05, 2.58), (16.6, 3.13), (61.2, 4.00),
+)  # fmt: skip
+"""Amplification of generic rock: frequencies [Hz] and factors (Boore and Joyner 1997, Bull. Seism.
+Soc. Am. 87:327-341; to be confirmed against the paper)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointSource:
+    """An earthquake and a site, for the Fourier amplitudes of the ground's acceleration.
+
+    Parameters
+    ----------
+    magnitude : float
+        Moment magnitude, 4 to below 9.
+    distance : float
+        Closest distance to the rupture [km].
+    stress_drop : float
+        Stress parameter [Pa]; 10 MPa (100 bar) is usual where plates meet.
+    density, shear_velocity : float
+        Of the crust at the source [kg/m3, m/s].
+    kappa : float
+        Decay of high frequencies at the site [s]; 0.04 rock of California, 0.005 hard rock.
+    quality, quality_exponent : float
+        Of the path, ``Q = quality * f**quality_exponent``, f in Hz.
+    amplification : sequence of (float, float)
+        Frequencies [Hz] and factors [-] of the site, logarithmic between them; one pair for all.
+        By default generic rock (Boore and Joyner 1997; to be confirmed).
+    saturation : (float, float)
+        a, b of ``log10 h = a + b magnitude``, h in km: the effective distance is
+        ``sqrt(distance**2 + h**2)`` (Yenier and Atkinson 2014; to be confirmed).
+
+    Raises
+    ------
+    MotionError
+        If a value is out of its bounds.
+
+    Notes
+    -----
+    Defaults are usual values for active regions, from memory: to be confirmed for the site.
+    """
+
+    magnitude: float
+    distance: float
+    stress_drop: float = 10e6
+    density: float = 2800.0
+    shear_velocity: float = 3500.0
+    kappa: float = 0.04
+    quality: float = 180.0
+    quality_exponent: float = 0.45
+    amplification: tuple[tuple[float, float], ...] = GENERIC_ROCK
+    saturation: tuple[float, float] = (-0.405, 0.235)
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises
+        ------
+        MotionError
+            If a value is out of its bounds.
+        """
+        require_between("magnitude", self.magnitude, 4.0, 9.0, "-", error=MotionError)
+        require_non_negative("distance", self.distance, "km", error=MotionError,
+                             remedy="give the closest distance to the rupture in km")  # fmt: skip
+        for name in ("stress_drop", "density", "shear_velocity", "quality"):
+            require_positive(name, getattr(self, name), error=MotionError)
+        require_non_negative("kappa", self.kappa, "s", error=MotionError)
+        require_non_negative("quality_exponent", self.quality_exponent, "-", error=MotionError)
+        if np.shape(self.saturation) != (2,):
+            msg = f"saturation = {self.saturation!r}: give (a, b) of log10 h [km] = a + b magnitude"
+            raise MotionError(msg)
+        pairs = np.array(self.amplification, dtype=np.float64)
+        if pairs.ndim != 2 or pairs.shape[1] != 2 or not (pairs > 0.0).all():
+            msg = f"amplification = {self.amplification!r}: give pairs of frequency [Hz] and factor"
+            raise MotionError(msg)
+        if not (np.diff(pairs[:, 0]) > 0.0).all():
+            msg = f"amplification: frequencies {pairs[:, 0].tolist()} Hz must rise"
+            raise MotionError(msg)
+
+    @property
+    def moment(self) -> float:
+        """Seismic moment [N m] (Hanks and Kanamori 1979)."""
+        return float(10.0 ** (1.5 * self.magnitude + 9.05))
+
+    @property
+    def corner_frequency(self) -> float:
+        """Corner frequency of Brune's spectrum [Hz]."""
+        return 0.49 * self.shear_velocity * math.cbrt(self.stress_drop / self.moment)
+
+    @property
+    def effective_distance(self) -> float:
+        """Distance that the amplitudes fall with [km]."""
+        a, b = self.saturation
+        return math.hypot(self.distance, 10.0 ** (a + b * self.magnitude))
+
+    @property
+    def duration(self) -> float:
+        """Duration of the strong motion [s]: that of the source, and 0.05 s a kilometre."""
+        return 1.0 / self.corner_frequency + 0.05 * self.effective_distance
+
+    def fourier_amplitudes(self, frequencies: npt.ArrayLike) -> FloatArray:
+        """Return Fourier amplitudes of the acceleration [m/s] at frequencies [Hz]."""
+        f = np.asarray(frequencies, dtype=np.float64)
+        r, beta = KILOMETRE * self.effective_distance, self.shear_velocity
+        source = 0.55 * 2.0 * math.sqrt(0.5) / (4.0 * math.pi * self.density * beta**3 * r)
+        shape = (2.0 * math.pi * f) ** 2 / (1.0 + (f / self.corner_frequency) ** 2)
+        exponent = 1.0 - self.quality_exponent  # f over Q, finite at zero
+        path = np.exp(-math.pi * r * f**exponent / (self.quality * beta))
+        at, factors = np.log(self.amplification).T
+        site = np.exp(
+            np.interp(np.log(np.maximum(f, 1e-12)), at, factors) - math.pi * self.kappa * f
+        )
+        return np.asarray(source * self.moment * shape * path * site)
+
+
+PEAK, REST = 0.2, 0.05
+"""Of the envelope: time of its peak, and what is left of it, over and after twice the duration."""
+
+
+def envelope(
+    times: npt.ArrayLike, duration: float, peak: float = PEAK, rest: float = REST
+) -> FloatArray:
+    """Return the envelope of Saragoni and Hart, 1 at its peak.
+
+    Parameters
+    ----------
+    times : array_like
+        Times [s].
+    duration : float
+        Duration that it is for [s]; it goes on for about twice as long.
+    peak : float
+        Time of its peak over twice the duration [-].
+    rest : float
+        What is left of it after twice the duration [-].
+
+    Returns
+    -------
+    ndarray
+        Values in the shape of `times`.
+
+    Raises
+    ------
+    MotionError
+        If an argument is out of its bounds.
+
+    Notes
+    -----
+    Source: Boore (2003), eq. 13 to 16, with f_Tgm = 2; to be confirmed against the paper.
+    """
+    length = 2.0 * require_positive("duration", duration, "s", error=MotionError)
+    for name, value in (("peak", peak), ("rest", rest)):
+        require_between(name, value, 1e-6, 1.0, "-", error=MotionError)
+    b = -peak * math.log(rest) / (1.0 + peak * (math.log(peak) - 1.0))
+    c = b / peak
+    x = np.maximum(np.asarray(times, dtype=np.float64) / length, 0.0)
+    return np.asarray((math.e / peak * x) ** b * np.exp(-c * x))
+
+
+def stochastic_acceleration(
+    source: PointSource, dt: float, steps: int, rng: np.random.Generator
+) -> FloatArray:
+    """Return one sample of the acceleration of a point source.
+
+    Parameters
+    ----------
+    source : PointSource
+        The earthquake and the site.
+    dt : float
+        Time step [s].
+    steps : int
+        Number of samples.
+    rng : numpy.random.Generator
+        What draws: one of the same seed gives the same bits.
+
+    Returns
+    -------
+    ndarray, shape (steps,)
+        Accelerations [m/s2]: the mean square of their Fourier amplitudes is that of the source.
+
+    Raises
+    ------
+    TypeError
+        If `rng` is no Generator.
+    MotionError
+        If the samples do not hold twice the duration of the source.
+    """
+    require_type("rng", rng, np.random.Generator, "a numpy Generator: numpy.random.default_rng(1)")
+    step = require_positive("dt", dt, "s", error=MotionError)
+    if steps * step < 2.0 * source.duration:
+        msg = (
+            f"{steps} samples of {step:g} s hold {steps * step:.3g} s of the motion, which goes on "
+            f"for {2.0 * source.duration:.3g} s: take more samples"
+        )
+        raise MotionError(msg)
+    shape = envelope(step * np.arange(steps), source.duration)
+    noise = np.fft.rfft(shape * rng.standard_normal(steps)) / math.sqrt(float((shape**2).sum()))
+    target = source.fourier_amplitudes(np.fft.rfftfreq(steps, step))
+    return np.asarray(np.fft.irfft(noise * target / step, steps), dtype=np.float64)

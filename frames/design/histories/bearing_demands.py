@@ -1,0 +1,300 @@
+"""Checks of what runs asked of bearings: displacement, slip, rims, overlap, what they left."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import CONFIRMED, Bound, Check
+from frames.design.calculation.trace import Trace
+from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
+from frames.design.devices.overlap import liner_pressure, pressure
+from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.suite import names_of, reached
+from frames.results.peak_response import PRESSED
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.design.devices.limits import DesignLimits
+    from frames.design.histories.suite import Suite
+    from frames.frame import Frame
+    from lir_element import LIRBearing
+
+_ALONE = (
+    "a rim may press alone at the level 'pendulum': where that decides, the level 'contact' lets "
+    "the sliders turn until both press (resultant_offsets says when)"
+)
+
+Fill = Callable[[int], Calculation]
+"""Returns the calculation of the bearing of a place."""
+
+
+def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
+    """Return the bearings of a frame by name.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Its runs.
+    frame : Frame
+        The frame.
+
+    Returns
+    -------
+    dict of str to LIRBearing
+        The bearings.
+
+    Raises
+    ------
+    CheckError
+        If the runs have others.
+    """
+    devices = {name: link.bearing for name, link in frame.bearings.items()}
+    odd = sorted(set(names_of(data, "displacement")) ^ set(devices))
+    if odd:
+        msg = f"bearing {odd[0]!r} is in the runs or in the frame alone: give the runs' frame"
+        raise CheckError(msg)
+    return devices
+
+
+@dataclass(frozen=True)
+class BearingDemands:
+    """Makes checks of bearings from what runs reached.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    suite : Suite
+        How they are taken together.
+    bearings : mapping of str to LIRBearing
+        The bearings as they were in these runs.
+    limits : DesignLimits
+        What they may be asked for.
+    bound : {"lower", "nominal", "upper", ""}
+        Bound of their properties.
+    note : str
+        Goes with each check.
+    factor : float
+        On the displacement [-]: where that is beyond the rims, the slip is at least the rest.
+    """
+
+    data: xr.Dataset
+    suite: Suite
+    bearings: Mapping[str, LIRBearing]
+    limits: DesignLimits
+    bound: Bound
+    note: str = ""
+    factor: float = 1.0
+
+    def displacement(
+        self, clause: str, least: float = 0.0, standing: str = CONFIRMED
+    ) -> list[Check]:
+        """Return the check of the displacement against what rims and overlap allow.
+
+        Parameters
+        ----------
+        clause : str
+            Clause.
+        least : float
+            Displacement that is taken at least [m].
+        standing : str
+            Of the check.
+
+        Returns
+        -------
+        list of Check
+            That of the worst bearing; none without rims.
+        """
+        values = reached(self.data, "displacement")
+
+        def fill(k: int) -> Calculation:
+            bearing, t = self._at(k), Trace()
+            if bearing.is_dcfp:
+                t.given("U_max", bearing.lateral_capacity, "m", shown="mm", note="a rim is met")
+            else:
+                t = self._entered(k)
+                t("U_max", "U_cap + s_lim", "m", shown="mm")
+            self.suite.enter(t, "D", values[:, k], "m", "mm")
+            formula = "D"
+            if self.factor > 1.0:
+                t.given("gamma_x", self.factor)
+                formula = "gamma_x * D"
+            if least > 0.0:
+                note = "least one, of the equivalent-linear analysis"
+                t.given("D_least", least, "m", shown="mm", note=note)
+                formula = f"max({formula}, D_least)"
+            if formula == "D":
+                return Calculation(t, "D", "U_max")
+            self.suite.form(t, "D_d", formula, "m", "mm", of="D")
+            return Calculation(t, "D_d", "U_max")
+
+        places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
+        return self._worst(clause, "isolator displacement", fill, places, standing)
+
+    def slips(self) -> list[Check]:
+        """Return the checks of slip over overlap, over the slip that holds, and of what is left."""
+        most, left = reached(self.data, "slip"), reached(self.data, "slip_left")
+
+        def of(symbol: str, values: FloatArray, limit: str) -> Fill:
+            def fill(k: int) -> Calculation:
+                t = self._entered(k)
+                if symbol == "s":
+                    self._enter_slip(t, k)
+                else:
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                if limit not in t and self.limits.slip_left is not None:
+                    t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
+                return Calculation(t, symbol, limit)
+
+            return fill
+
+        after = "s_star" if self.limits.slip_left is None else "s_allowed"
+        holds = f"{NO_CODE} (2.7)"
+        return [
+            *self._worst(f"{NO_CODE}, section 2", "slip over the overlap",
+                         of("s", most, "s_cap"), self._lir),
+            *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
+            *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
+        ]  # fmt: skip
+
+    def _enter_slip(self, t: Trace, k: int) -> None:
+        # The largest slip; with a factor on the displacement at least what that is beyond the rims.
+        slip = reached(self.data, "slip")[:, k]
+        if not self.factor > 1.0:
+            self.suite.enter(t, "s", slip, "m", "mm")
+            return
+        self.suite.enter(t, "s_run", slip, "m", "mm")
+        self.suite.enter(t, "D", reached(self.data, "displacement")[:, k], "m", "mm")
+        t.given("gamma_x", self.factor)
+        self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
+
+    def forces(self) -> list[Check]:
+        """Return the checks of rim force, eccentricity and pressures, where they have limits."""
+        found, limits = list[Check](), self.limits
+        found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
+        title = "resultant between the sliders, over their radius"
+        found += self._against(
+            title, "eccentricity", "epsilon", "eccentricity", "-", note=self._of_resultants
+        )
+        title = "lateral force of a bearing"
+        found += self._against(title, "force", "H", "lateral_force", "N")
+        name = "displacement_left"
+        found += self._against("displacement left", name, "D_left", name, "m", "mm")
+        found += self._against("largest axial force", "axial_force", "N", "axial_force", "N")
+        title = "pressure on the sliders' overlap"
+        found += self._pressure(title, limits.interface_pressure, self._on_overlap)
+        title = "pressure on the liner around its resultant"
+        return found + self._pressure(title, limits.liner_pressure, self._on_liners)
+
+    def _entered(self, k: int) -> Trace:
+        # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.
+        bearing = self._at(k)
+        if bearing.pressure_dependence is None:
+            return enter_bearing(bearing, None)
+        least = float(-np.nanmax(reached(self.data, "axial_tension")[:, k]))
+        most = float(np.nanmax(reached(self.data, "axial_force")[:, k]))
+        return enter_bearing(bearing, None, (max(least, 0.0), most))
+
+    def _pressure(
+        self, title: str, limit: float | None, of: Callable[[Trace], None]
+    ) -> list[Check]:
+        if limit is None:
+            return []
+        load = reached(self.data, "axial_force")
+
+        def fill(k: int) -> Calculation:
+            t = self._entered(k)
+            t.given("p_lim", limit, "Pa", note="as given")
+            self.suite.enter(t, "N", load[:, k], "N")
+            self._enter_slip(t, k)
+            of(t)
+            return Calculation(t, "p", "p_lim")
+
+        note = "largest load and largest slip taken together"
+        return self._worst("no code: liner's maker", title, fill, self._lir, note=note)
+
+    @staticmethod
+    def _on_overlap(t: Trace) -> None:
+        pressure(t, "p", "N", "s")
+
+    @staticmethod
+    def _on_liners(t: Trace) -> None:
+        if math.isfinite(max(liner_pressure(t, k, "N") for k in (1, 2))):
+            t("p", "max(p_1, p_2)", "Pa")
+        else:
+            t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
+
+    def _against(
+        self,
+        title: str,
+        name: str,
+        symbol: str,
+        given: str,
+        unit: str,
+        shown: str = "",
+        note: str = "",
+    ) -> list[Check]:
+        # Against a limit of the project by its name; none where it is not given.
+        limit = getattr(self.limits, given)
+        if limit is None:
+            return []
+        values = reached(self.data, name)
+
+        def fill(k: int) -> Calculation:
+            t = Trace()
+            self.suite.enter(t, symbol, values[:, k], unit, shown)
+            t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
+            return Calculation(t, symbol, f"{symbol}_lim")
+
+        clause = self.limits.clause_of(given)
+        return self._worst(clause, title, fill, self._all, note=note)
+
+    @property
+    def _of_resultants(self) -> str:
+        # What the offset of a resultant counts, and what its level can say of it.
+        counted = f"counts while N > {PRESSED:g} of that at rest"
+        if "pendulum" not in str(self.data.attrs["level"]):
+            return counted
+        return f"{counted}; {_ALONE}"
+
+    def _worst(
+        self,
+        clause: str,
+        title: str,
+        fill: Fill,
+        places: list[int],
+        standing: str = CONFIRMED,
+        note: str = "",
+    ) -> list[Check]:
+        words = "; ".join(part for part in (note, self.note) if part)
+        places_of = {self._names[k]: k for k in places}
+        judge = Governing(self.bound, standing, words, self.suite.void)
+        return judge(clause, title, {name: fill(k) for name, k in places_of.items()})
+
+    def _at(self, k: int) -> LIRBearing:
+        return self.bearings[self._names[k]]
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return names_of(self.data, "displacement")
+
+    @property
+    def _all(self) -> list[int]:
+        return list(range(len(self._names)))
+
+    @property
+    def _lir(self) -> list[int]:
+        # Those with an interface, and with rims.
+        return [
+            k
+            for k in self._all
+            if not self._at(k).is_dcfp and math.isfinite(self._at(k).lateral_capacity)
+        ]

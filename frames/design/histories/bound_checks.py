@@ -1,0 +1,337 @@
+"""Checks of time histories at one bound of the bearings' properties."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.trace import Trace
+from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.codes.history_rules import HISTORY_RULES
+from frames.design.codes.secant import CheckBuilder
+from frames.design.devices.capacity import RIM_RULES, engagement_checks
+from frames.design.devices.limits import PROJECT_LIMIT
+from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.suite import (
+    audit_notes,
+    contact_notes,
+    left_out_checks,
+    names_of,
+    parted,
+    reached,
+    suite_of,
+)
+from frames.design.histories.uplift import Uplift
+from frames.statics.overturning import unknown_axial_forces
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.levels import ActionLevel
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.devices.limits import DesignLimits
+    from frames.design.histories.suite import Suite
+    from frames.frame import Frame
+
+_DRIFTS = {
+    "drift": "mean of the storey, size in plan",
+    "line_drift": "line of nodes over one another, size in plan",
+}
+_LEAST = "least one, of the equivalent-linear analysis"
+
+
+@dataclass(frozen=True)
+class BoundChecks:
+    """Makes the checks of the runs at one bound.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    frame : Frame
+        The structure at that bound.
+    rules : HistoryRules
+        The code's.
+    bound : {"lower", "nominal", "upper", ""}
+        The bound.
+    limits : DesignLimits
+        What bearings and structure may be asked for.
+    equivalent : EquivalentLinear, optional
+        Analysis that has least values.
+    level : ActionLevel
+        Of the seismic action, and what is judged at it.
+    """
+
+    data: xr.Dataset
+    frame: Frame
+    rules: HistoryRules
+    bound: Bound
+    limits: DesignLimits
+    equivalent: EquivalentLinear | None
+    level: ActionLevel
+
+    def checks(self) -> list[Check]:
+        """Return all of them.
+
+        Returns
+        -------
+        list of Check
+            Motions and failed runs, bearings, structure.
+
+        Raises
+        ------
+        CheckError
+            If runs and frame do not belong together, or there are no minima.
+        """
+        doubts = list(map(str, self.data["doubts"].to_numpy()))
+        found = [self._motions(), self._failed(), *left_out_checks(self.data, doubts, self.bound)]
+        if self.level.judges_bearings:
+            found += self._of_bearings()
+        if self.level.judges_structure:
+            found += [*self._base_shear(), *self._storey_shear()]
+            found += [*self._drift(), *self._acceleration()]
+        return [replace(check, level=self.level.name) for check in found]
+
+    def _of_bearings(self) -> list[Check]:
+        rules, bearings = self.rules, self._bearings
+        clause = self._clause(rules.displacement_clause)
+        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
+        found = [
+            *moved, *self._engagement(moved), *bearings.slips(), *bearings.forces(),
+            *self._uplift(),
+        ]  # fmt: skip
+        return [*not_evaluated(found, unknown_axial_forces(self.frame), OF_AXIAL_FORCES)]
+
+    @cached_property
+    def _suite(self) -> Suite:
+        return suite_of(self.data, self.rules)
+
+    @cached_property
+    def _audit(self) -> str:
+        return audit_notes(self.data)
+
+    @cached_property
+    def _small_gaps(self) -> str:
+        allowed = self.rules.uplift_allowed
+        return "" if allowed else contact_notes(self.data, self.rules.least_gap)
+
+    @property
+    def _note(self) -> str:
+        # With each check: why there is no value, or that there is more to read.
+        marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
+        more = f"audits of {marked} runs mark something: see the check of runs" if marked else ""
+        return "; ".join(part for part in (self._suite.reason, more) if part)
+
+    @property
+    def _bearings(self) -> BearingDemands:
+        devices = devices_of(self.data, self.frame)
+        return BearingDemands(
+            self.data, self._suite, devices, self.limits, self.bound, self._note,
+            self.rules.displacement_factor,
+        )  # fmt: skip
+
+    def _motions(self) -> Check:
+        t = Trace()
+        t.given("n", float(self.data.sizes["run"]), note="motions")
+        t.given("n_least", float(self.rules.least))
+        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        note = f"{self._suite.statistic} of the motions counts"
+        return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
+
+    def _failed(self) -> Check:
+        t = Trace()
+        t.given("n_failed", float(sum(self._suite.failed)), note="runs that failed")
+        allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
+        t.given("n_allowed", float(allowed))
+        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        said = (self._suite.reason, self._small_gaps, self._audit)
+        note = "; ".join(part for part in said if part)
+        return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
+
+    def _engagement(self, moved: list[Check]) -> list[Check]:
+        # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
+        code, least = self.rules.code, self.rules.engagement
+        if code not in RIM_RULES or not moved or moved[0].void:
+            return []  # the check of the displacement tells why
+        bearing = self.frame.bearings[moved[0].subject].bearing
+        found = engagement_checks(
+            bearing, {self.bound: moved[0].demand}, least=least,
+            code=code,  # type: ignore[arg-type]  # one of them
+            agreed=self.limits.rim_engagement,
+        )  # fmt: skip
+        named = (replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found)
+        return [replace(c, title=f"{c.title} of histories") for c in named]
+
+    def _uplift(self) -> list[Check]:
+        found = []
+        if not self.rules.uplift_allowed:
+            t, gap = Trace(), f"{1e3 * self.rules.least_gap:g} mm"
+            lasts = np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf)
+            open_ = parted(self.data, self.rules.least_gap) | np.isinf(lasts)
+            longest = float(np.where(open_, lasts, 0.0).max())
+            t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
+            t.given("t_allowed", 0.0, "s")
+            stopped = bool((self.data["status"].to_numpy() != "ok").any())
+            judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
+            clause, title = self._clause(self.rules.force_clause), f"time lifted off by over {gap}"
+            said = "; ".join(
+                part for part in (self._suite.void if stopped else "", self._small_gaps) if part
+            )
+            found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=said))
+        rules = self.rules
+        clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
+        devices = devices_of(self.data, self.frame)
+        more = "" if clause else self._uplift_by_the_project
+        reason = self._suite.reason
+        made = Uplift(self.data, devices, self.limits, self.bound, clause, more, reason)
+        return found + made.checks()
+
+    @property
+    def _uplift_by_the_project(self) -> str:
+        code = HISTORY_RULES.get(self.rules.code)
+        if code is None or code.uplift_allowed or not self.rules.uplift_allowed:
+            return ""
+        return f"runs with uplift count by the project, not by {code.code}: to be agreed"
+
+    def _base_shear(self) -> list[Check]:
+        limit, least = self.limits.base_shear, self._least("V_b_dyn")
+        if limit is None:
+            return []
+
+        def fill(values: FloatArray) -> Trace:
+            t = Trace()
+            self._suite.enter(t, "V", values, "N")
+            if least > 0.0:
+                t.given("V_least", least, "N", note=_LEAST)
+                self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
+            return t
+
+        symbol = "V_d" if least > 0.0 else "V"
+        return self._worst("", "base shear", "base_shear", symbol, "N", limit, fill=fill)
+
+    def _storey_shear(self) -> list[Check]:
+        # On the storey over the lowest level: less is not a failure of the run, but of the demand.
+        if self.equivalent is None or not self._least("V_s_dyn") or len(self.frame.levels) < 2:
+            return []
+        if "reached_storey_shear" not in self.data:
+            msg = "runs have no storey shears (reached_storey_shear): compute them anew"
+            raise CheckError(msg)
+        known, t = self.equivalent.bounds[self.bound].trace, Trace()
+        self._suite.enter(t, "V_st", reached(self.data, "storey_shear")[:, 0], "N")
+        t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
+        self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
+        t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
+        t.given("a_dyn", known.value("a_dyn"), source="ASCE 7-22 17.6.4")
+        t("V_least", "a_dyn * V_s", "N")
+        more = "where it fails, forces above the isolation count times the ratio"
+        return [
+            CheckBuilder(t, self.bound, void=self._suite.void).worst(
+                self._clause(self.rules.force_clause), "storey shear of time histories", "V_run",
+                ">=", "V_least", subjects=(self.frame.levels[1].name,),
+                note="; ".join(part for part in (self._note, more) if part),
+            )
+        ]  # fmt: skip
+
+    def _drift(self) -> list[Check]:
+        # That of the code, and that of the project beside it.
+        own, found = self.limits.drift, list[Check]()
+        if len(self.frame.levels) < 2:
+            return found
+        if self.rules.drift is not None:
+            found += self._drift_within(self.rules.drift, self.rules.drift_clause)
+        if own is not None:
+            for check in self._drift_within(own, ""):
+                note = "; ".join(part for part in (check.note, self._beside()) if part)
+                found.append(replace(check, note=note))
+        return found
+
+    def _beside(self) -> str:
+        # How the project's limit of drifts is to that of the code.
+        own, code = self.limits.drift, self.rules.drift
+        if own is None or code is None:
+            return ""
+        word = "laxer" if own > code else "not laxer"
+        clause = self._clause(self.rules.drift_clause)
+        return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
+
+    def _drift_within(self, limit: float, clause: str) -> list[Check]:
+        shear, least = reached(self.data, "base_shear"), self._least("V_b_dyn")
+
+        def fill(values: FloatArray) -> Trace:
+            t = Trace()
+            self._suite.enter(t, "theta", values, "-", "%")
+            if least > 0.0:
+                self._suite.enter(t, "V", shear, "N")
+                t.given("V_least", least, "N", note=_LEAST)
+                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%", of="theta")
+            return t
+
+        symbol, title = "theta_d" if least > 0.0 else "theta", "storey drift ratio"
+        found: list[Check] = []
+        for name, of in _DRIFTS.items():
+            if f"reached_{name}" in self.data:
+                found += self._worst(
+                    clause, title, name, symbol, "-", limit, shown="%", fill=fill, of=of
+                )
+        return [max(found, key=lambda check: check.compared)] if found else []
+
+    def _acceleration(self) -> list[Check]:
+        limit = self.limits.floor_acceleration
+        if limit is None or not self.frame.levels:
+            return []
+        title = "floor acceleration in plan"
+        return self._worst("", title, "floor_plan", "A", "m/s2", limit)
+
+    def _worst(
+        self,
+        clause: str,
+        title: str,
+        name: str,
+        symbol: str,
+        unit: str,
+        limit: float,
+        *,
+        shown: str = "",
+        fill: Callable[[FloatArray], Trace] | None = None,
+        of: str = "",
+    ) -> list[Check]:
+        # The worst of what a quantity is reached by; `of`: which of several it is, in words.
+        note = "; ".join(part for part in (of, self._note) if part)
+        values = reached(self.data, name)
+        values = values.reshape(len(values), -1)
+        each = {}
+        for k, label in enumerate(names_of(self.data, name)):
+            t = Trace() if fill is None else fill(values[:, k])
+            if fill is None:
+                self._suite.enter(t, symbol, values[:, k], unit, shown)
+            t.given(f"{symbol}_lim", limit, unit, shown=shown)
+            each[label] = Calculation(t, symbol, f"{symbol}_lim")
+        where = self._clause(clause) if clause else PROJECT_LIMIT
+        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
+
+    def _least(self, symbol: str) -> float:
+        # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.
+        if self.equivalent is None or self.bound not in self.equivalent.bounds:
+            return 0.0
+        trace = self.equivalent.bounds[self.bound].trace
+        if not self.rules.has_minima or symbol not in trace:
+            msg = (
+                f"equivalent has no minima of time histories ({symbol}): give that of ASCE 7-22 "
+                "with a superstructure, or leave it out"
+            )
+            raise CheckError(msg)
+        return trace.value(symbol)
+
+    def _clause(self, clause: str) -> str:
+        return f"{self.rules.code} {clause}".strip()

@@ -1,0 +1,209 @@
+"""Table of what time histories give for design: one statistic a column, and it is named."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames.design.histories.suite import motion_of, names_of, reached, suite_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import pandas as pd
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.histories.suite import Suite
+
+COUNTED = {
+    "uplifts, all bearings": "uplifts", "time lifted": "time_lifted", "gap of uplift": "gap",
+}  # fmt: skip
+"""Rows of uplift, of which codes without uplift leave small gaps aside."""
+
+_TABLE = (
+    ("isolator displacement", "displacement", "m", 1.0),
+    ("displacement left", "displacement_left", "m", 1.0),
+    ("interface slip", "slip", "m", 1.0),
+    ("interface slip left", "slip_left", "m", 1.0),
+    ("rim force", "rim_force", "N", 1.0),
+    ("largest axial force", "axial_force", "N", 1.0),
+    ("least axial force", "axial_tension", "N", -1.0),
+    ("uplifts, all bearings", "uplifts", "-", 1.0),
+    ("time lifted", "time_lifted", "s", 1.0),
+    ("gap of uplift", "gap", "m", 1.0),
+    ("base shear", "base_shear", "N", 1.0),
+    ("storey shear", "storey_shear", "N", 1.0),
+    ("storey drift ratio", "drift", "-", 1.0),
+    ("storey drift ratio, worst line", "line_drift", "-", 1.0),
+    ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
+)
+_NOTES = {
+    "storey drift ratio": "mean of the storey, in plan",
+    "storey drift ratio, worst line": "in plan",
+    "floor acceleration in plan": "mean of the level",
+}
+_ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
+
+
+def demand_table(runs: Mapping[Bound, xr.Dataset], rules: HistoryRules) -> pd.DataFrame:
+    """Return what time histories give for design at each bound: see `history_demands`.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Runs by bound.
+    rules : HistoryRules
+        The code's.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a quantity; `attrs` has the statistic of each bound.
+    """
+    import pandas as pd
+
+    suites = {bound: suite_of(data, rules) for bound, data in runs.items()}
+    void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
+    rows = []
+    for title, name, unit, sign in _TABLE:
+        there = {b: data for b, data in runs.items() if f"reached_{name}" in data}
+        if there:
+            row: dict[str, Any] = {"quantity": title, "unit": unit}
+            row |= _numbers(there, suites, name, sign) | {"note": _note(title, rules), "void": void}
+            rows.append(row)
+    table = pd.DataFrame(rows).set_index("quantity")
+    table.attrs = {
+        "statistics": {bound or "value": said(suite) for bound, suite in suites.items()},
+        "runs": sum(data.sizes["run"] for data in runs.values()),
+    }
+    return table
+
+
+def _numbers(
+    runs: Mapping[Bound, xr.Dataset], suites: Mapping[Bound, Suite], name: str, sign: float
+) -> dict[str, Any]:
+    # The cells of a row, of what is worst at each bound, over the bounds, and of single runs.
+    cells: dict[str, Any] = {}
+    envelope, where, worst, run = -math.inf, "", -math.inf, ""
+    for bound, data in runs.items():
+        columns = _reached(data, name)
+        each = [suites[bound].value(column) for column in columns.T]
+        if suites[bound].void and name.endswith("_left") and np.isnan(columns).any():
+            each = [math.nan] * len(each)  # runs that stopped left nothing that counts
+        k = int(np.argmax(np.nan_to_num(each, nan=-math.inf)))  # what is not known is not worst
+        cells[bound or "value"] = sign * each[k] + 0.0  # no -0
+        if each[k] > envelope:
+            envelope, where = each[k], names_of(data, name)[k]
+        largest = np.nanmax(columns, axis=1, initial=-math.inf)
+        if largest.max() > worst:
+            worst, one = float(largest.max()), int(largest.argmax())
+            run = ", ".join(part for part in (motion_of(data, one), bound) if part)
+    found = {"envelope": envelope, "worst": worst}
+    known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
+    return cells | {"envelope": known["envelope"], "where": where, "worst": known["worst"],
+                    "run": run}  # fmt: skip
+
+
+def _reached(data: xr.Dataset, name: str) -> FloatArray:
+    # Values (n_runs, m); of what is left, none of runs that stopped before their end.
+    values = reached(data, name)
+    values = values.reshape(len(values), -1).copy()
+    if name.endswith("_left"):
+        values[data["status"].to_numpy() != "ok"] = math.nan
+    return values
+
+
+def _note(title: str, rules: HistoryRules) -> str:
+    if title in COUNTED and not rules.uplift_allowed:
+        return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.code})"
+    return _NOTES.get(title, "")
+
+
+def said(suite: Suite) -> str:
+    """Return in words how the runs of a bound are taken together."""
+    n, failed = len(suite.failed), sum(suite.failed)
+    what = f"{suite.statistic} of "
+    if suite.void:
+        return f"{what}what {n} runs reached, {failed} failed"
+    if failed:
+        return f"{what}{n - failed} of {n} runs, at least {suite.median_factor:g} medians of all"
+    return f"{what}{n} runs" if n > 1 else "1 run"
+
+
+def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """Return tables of demands of several levels of the seismic action, one under the other.
+
+    Parameters
+    ----------
+    tables : mapping of str to pandas.DataFrame
+        Of `demand_table`, by level.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The last column is the level; statistics that differ between levels name them.
+    """
+    import pandas as pd
+
+    several = len(tables) > 1
+    parts = []
+    for name, table in tables.items():
+        void = table["void"].map(lambda why, at=name: f"level {at}, {why}" if why else "")
+        parts.append(table.assign(void=void if several else table["void"], level=name))
+    found = pd.concat(parts)
+    statistics: dict[str, str] = {}
+    for bound in next(iter(tables.values())).attrs["statistics"]:
+        words = {name: table.attrs["statistics"][bound] for name, table in tables.items()}
+        same = len(set(words.values())) == 1
+        each = (f"{name}: {text}" for name, text in words.items())
+        statistics[bound] = next(iter(words.values())) if same else "; ".join(each)
+    runs = sum(table.attrs["runs"] for table in tables.values())
+    found.attrs = {"statistics": statistics, "runs": runs // len(tables)}
+    return found
+
+
+def void_said(table: pd.DataFrame) -> str:
+    """Return why a table of demands has no values for design, of each level; empty if it has."""
+    return "; ".join(why for why in dict.fromkeys(map(str, table["void"])) if why)
+
+
+def headed(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table of demands with the statistic in the head of each column.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Of `demand_table`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The same, reasons of failed runs aside.
+    """
+    statistics: dict[str, str] = table.attrs["statistics"]
+    heads = {bound: f"{bound}, {words}" for bound, words in statistics.items()}
+    heads |= {
+        "envelope": "envelope of these", "where": "where",
+        "worst": f"worst of all {table.attrs['runs']} runs", "run": "in run",
+    }  # fmt: skip
+    return table.drop(columns="void").rename(columns=heads)
+
+
+def bounds_of(table: pd.DataFrame) -> list[str]:
+    """Return the columns of a table of demands that are of one bound each."""
+    return [str(name) for name in table.columns if name not in _ENDS]
+
+
+def envelope_said(table: pd.DataFrame) -> str:
+    """Return in words what the envelope of a table of demands is of."""
+    found = sorted(set(table.attrs["statistics"].values()))
+    return (
+        found[0]
+        if len(found) == 1
+        else "; ".join(f"{bound}: {words}" for bound, words in table.attrs["statistics"].items())
+    )

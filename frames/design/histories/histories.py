@@ -1,0 +1,222 @@
+"""Checks of time history analyses by a code's number of motions, at each bound of properties."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from frames.batch.cases import named_motions
+from frames.batch.time_histories import time_histories
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.codes.bounds import BoundName, PropertyBounds, with_property_bounds
+from frames.design.codes.history_rules import HISTORY_RULES, HistoryRules
+from frames.design.devices.limits import DesignLimits
+from frames.design.histories.bound_checks import BoundChecks
+from frames.design.histories.demand_table import demand_table
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import pandas as pd
+
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.frame import Frame
+    from frames.motion.ground_motion import GroundMotion
+
+_BOUNDS: tuple[BoundName, ...] = ("lower", "nominal", "upper")
+
+
+def bounded_histories(
+    frame: Frame,
+    motions: GroundMotion | Sequence[GroundMotion] | Mapping[str, GroundMotion],
+    bounds: PropertyBounds,
+    *,
+    scales: float | Mapping[str, float] = 1.0,
+    at: Sequence[BoundName] = _BOUNDS,
+    **options: Any,
+) -> dict[Bound, xr.Dataset]:
+    """Run time histories at the bounds of the bearings' friction, all on all processors.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure, friction nominal.
+    motions : GroundMotion, or a sequence or mapping of them
+        The suite of motions.
+    bounds : PropertyBounds
+        Factors of friction.
+    scales : float or mapping of str to float
+        Factor on all motions, or on each by its name [-].
+    at : sequence of str
+        Bounds to run at.
+    **options
+        Of `time_histories`: dt, level, record, workers and so on.
+
+    Returns
+    -------
+    dict of str to xarray.Dataset
+        A row a motion along `run`, by bound.
+
+    Raises
+    ------
+    CheckError
+        If a motion has no scale, or a word is no bound.
+    ValueError
+        If a bearing cannot be at a bound, or as `time_histories` has it.
+    """
+    suite = named_motions(motions)
+    factors = scales if isinstance(scales, Mapping) else dict.fromkeys(suite, scales)
+    lacking = [name for name in suite if name not in factors]
+    if lacking:
+        msg = f"scales has no factor for the motion {lacking[0]!r}: give one for each"
+        raise CheckError(msg)
+    models: dict[str, Frame] = {name: with_property_bounds(frame, name, bounds) for name in at}
+    cases = [(bound, name, factors[name]) for bound in models for name in suite]
+    data = time_histories(models, suite, cases=cases, **options)
+    return {
+        bound: data.isel(run=np.flatnonzero((data["model"] == bound).to_numpy())) for bound in at
+    }
+
+
+def history_checks(
+    runs: xr.Dataset | Mapping[Bound, xr.Dataset],
+    frame: Frame,
+    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] | HistoryRules,
+    *,
+    bounds: PropertyBounds | None = None,
+    limits: DesignLimits | None = None,
+    equivalent: EquivalentLinear | None = None,
+    action_level: str = "",
+) -> Checks:
+    """Check time history analyses as a code counts them, at each bound of properties.
+
+    Parameters
+    ----------
+    runs : xarray.Dataset or mapping of str to xarray.Dataset
+        Of `time_histories`, or by bound as `bounded_histories` gives them.
+    frame : Frame
+        The structure, friction nominal.
+    code : {"ASCE 7-22", "EN 1998-1", "NCh2745"} or HistoryRules
+        The code, or its rules with other factors.
+    bounds : PropertyBounds, optional
+        Factors that the runs at a bound were made with: the slip that holds goes by them.
+    limits : DesignLimits, optional
+        What bearings and structure may be asked for; the code's own limits are checked beside.
+    equivalent : EquivalentLinear, optional
+        Of ASCE 7-22 with a superstructure: at the bounds that it has, its minima are put under
+        displacement and base shear, drifts grow as the base shear does, and the shear of the
+        storey over the lowest level is held against its least value.
+    action_level : str
+        Which level of the seismic action the runs are of, where the code has several: NCh2745
+        judges what stands on the bearings at "design", the bearings at "maximum".
+
+    Returns
+    -------
+    Checks
+        At each bound, as far as the level is for it: number of motions, runs that failed,
+        displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and
+        what `limits` asks for. Where more runs failed than the rules allow, no value is formed of
+        the others: each check that needs it fails (`Check.void`), its demand is what the runs
+        reached, and its note names those that failed. Notes also tell what the runs' audits mark.
+
+    Raises
+    ------
+    CheckError
+        If runs and frame do not belong together, runs are missing, a motion is there at two
+        scales, the code has no minima, or the level is not one of the code's.
+    """
+    rules = _rules(code)
+    level = rules.level(action_level)
+    found: list[Check] = []
+    for bound, data in _by_bound(runs).items():
+        model = (
+            frame if bounds is None or bound == "" else with_property_bounds(frame, bound, bounds)
+        )
+        chosen = limits or DesignLimits()
+        found += BoundChecks(data, model, rules, bound, chosen, equivalent, level).checks()
+    return Checks(found)
+
+
+def history_demands(
+    runs: xr.Dataset | Mapping[Bound, xr.Dataset],
+    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] | HistoryRules,
+) -> pd.DataFrame:
+    """Return what time histories give for design: at each bound, and the envelope.
+
+    Parameters
+    ----------
+    runs : xarray.Dataset or mapping of str to xarray.Dataset
+        As for `history_checks`.
+    code : str or HistoryRules
+        As for `history_checks`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a quantity with its unit (SI); the worst bearing, storey or level. Columns:
+
+        - each bound ("value" of runs at none): mean or largest of the runs, as the code counts
+          them; of the least axial force the mean or the smallest of the runs' smallest;
+          ``attrs["statistics"]`` says which, and of how many;
+        - envelope: the largest of these, and where it is;
+        - worst: the largest of all single runs (of the least axial force the smallest), and its
+          run;
+        - note: what the row is of, and which gaps do not count;
+        - void: where more runs failed than the rules allow, which and why. The numbers of that
+          bound are then those that its runs reached, failed ones included, up to where they
+          stopped: no values for design. What was left of runs that stopped is NaN.
+
+        Minima and factors of codes are not in it.
+
+    Raises
+    ------
+    CheckError
+        If runs are missing, or a motion is there at two scales.
+    """
+    return demand_table(_by_bound(runs), _rules(code))
+
+
+def _rules(code: str | HistoryRules) -> HistoryRules:
+    if isinstance(code, HistoryRules):
+        return code
+    require_choice("code", code, tuple(HISTORY_RULES), error=CheckError)
+    return HISTORY_RULES[code]
+
+
+def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.Dataset]:
+    # Runs of one structure each.
+    found: dict[Bound, xr.Dataset] = {"": runs} if isinstance(runs, xr.Dataset) else dict(runs)
+    if not found:
+        msg = "runs is empty: give those of one bound at least"
+        raise CheckError(msg)
+    for bound, data in found.items():
+        require_choice("bound", bound, ("", *_BOUNDS), error=CheckError)
+        _refuse_unlike(data, bound)
+    return found
+
+
+def _refuse_unlike(data: xr.Dataset, bound: str) -> None:
+    what = f"runs at the bound {bound!r}" if bound else "runs"
+    if "run" not in data.dims or "status" not in data.variables:
+        msg = f"{what}: no dimension 'run': give the Dataset of time_histories"
+        raise CheckError(msg)
+    if data.attrs.get("status", "ok") != "ok":
+        msg = f"{what}: the batch was interrupted, runs are missing: run it again"
+        raise CheckError(msg)
+    if "reached_uplifts" not in data.variables:
+        msg = f"{what}: none could begin: {data['message'].to_numpy()[0]}"
+        raise CheckError(msg)
+    models = sorted({str(name) for name in data["model"].to_numpy()})
+    if len(models) != 1:
+        msg = f"{what}: there are {len(models)} structures, {', '.join(models)}: give one a bound"
+        raise CheckError(msg)
+    motions = [str(name) for name in data["motion"].to_numpy()]
+    twice = [name for name in motions if motions.count(name) > 1]
+    if twice:
+        msg = f"{what}: the motion {twice[0]!r} is there twice: give each at one scale"
+        raise CheckError(msg)

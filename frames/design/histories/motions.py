@@ -1,0 +1,192 @@
+"""Checks of a set of motions against the target spectrum, as a code asks of time histories."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import MotionError
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.trace import Trace
+from frames.design.codes.history_rules import HISTORY_RULES, RULES
+from frames.design.codes.secant import CheckBuilder
+from frames.design.hazard.fault_axes import angle_of
+from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.hazard.scaling import POINTS, SCALING_RULES
+from frames.motion.ground_motion import GroundMotion
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.hazard.motion_set import MotionSet
+    from frames.design.hazard.spectrum import Spectrum
+
+PERIOD_RANGES = {
+    "ASCE 7-22": (0.75, 1.25), "ASCE 7-10": (0.75, 1.25), "EN 1998-1": (0.2, 2.0),
+    "EN 1998-2": (0.2, 1.5), "NCh2745": (0.5, 1.25),
+}  # fmt: skip
+"""Range of periods by rule, over the shortest and the longest effective period of the bounds; to
+be confirmed against the standards."""
+
+_TURNED = 1.0  # degrees
+
+
+def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, float]:
+    """Return the range of periods in which motions are compared with a target spectrum.
+
+    Parameters
+    ----------
+    equivalent : EquivalentLinear
+        Its effective periods at all its bounds count; of NCh2745, which has two levels, the
+        shortest is T_D and the longest T_M.
+    rule : str
+        Of `PERIOD_RANGES`; that of the analysis' code if empty.
+
+    Returns
+    -------
+    (float, float)
+        Shortest and longest period [s]: of ASCE 7-22 0.75 T_M of the upper bound and 1.25 T_M of
+        the lower one.
+
+    Raises
+    ------
+    CheckError
+        If the rule is not known.
+    """
+    low, high = PERIOD_RANGES[_rule(equivalent, rule)]
+    each = equivalent.bounds.values()
+    design = [e.trace.value("T_D") if "T_D" in e.trace else e.period for e in each]
+    return low * min(design), high * max(e.period for e in each)
+
+
+def motion_checks(
+    motions: MotionSet, spectrum: Spectrum, equivalent: EquivalentLinear, *, rule: str = ""
+) -> Checks:
+    """Check a set of motions as it is run: number of pairs, mean spectrum, fault axes.
+
+    Parameters
+    ----------
+    motions : MotionSet
+        The motions, scaled. A horizontal component that is missing counts as no motion.
+    spectrum : Spectrum
+        The target.
+    equivalent : EquivalentLinear
+        Its effective periods make the range.
+    rule : str
+        Of `SCALING_RULES`; that of the analysis' code if empty. "ASCE 7-10" asks
+        SRSS of ASCE 7-22's range.
+
+    Returns
+    -------
+    Checks
+        Pairs of motions; mean spectrum over what the code asks of the target, at the period where
+        it is least; the same at the period 0 by EN 1998-1; by ASCE 7, where motions are marked
+        "near_fault", how many of them are not turned to the fault's axes, or do not say how they
+        lie to it.
+
+    Raises
+    ------
+    CheckError
+        If the rule is not known.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion
+    >>> from frames.design import IsolationSystem, MotionSet, Spectrum, equivalent_linear
+    >>> from frames.design import PropertyBounds, PropertyModificationFactors
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=CoulombFriction(0.06), interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
+    >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
+    >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
+    >>> print(motion_checks(motions, target, linear)[0])
+    pairs of motions: 1 >= 7, ratio 7, FAILED [ASCE 7-22 17.3.3]
+    """
+    name = _rule(equivalent, rule)
+    asked = SCALING_RULES[name]
+    low, high = period_range(equivalent, name)
+    both = [_pair(motion) for motion in motions.values()]
+    grid = np.geomspace(low, high, POINTS)
+    clause = asked.clause
+    found = [_number(motions, name, clause), _mean(both, spectrum, grid, clause, name)]
+    if asked.at_zero:
+        found.append(_mean(both, spectrum, np.zeros(1), clause, name))
+    return Checks([*found, *(_turned(motions, clause) if name.startswith("ASCE") else [])])
+
+
+def _rule(equivalent: EquivalentLinear, rule: str) -> str:
+    name = rule or RULES[equivalent.code]
+    require_choice("rule", name, tuple(PERIOD_RANGES), error=CheckError)
+    return name
+
+
+def _pair(motion: GroundMotion) -> GroundMotion:
+    x, y, _ = motion.components.T  # zeros where one is missing
+    return GroundMotion(x=x, y=y, dt=motion.dt, name=motion.name)
+
+
+def _number(motions: MotionSet, rule: str, clause: str) -> Check:
+    t = Trace()
+    pairs = sum(m.x is not None and m.y is not None for m in motions.values())
+    t.given("n", float(pairs), note="with both horizontal components")
+    least = HISTORY_RULES[rule].least if rule in HISTORY_RULES else SCALING_RULES[rule].least
+    t.given("n_least", float(least))
+    up = sum(m.z is not None for m in motions.values())
+    note = f"{up} of {len(motions)} have a vertical component"
+    return CheckBuilder(t, "")(clause, "pairs of motions", "n", ">=", "n_least", note=note)
+
+
+def _mean(
+    motions: list[GroundMotion], spectrum: Spectrum, grid: FloatArray, clause: str, rule: str
+) -> Check:
+    # At the period where the mean is the least part of the target.
+    asked = SCALING_RULES[rule]
+    target = np.asarray(spectrum.acceleration(grid, 0.05), dtype=np.float64)
+    each = np.array([pair_spectrum(motion, grid, 0.05, asked.measure) for motion in motions])
+    k = int(np.argmin(each.mean(axis=0) / target))
+    t, at_zero = Trace(), not grid.any()
+    t.given_each("S_i", each[:, k].tolist(), "m/s2", note=f"{asked.measure} of each pair, 5 %")
+    t.given("n", float(len(motions)))
+    t("S_mean", "sum(S_i) / n", "m/s2", note=f"at T = {grid[k]:.4g} s")
+    t.given("S_target", float(target[k]), "m/s2", note=f"of {spectrum.name or spectrum.code}")
+    t.given("a_S", asked.at_zero if at_zero else asked.part)
+    t("S_least", "a_S * S_target", "m/s2")
+    title = "mean spectrum of the motions" + (" at the period 0" if at_zero else "")
+    note = "" if at_zero else f"least from {grid[0]:.4g} to {grid[-1]:.4g} s"
+    return CheckBuilder(t, "")(clause, title, "S_mean", ">=", "S_least", note=note)
+
+
+def _turned(motions: MotionSet, clause: str) -> list[Check]:
+    near = [name for name in motions if motions.facts[name].get("near_fault")]
+    if not near:
+        return []
+    odd = [name for name in near if not _is_turned(name, motions)]
+    t = Trace()
+    t.given("n_odd", float(len(odd)), note=f"of {len(near)} near-fault pairs")
+    t.given("n_allowed", 0.0)
+    note = (
+        f"MotionSet.fault_normal turns those whose strike and azimuths are known: {', '.join(odd)}"
+        if odd
+        else ""
+    )
+    title = "near-fault pairs that are not turned to the fault"
+    return [CheckBuilder(t, "")(clause, title, "n_odd", "<=", "n_allowed", note=note)]
+
+
+def _is_turned(name: str, motions: MotionSet) -> bool:
+    known = motions.facts[name]
+    try:
+        strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
+    except MotionError:  # what is not known cannot be said to be turned
+        return False
+    off = (abs((azimuth - strike + 45.0) % 90.0 - 45.0) for azimuth in (x, y))  # either way round
+    return max(off) <= _TURNED

@@ -1,0 +1,243 @@
+"""Checks of one time history: what impacts ask of bearings and of the structure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.calculation.trace import Trace
+from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.codes.secant import CheckBuilder
+from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
+from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
+from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.impacts import (
+    impact_demand,
+    rim_engagement,
+    slips_of_events,
+    uplift_events,
+)
+from frames.design.histories.suite import Suite, left_out_checks
+from frames.design.histories.uplift import Uplift
+from frames.results.assumption_checks import doubts_of
+from frames.statics.overturning import unknown_axial_forces
+from lir_element.argument_checks import require_positive
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from frames.frame import Frame
+    from lir_element import LIRBearing
+
+
+def impact_checks(
+    data: xr.Dataset,
+    frame: Frame,
+    *,
+    limits: DesignLimits | None = None,
+    total_displacement: float | None = None,
+    least_engagement: float = 0.60,
+    bound: Bound = "",
+) -> Checks:
+    """Check what one time history asks of its LIR-DCFP bearings, and of what stands on them.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `time_history`. Limits on the structure at an impact, on gaps and landings, and
+        `total_displacement`, need its histories; the rest what any recording keeps.
+    frame : Frame
+        The structure as it was analysed.
+    limits : DesignLimits, optional
+        What bearings and structure may be asked for.
+    total_displacement : float, optional
+        D_TM of ASCE 7-22 [m], of which rims must not engage below a share; `engagement_checks` has
+        the other codes.
+    least_engagement : float
+        That share [-]; the wording of ASCE 7-22 17.2.4.5 has to be read.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings in this run.
+
+    Returns
+    -------
+    Checks
+        Each of the bearing, level or storey that is worst. A run that failed gives no values: all
+        checks fail (`Check.void` says why), their demands are what it reached until it stopped.
+
+    Raises
+    ------
+    CheckError, ValueError
+        If run and frame do not belong together, or limits ask for what was not recorded.
+
+    Examples
+    --------
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.1, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.15)
+    >>> pulse = GroundMotion(x=[0.0, 2.0, 0.0, -2.0, 0.0], dt=0.2)
+    >>> frame = lumped_mass(bearing, 15e3)
+    >>> impact_checks(time_history(frame, pulse), frame).passed
+    True
+    """
+    limits = DesignLimits() if limits is None else limits
+    failed = str(data.attrs["status"]) != "ok"
+    reason = str(data.attrs["message"]) if failed else ""
+    suite = Suite(statistic="single", failed=(failed,), reason=reason)
+    bearings = BearingDemands(data, suite, devices_of(data, frame), limits, bound, reason)
+    found = [_complete(data, bound)]
+    found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
+    found += bearings.displacement(f"{NO_CODE}, section 2")
+    found += [*bearings.slips(), *bearings.forces()]
+    found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]
+    lifted = Uplift(data, devices_of(data, frame), limits, bound, reason=reason)
+    found += [*lifted.rims(), *([] if limits.axial_force else lifted.landings())]
+    if total_displacement is not None:
+        require_positive("total_displacement", total_displacement, "m", error=CheckError)
+        found += _engagement(data, total_displacement, least_engagement, bound)
+    found = [replace(check, void=check.void or suite.void) for check in found]
+    return not_evaluated(found, unknown_axial_forces(frame), OF_AXIAL_FORCES)
+
+
+def event_checks(
+    data: xr.Dataset,
+    frame: Frame,
+    ends: tuple[float, ...],
+    *,
+    limits: DesignLimits | None = None,
+    bound: Bound = "",
+) -> Checks:
+    """Check slip and what stays of it after each of several events, one after the other.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a `time_history` under `repeated_motion` motions, or other motions in a row.
+    frame : Frame
+        The structure as it was analysed.
+    ends : tuple of float
+        Times at which the events end, pauses included [s], rising.
+    limits : DesignLimits, optional
+        Its `slip_left` and `displacement_left` count.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings in this run.
+
+    Returns
+    -------
+    Checks
+        That the run is complete; for each event the worst bearing's slip over the smaller of
+        overlap and s*, and its slip left. Of a run that failed all fail.
+
+    Raises
+    ------
+    CheckError, ValueError
+        If run and frame do not belong together, times do not rise, or slips were not recorded.
+    """
+    limits = DesignLimits() if limits is None else limits
+    void = "" if str(data.attrs["status"]) == "ok" else str(data.attrs["message"])
+    found, devices = [_complete(data, bound)], devices_of(data, frame)
+    for event, rows in slips_of_events(data, ends).groupby("event"):
+        left = "s_star" if limits.slip_left is None else "s_allowed"
+        for column, symbol, limit in (("slip", "s", "s_lim"), ("slip_left", "s_left", left)):
+            each = {
+                name: _slip_of(devices[name], symbol, value, limit, limits)
+                for name, value in zip(rows["bearing"], rows[column], strict=True)
+                if not devices[name].is_dcfp
+            }
+            title = f"{column.replace('_', ' ')}, event {event}"
+            found += Governing(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
+    return Checks(replace(check, void=void) for check in found)
+
+
+def _complete(data: xr.Dataset, bound: Bound) -> Check:
+    t = Trace()
+    t.given("n_failed", float(str(data.attrs["status"]) != "ok"), note="runs that failed")
+    t.given("n_allowed", 0.0)
+    said = (f"audit: {doubt}" for doubt in doubts_of(data))
+    note = "; ".join((str(data.attrs["message"]), *said))
+    judge = CheckBuilder(t, bound, CONFIRMED)
+    return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
+
+
+def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
+    wanted = {
+        "base shear": ("V", "N", "", limits.base_shear),
+        "acceleration": ("A", "m/s2", "", limits.floor_acceleration),
+        "drift": ("theta", "-", "%", limits.drift),
+    }
+    if all(limit is None for *_, limit in wanted.values()):
+        return []
+    table, found = impact_demand(data), []
+    for kind, (symbol, unit, shown, limit) in wanted.items():
+        rows = table[table.index.str.startswith(kind)] if len(table) else table
+        if limit is not None:
+            each = {
+                label.partition(" of ")[2]: _felt(row, symbol, unit, shown, limit)
+                for label, row in rows.iterrows()
+            }
+            found += Governing(bound, CONFIRMED)(PROJECT_LIMIT, f"{kind} at an impact", each)
+    return found
+
+
+def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> Calculation:
+    t = Trace()
+    note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
+    t.given(symbol, float(row["at_impact"]), unit, shown=shown, note=note)
+    t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
+    return Calculation(t, symbol, f"{symbol}_lim")
+
+
+def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
+    wanted = {
+        "gap": ("gap of uplift", "g", "m", "mm", limits.uplift_gap),
+        "landing_force": ("force of landing", "N_land", "N", "kN", limits.axial_force),
+    }
+    if all(limit is None for *_, limit in wanted.values()):
+        return []
+    table, found = uplift_events(data), []
+    note = f"{len(table)} times lifted off, {int(table['at_impact'].sum())} of them at an impact"
+    for column, (title, symbol, unit, shown, limit) in wanted.items():
+        rows = table.dropna(subset=[column])
+        if limit is None or rows.empty:
+            continue
+        row = rows.loc[rows[column].idxmax()]
+        t = Trace()
+        when = f"lifted off at t = {row['begin']:.4g} s for {row['duration']:.4g} s"
+        t.given(symbol, float(row[column]), unit, shown=shown, note=when)
+        t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
+        each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}
+        found += Governing(bound, CONFIRMED, note)(PROJECT_LIMIT, title, each)
+    return found
+
+
+def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> list[Check]:
+    table, found = rim_engagement(data), []
+    for surface, rows in table.groupby("surface"):
+        row = rows.loc[rows["displacement"].idxmin()]
+        t = Trace()
+        when = f"{row['bearing']}, t = {row['time']:.4g} s"
+        t.given("U_rim", float(row["displacement"]), "m", shown="mm", note=when)
+        t.given("D_TM", whole, "m", shown="mm", note="of ASCE 7-22")
+        t.given("eta_least", least)
+        t("eta", "U_rim / D_TM")
+        found.append(
+            CheckBuilder(t, bound, TO_BE_CONFIRMED).worst(
+                "ASCE 7-22 17.2.4.5", "displacement where a rim engages, over D_TM", "eta", ">=",
+                "eta_least", subjects=(f"{row['bearing']}, {surface} rim",),
+            )
+        )  # fmt: skip
+    return found
+
+
+def _slip_of(
+    bearing: LIRBearing, symbol: str, value: float, limit: str, limits: DesignLimits
+) -> Calculation:
+    t = enter_bearing(bearing, None)
+    t.given(symbol, value, "m", shown="mm")
+    if limit not in t and limits.slip_left is not None:
+        t.given(limit, limits.slip_left, "m", shown="mm", note="as given")
+    return Calculation(t, symbol, limit)

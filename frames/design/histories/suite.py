@@ -1,0 +1,300 @@
+"""What a suite of runs gives for design: mean or largest; where runs failed, what was reached."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from frames.design.calculation.check import CONFIRMED
+from frames.design.calculation.trace import Trace
+from frames.design.codes.secant import CheckBuilder
+from frames.results.peak_response import (
+    LEFT,
+    QUANTITIES,
+    TOTALS,
+    largest,
+    left,
+    storeys_of_lines,
+    total,
+)
+from frames.results.recorded import REACHED
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import BoolArray, FloatArray
+    from frames.design.calculation.check import Bound, Check
+    from frames.design.codes.history_rules import HistoryRules
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suite:
+    """How runs are taken together.
+
+    Attributes
+    ----------
+    statistic : {"mean", "largest", "single"}
+        Mean of the runs' largest values, the largest of them, or that of one run.
+    failed : tuple of bool, (n_runs,)
+        Runs whose values must not count.
+    allowed : int
+        How many of them the mean of the others may stand for.
+    median_factor : float
+        Then on the median, of all runs, below which the mean must not lie.
+    reason : str
+        Which runs failed, in words.
+    source : str
+        Clause of the statistic.
+    """
+
+    statistic: Literal["mean", "largest", "single"]
+    failed: tuple[bool, ...]
+    allowed: int = 0
+    median_factor: float = 1.2
+    reason: str = ""
+    source: str = ""
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether there is a value for design."""
+        failures = sum(self.failed)
+        if self.statistic != "mean":
+            return failures == 0
+        return failures <= self.allowed and 2 * failures < len(self.failed)
+
+    @property
+    def void(self) -> str:
+        """Why there is no value for design; empty where there is one."""
+        return "" if self.is_usable else self.reason or "a run failed"
+
+    def value(self, values: FloatArray) -> float:
+        """Return the value for design of those of the runs.
+
+        Parameters
+        ----------
+        values : ndarray, (n_runs,)
+            Largest value of each run.
+
+        Returns
+        -------
+        float
+            The value. Without one (`void`): the same statistic of what all runs reached, failed
+            ones included, until they stopped; NaN where nothing is known.
+        """
+        if not self.is_usable:
+            known = values[np.isfinite(values)]
+            if not len(known):
+                return math.nan
+            return float(known.mean() if self.statistic == "mean" else known.max())
+        good = values[~np.array(self.failed)]
+        if self.statistic != "mean":
+            return float(good.max())
+        mean = float(good.mean())
+        return max(mean, self.median_factor * self._median(values)) if any(self.failed) else mean
+
+    def enter(self, t: Trace, symbol: str, values: FloatArray, unit: str, shown: str = "") -> float:
+        """Enter the values of the runs and what follows for design.
+
+        Parameters
+        ----------
+        t : Trace
+            The calculation.
+        symbol : str
+            Symbol of the value for design; those of the runs get an ``_i``.
+        values : ndarray, (n_runs,)
+            Largest value of each run.
+        unit, shown : str
+            Unit, and the unit to show.
+
+        Returns
+        -------
+        float
+            The value; where runs failed that must not, what was reached, infinite if nothing is
+            known of it.
+        """
+        if not self.is_usable:
+            value = self.value(values)
+            if math.isnan(value):
+                return t.given(symbol, math.inf, unit, shown=shown, note=self.void)
+            return t.given(symbol, value, unit, shown=shown, note=f"reached only: {self.void}")
+        if self.statistic == "single":
+            return t.given(symbol, float(values[0]), unit, shown=shown, note="largest of the run")
+        good = values[~np.array(self.failed)]
+        runs = f"{symbol}_i"
+        note = f"largest of each of {len(good)} runs"
+        t.given_each(runs, good.tolist(), unit, shown=shown, note=note)
+        if self.statistic == "largest":
+            return t(symbol, f"max({runs})", unit, shown=shown, source=self.source)
+        if "n" not in t:
+            t.given("n", float(len(good)), note="runs")
+        formula = f"sum({runs}) / n"
+        if any(self.failed):
+            t.given(f"{symbol}_50", self._median(values), unit, shown=shown,
+                    note=f"median, {sum(self.failed)} failed above it")  # fmt: skip
+            t.given(f"f_{symbol}", self.median_factor)
+            formula = f"max({formula}, f_{symbol} * {symbol}_50)"
+        return t(symbol, formula, unit, shown=shown, source=self.source)
+
+    def form(
+        self, t: Trace, symbol: str, formula: str, unit: str, shown: str = "", *, of: str
+    ) -> None:
+        """Enter what follows from the value `of`, of `enter`: infinite where that is."""
+        if math.isfinite(t.value(of)):
+            t(symbol, formula, unit, shown=shown)
+        else:
+            t.given(symbol, math.inf, unit, shown=shown, note=self.void)
+
+    def _median(self, values: FloatArray) -> float:
+        return float(np.median(np.where(self.failed, math.inf, values)))
+
+
+def reached(data: xr.Dataset, name: str) -> FloatArray:
+    """Return what runs reached of a quantity, (n_runs, ...).
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `time_histories`, or of one `time_history`.
+    name : str
+        A quantity of `frames.results.peak_response`, also one that was left ("slip_left").
+
+    Returns
+    -------
+    ndarray
+        With a row for each run.
+    """
+    if "run" in data.dims:
+        return data.variables[REACHED + name].transpose("run", ...).to_numpy()
+    if name in QUANTITIES:
+        return largest(data, name).values[None]
+    if name in TOTALS:
+        return total(data, name)[None]
+    return left(data, name.removesuffix("_left"))[None]
+
+
+def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
+    """Return the names of what a quantity is reached by: bearings, levels, storeys, lines."""
+    kind = name.removesuffix("_left")
+    if kind in LEFT and kind != name:
+        dims = QUANTITIES[kind].dims
+    else:
+        dims = (QUANTITIES if name in QUANTITIES else TOTALS)[name].dims
+    if dims == ():
+        return ("",)
+    dim = dims[0]
+    if "run" not in data.dims and dim == "line":
+        return tuple(storeys_of_lines(data)[0])
+    if dim == "storey" and dim not in data.coords:
+        return tuple(map(str, data["level"].to_numpy()[1:]))
+    return tuple(map(str, data[dim].to_numpy()))
+
+
+def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
+    """Return how the runs of one bound are taken together.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    rules : HistoryRules
+        The code's.
+
+    Returns
+    -------
+    Suite
+        Mean or largest, and which runs failed.
+    """
+    status = [str(value) for value in data["status"].to_numpy()]
+    lifted = parted(data, rules.least_gap)
+    failed, words = [], []
+    for k, word in enumerate(status):
+        torn = bool(lifted[k].any()) and not rules.uplift_allowed
+        failed.append(word != "ok" or torn)
+        if failed[-1]:
+            at = float(data["failed_at"][k])
+            when = f" at {at:.4g} s" if math.isfinite(at) else ""
+            where = str(data["failed_where"].to_numpy()[k])
+            cause = word if word != "ok" else "a bearing lifted off"
+            words.append(f"{motion_of(data, k)}: {cause}{when}{f', {where}' if where else ''}")
+    statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
+    reason = f"{len(words)} of {len(status)} runs failed ({'; '.join(words)})" if words else ""
+    return Suite(
+        statistic=statistic, failed=tuple(failed), allowed=rules.unacceptable_allowed,
+        median_factor=rules.median_factor, reason=reason,
+        source=f"{rules.code} {rules.statistic_clause}".strip(),
+    )  # fmt: skip
+
+
+def parted(data: xr.Dataset, least: float) -> BoolArray:
+    """Return which bearings parted by more than a gap in each run.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs, or one.
+    least : float
+        The gap [m].
+
+    Returns
+    -------
+    ndarray of bool, (n_runs, n_bearings)
+        Those; where a gap is not known, those that lifted off.
+    """
+    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    return np.asarray(np.where(np.isnan(gap), time > 0.0, gap > least))
+
+
+def contact_notes(data: xr.Dataset, least: float) -> str:
+    """Return the runs in which bearings lifted off by no more than a gap [m], in words."""
+    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    small = (time > 0.0) & ~parted(data, least)
+    words = [
+        f"{motion_of(data, int(k))}: {1e3 * gap[k, small[k]].max():.2g} mm, "
+        f"{time[k, small[k]].max():.3g} s"
+        for k in np.flatnonzero(small.any(axis=1))
+    ]
+    if not words:
+        return ""
+    return f"gaps up to {1e3 * least:g} mm count as contact ({'; '.join(words)})"
+
+
+def motion_of(data: xr.Dataset, k: int) -> str:
+    """Return the motion of a run, with its scale where that is not 1."""
+    name, scale = str(data["motion"].to_numpy()[k]), float(data["scale"][k])
+    return name if abs(scale - 1.0) < 1e-12 else f"{name} x {scale:.4g}"
+
+
+def audit_notes(data: xr.Dataset) -> str:
+    """Return what the audits of runs mark, by motion."""
+    doubts = [str(value) for value in data["doubts"].to_numpy()]
+    return "; ".join(f"audit of {motion_of(data, k)}: {d}" for k, d in enumerate(doubts) if d)
+
+
+def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[Check]:
+    """Return the check that nothing that runs left out mattered; none where they left out nothing.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs, or one.
+    doubts : list of str
+        What the audit of each marks.
+    bound : {"lower", "nominal", "upper", ""}
+        Properties of the bearings.
+
+    Returns
+    -------
+    list of Check
+        One at most.
+    """
+    features = str(data.attrs.get("features_left_out", "none"))
+    if features == "none":
+        return []
+    t = Trace()
+    t.given("n_spoilt", float(sum(" left out: " in d for d in doubts)), note="by their audits")
+    t.given("n_allowed", 0.0)
+    judge, title = CheckBuilder(t, bound, CONFIRMED), "runs in which what was left out mattered"
+    return [judge("no code: audit", title, "n_spoilt", "<=", "n_allowed", note=features)]

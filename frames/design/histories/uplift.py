@@ -1,0 +1,215 @@
+"""Checks of bearings that lift off: whether rims still hold the slider, and how hard they land."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.trace import Trace
+from frames.design.devices.bearing_numbers import enter_geometry
+from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
+from frames.design.devices.overlap import overlap_area, pressure
+from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.suite import Suite, motion_of, names_of, reached
+from lir_element.device.sliders import interface_height
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from frames._types import BoolArray
+    from frames.design.devices.limits import DesignLimits
+    from lir_element import LIRBearing
+
+_FREE_SHARE = 0.5  # of the height that has place for a rim, where its height is not given
+
+
+@dataclass(frozen=True)
+class Uplift:
+    """Makes the checks of bearings that lift off: the worst run counts, never a mean.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs, or one.
+    bearings : mapping of str to LIRBearing
+        The bearings as they were in these runs.
+    limits : DesignLimits
+        What they may be asked for.
+    bound : {"lower", "nominal", "upper", ""}
+        Bound of their properties.
+    clause : str
+        Clause of the code that asks for stability after uplift; empty where it has none.
+    note : str
+        Goes with each check.
+    reason : str
+        Which runs failed, in words; goes with each check where some did.
+    """
+
+    data: xr.Dataset
+    bearings: Mapping[str, LIRBearing]
+    limits: DesignLimits
+    bound: Bound
+    clause: str = ""
+    note: str = ""
+    reason: str = ""
+
+    def checks(self) -> list[Check]:
+        """Return the checks of gap and landing.
+
+        Returns
+        -------
+        list of Check
+            The gap over the height of the rims and over `uplift_gap`; where a bearing lifted off,
+            its largest axial force in such a run over `axial_force`, or its pressure.
+        """
+        return [*self.rims(), *self.gaps(), *self.landings()]
+
+    def rims(self) -> list[Check]:
+        """Return the check of the gap over the height of the rims; none without rims."""
+        own = self.limits.rim_height
+        each = {}
+        for k, name in enumerate(self._names):
+            bearing = self.bearings[name]
+            if own is None and not all(map(math.isfinite, bearing.rim_displacement)):
+                continue
+            if own is None:
+                t = _enter_rim(bearing)
+            else:
+                t = Trace()
+                t.given("h_rim", own, "m", shown="mm", note="height of the rims, as given")
+            each[name] = self._with_gap(t, k, "h_rim")
+        clause = self.clause or PROPOSED_LIMIT
+        return self._worst(clause, "gap of uplift over the height of the rims", each)
+
+    def gaps(self) -> list[Check]:
+        """Return the check of the gap over `uplift_gap`; none where it is not given."""
+        limit, each = self.limits.uplift_gap, {}
+        for k, name in enumerate(self._names if limit is not None else ()):
+            t = Trace()
+            t.given("g_lim", limit or 0.0, "m", shown="mm", note="as given")
+            each[name] = self._with_gap(t, k, "g_lim")
+        return self._worst(PROJECT_LIMIT, "gap of uplift", each)
+
+    def landings(self) -> list[Check]:
+        """Return the check of the landing's force or pressure; none where nothing lifted off."""
+        limits, lifted = self.limits, self._lifted
+        each = {}
+        for k, name in enumerate(self._names):
+            runs = [int(run) for run in np.flatnonzero(lifted[:, k])]
+            if runs:
+                each[name] = self._landing(k, self.bearings[name], runs)
+        if limits.axial_force is not None:
+            return self._worst(PROJECT_LIMIT, "axial force with a landing", each)
+        given = limits.interface_pressure is not None
+        clause = PROJECT_LIMIT if given else PROPOSED_LIMIT
+        return self._worst(clause, "pressure of a landing on the sliders", each)
+
+    def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> Calculation:
+        # Of the runs in which the bearing lifts off, the one that presses it most.
+        force, slip = reached(self.data, "axial_force")[:, k], reached(self.data, "slip")[:, k]
+        slip = np.zeros_like(force) if bearing.is_dcfp else slip
+        area = np.array([overlap_area(bearing.slider_radius, float(s)) for s in slip])
+        with np.errstate(divide="ignore"):
+            run = int(max(runs, key=lambda i: force[i] / area[i]))
+        if self.limits.axial_force is not None:
+            run = int(max(runs, key=lambda i: force[i]))
+        t = Trace()
+        note = f"largest of the run, {self._run(run)}: the landing's at most"
+        t.given("N_land", float(force[run]), "N", note=note)
+        symbol, limit = self._enter_resistance(t)
+        if symbol == "p_land":
+            t.given("a", bearing.slider_radius, "m", shown="mm")
+            t.given("s", float(slip[run]), "m", shown="mm", note="largest slip of that run")
+            pressure(t, symbol, "N_land", "s")
+        return Calculation(t, symbol, limit)
+
+    def _enter_resistance(self, t: Trace) -> tuple[str, str]:
+        # What a landing is held against: symbols of demand and limit.
+        if self.limits.axial_force is not None:
+            t.given("N_R", self.limits.axial_force, "N", note="as given")
+            return "N_land", "N_R"
+        own = self.limits.interface_pressure
+        note = "a proposal: give axial_force or interface_pressure" if own is None else "as given"
+        t.given("p_lim", LANDING_PRESSURE if own is None else own, "Pa", note=note)
+        return "p_land", "p_lim"
+
+    def _with_gap(self, t: Trace, k: int, limit: str) -> Calculation:
+        gap, lifted = reached(self.data, "gap")[:, k], self._lifted[:, k]
+        known = np.where(lifted, gap, 0.0)
+        failed = tuple(map(bool, self._failed | np.isnan(known)))
+        suite = Suite(statistic="largest", failed=failed, reason=self._void)
+        suite.enter(t, "g", known, "m", "mm")
+        return Calculation(t, "g", limit)
+
+    def _worst(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
+        standing = TO_BE_CONFIRMED if clause == self.clause else CONFIRMED
+        words = "; ".join(part for part in (self._void, self._told, self.note) if part)
+        return Governing(self.bound, standing, words, self._void)(clause, title, each)
+
+    @property
+    def _void(self) -> str:
+        # Why there is no value for design.
+        if self._failed.any():
+            return self.reason or "a run failed"
+        unknown = np.isnan(reached(self.data, "gap")) & self._lifted
+        return "a bearing lifted off by a gap that was not recorded" if unknown.any() else ""
+
+    @property
+    def _told(self) -> str:
+        # How many runs lift off a bearing, how often, for how long, how far; then the force.
+        runs = np.flatnonzero(self._lifted.any(axis=1))
+        if not len(runs):
+            return "no bearing lifts off"
+        gap, force = reached(self.data, "gap"), reached(self.data, "axial_force")
+        lasts, count = reached(self.data, "time_lifted"), reached(self.data, "uplifts")
+        wide = np.where(self._lifted, np.nan_to_num(gap, nan=math.inf), 0.0)
+        run, k = np.unravel_index(int(np.argmax(wide)), wide.shape)
+        return (
+            f"bearings lift off in {len(runs)} of {len(wide)} runs, {count.sum():.0f} times in all"
+            f"; the widest gap, {1e3 * wide[run, k]:.3g} mm, {self._run(int(run))}, at "
+            f"{self._names[k]}: in the air for {lasts[run, k]:.3g} s of the run, axial force up to "
+            f"{1e-3 * force[run, k]:.4g} kN"
+        )
+
+    def _run(self, k: int) -> str:
+        return motion_of(self.data, k) if "run" in self.data.dims else "this one"
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return names_of(self.data, "displacement")
+
+    @property
+    def _lifted(self) -> BoolArray:
+        return np.asarray(reached(self.data, "time_lifted") > 0.0)
+
+    @property
+    def _failed(self) -> BoolArray:
+        if "run" not in self.data.dims:
+            return np.array([str(self.data.attrs["status"]) != "ok"])
+        return np.array([str(word) != "ok" for word in self.data["status"].to_numpy()])
+
+
+def _enter_rim(bearing: LIRBearing) -> Trace:
+    # Half of the largest height of rims that leaves the sliders' edges and the other plate free.
+    t = enter_geometry(bearing)
+    t.given("a", bearing.slider_radius, "m", shown="mm")
+    height = float(interface_height(bearing.radii, bearing.slider_radius, bearing.slider_height))
+    t.given("h_1", height, "m", shown="mm", note="interface above the bottom vertex")
+    t("h_2", "h - h_1", "m", shown="mm")
+    for k in (1, 2):
+        face = f"(d_rim_{k} * sqrt(R_{k}**2 - a**2) + a * sqrt(R_{k}**2 - d_rim_{k}**2)) / R_{k}"
+        t(f"r_{k}", face, "m", shown="mm", note="the rim's face, from the plate's axis")
+        t(f"z_{k}", f"R_{k} - sqrt(R_{k}**2 - r_{k}**2)", "m", shown="mm", note="the plate there")
+        t(f"c_{k}", f"h_{k} - (R_{k} - sqrt(R_{k}**2 - a**2))", "m", shown="mm",
+          note="edge of the slider")  # fmt: skip
+    t.given("a_h", _FREE_SHARE, note="a proposal: give rim_height")
+    t("h_rim", "a_h * max(min((h - z_1 - z_2) / 2, c_1, c_2), 0)", "m", shown="mm",
+      note="rims that have place between the plates")  # fmt: skip
+    return t

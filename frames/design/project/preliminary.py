@@ -1,0 +1,179 @@
+"""What is known of a project before its time histories, and what these depend on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames._errors import ModelWarning
+from frames.design.codes.analysis import equivalent_linear
+from frames.design.codes.asce7 import ASCE7
+from frames.design.codes.en1998 import EN1998
+from frames.design.codes.history_rules import RULES
+from frames.design.codes.isolation import IsolationSystem
+from frames.design.codes.nch2745 import NCh2745
+from frames.design.hazard.sanity_checks import factor_doubts, twins
+from frames.design.histories.motions import period_range
+from frames.design.project.sanity_checks import file_doubts, wind_doubts
+from frames.design.project.schema import OpenSeesModel
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.hazard.motion_set import MotionSet
+    from frames.design.hazard.spectrum import Spectrum
+    from frames.design.project.inputs import ProjectInputs
+    from frames.frame import Frame
+
+CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
+"""Equivalent-linear analysis by a project's code."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Groundwork:
+    """What is known of a project before its time histories.
+
+    Attributes
+    ----------
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    system : IsolationSystem
+        The bearings with their places and loads.
+    spectrum : Spectrum
+        The design spectrum.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    motions : MotionSet
+        Scaled as the file asks.
+    """
+
+    frame: Frame
+    system: IsolationSystem
+    spectrum: Spectrum
+    equivalent: EquivalentLinear
+    motions: MotionSet
+
+
+def groundwork(parts: ProjectInputs) -> Groundwork:
+    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+
+    Returns
+    -------
+    Groundwork
+        All that needs no time history.
+
+    Raises
+    ------
+    ProjectError
+        If a section cannot be.
+    CheckError, ModelError, MotionError
+        If the analysis or the scaling fails.
+
+    Warns
+    -----
+    ModelWarning
+        On values that are probably in another unit, a record that is there twice, and wind that
+        slides the bearings.
+    """
+    parts.limits(), parts.rules()  # refused before anything is run
+    _warn(file_doubts(parts.file))
+    frame, spectrum = parts.frame(), parts.spectrum()
+    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    _warn(wind_doubts(parts.file, system, parts.bounds()))
+    code = CODES[parts.file.project.code]()
+    equivalent = equivalent_linear(
+        system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
+        code=code,
+    )  # fmt: skip
+    motions = scaled_motions(parts, spectrum, equivalent)
+    return Groundwork(
+        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
+    )
+
+
+def scaled_motions(
+    parts: ProjectInputs, spectrum: Spectrum, equivalent: EquivalentLinear
+) -> MotionSet:
+    """Return a project's motions scaled to the spectrum or by a number, as its file asks.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    spectrum : Spectrum
+        The target.
+    equivalent : EquivalentLinear
+        Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
+        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 T_D to 1.25 T_M; to be confirmed.
+
+    Returns
+    -------
+    MotionSet
+        The motions as they are run.
+    """
+    motions, scale = parts.motions(), parts.file.motions.scale
+    if scale != "spectrum":
+        scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
+        _warn((*twins(scaled), *factor_doubts(scale, scaled)))
+        return scaled
+    rule = RULES[parts.file.project.code]
+    return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
+
+
+def _warn(doubts: tuple[str, ...]) -> None:
+    for doubt in doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
+
+
+def inputs_of(parts: ProjectInputs, known: Groundwork) -> dict[str, str]:
+    """Return a digest of each section that the time histories of a project depend on.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    known : Groundwork
+        Its motions as they are run.
+
+    Returns
+    -------
+    dict of str to str
+        By section, "motions" being the accelerations, "levels" those of the seismic action where
+        there are several; what only judges, such as limits, has none.
+    """
+    file = parts.file
+    analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
+    said = {
+        "structure": file.structure.model_dump(mode="json"),
+        "bearing": None if file.bearing is None else file.bearing.model_dump(mode="json"),
+        "bounds": file.bounds.model_dump(mode="json"),
+        "analysis": analysis,
+    }
+    found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
+    if isinstance(file.structure, OpenSeesModel):
+        found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+    samples = [
+        name.encode() + repr(motion.dt).encode() + b"".join(
+            component.tobytes() for component in (motion.x, motion.y, motion.z)
+            if component is not None
+        )
+        for name, motion in known.motions.items()
+    ]  # fmt: skip
+    found["motions"] = _digest(b"".join(samples))
+    found["version of lir-dcfp"] = package_version()
+    levels = parts.rules().levels
+    if len(levels) > 1:
+        found["levels"] = _digest(repr([(one.name, one.factor) for one in levels]).encode())
+    return found
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:16]

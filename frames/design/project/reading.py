@@ -1,0 +1,167 @@
+"""A project read from its file: every message names file, key, value and remedy."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pydantic import ValidationError
+
+from frames.design._errors import ProjectError
+from frames.design.project.schema import ProjectFile, Section
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+F = TypeVar("F", bound=Section)
+
+_KINDS = {"moment frame", "shear building", "opensees", "ASCE 7-22", "EN 1998", "NCh2745"}
+"""Of unions, which the place of an error names besides its keys."""
+
+
+def read_project(path: str | Path) -> ProjectFile:
+    """Return a project's file, checked.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file, as ``lir new`` writes one.
+
+    Returns
+    -------
+    ProjectFile
+        Sections with SI numbers; paths are those of the file's folder.
+
+    Raises
+    ------
+    ProjectError
+        If it cannot be read, with a line for each thing that is wrong.
+    """
+    return read_file(path, ProjectFile)
+
+
+def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how") -> F:
+    """Return a TOML file of a kind, checked as `read_project` does.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    kind : type
+        What it must be.
+    hint : str
+        Where to see how such a file is written.
+
+    Returns
+    -------
+    Section
+        Of that kind.
+
+    Raises
+    ------
+    ProjectError
+        If it cannot be read, with a line for each thing that is wrong.
+    """
+    file = Path(path)
+    try:
+        data = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as cause:
+        msg = f"{file}: {cause.strerror or cause}: give a file, {hint}"
+        raise ProjectError(msg) from cause
+    except UnicodeDecodeError as cause:
+        msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
+        raise ProjectError(msg) from cause
+    except tomllib.TOMLDecodeError as cause:
+        msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause))}"
+        raise ProjectError(msg) from cause
+    try:
+        return kind.model_validate(data)
+    except ValidationError as cause:
+        lines: dict[str, str] = {}  # of the ways that a key may be given, the first
+        for error in cause.errors():
+            lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
+        raise ProjectError("\n".join(lines.values())) from cause
+
+
+def _mended(error: str) -> str:
+    # What is to be done about an error of syntax.
+    if "overwrite" in error or "twice" in error:
+        return "the key or the section is there twice: keep one of them"
+    return 'a line is `key = value`, texts and numbers with a unit in quotes, "250 mm"'
+
+
+def schema() -> str:
+    """Return the JSON schema of a project's file, for editors."""
+    return json.dumps(ProjectFile.model_json_schema(), indent=2)
+
+
+def _place(error: Any) -> list[str]:
+    # Of a key that may be one or two, the way that was tried ends with a bracket.
+    return [str(p) for p in error["loc"] if p not in _KINDS and not str(p).endswith("]")]
+
+
+def _line(name: str, data: dict[str, Any], error: Any, whole: type[Section], hint: str) -> str:
+    place = _place(error)
+    key, kind = ".".join(place) or "the file", error["type"]
+    if kind == "missing":
+        return f"{name}: {key} is missing: give it, {hint}"
+    if kind == "extra_forbidden":
+        known = _known(data, error["loc"], whole)
+        near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
+        meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
+        return f"{name}: {key} is not known{meant}"
+    if kind.startswith("union_tag"):
+        return _of_a_kind(name, key, error)
+    if kind in _TABLES:
+        return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
+    text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
+    value = error["input"]
+    if isinstance(value, (dict, list)):
+        return f"{name}: {key}: {text}"
+    return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+
+
+_TABLES = {"model_type", "model_attributes_type", "dict_type"}
+"""Kinds of errors where a section was expected."""
+
+
+def _of_a_kind(name: str, key: str, error: Any) -> str:
+    # A section whose kind, or code, is missing or not known.
+    told = error.get("ctx", {})
+    which = str(told.get("discriminator", "kind")).strip("'")
+    where = "project.code" if which == "code" else f"{key}.{which}"
+    known = told.get("expected_tags", "'moment frame', 'shear building', 'opensees'")
+    choices = str(known).replace("'", '"')
+    if "tag" in told:
+        return f'{name}: {where} = "{told["tag"]}" is not known: choose one of {choices}'
+    return f"{name}: {where} is missing: choose one of {choices}"
+
+
+def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -> list[str]:
+    # Keys that a section knows and does not have yet.
+    section: Any = data
+    for part in place[:-1]:
+        section = section.get(part, {}) if isinstance(section, dict) else {}
+    return [key for key in known if key not in section]
+
+
+def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Section]) -> list[str]:
+    # Keys of the section in which an unknown one stands.
+    model: Any = whole
+    for part in place[:-1]:
+        field = model.model_fields.get(part) if hasattr(model, "model_fields") else None
+        model = _section(field.annotation, data.get(part, {})) if field is not None else model
+    return sorted(model.model_fields)
+
+
+def _section(annotation: Any, given: Any) -> Any:
+    # The class of a section: of several, the one of its kind.
+    parts = [one for one in getattr(annotation, "__args__", (annotation,)) if one is not type(None)]
+    for one in parts:
+        kind = getattr(one, "model_fields", {}).get("kind")
+        if kind is not None and given.get("kind") in getattr(kind.annotation, "__args__", ()):
+            return one
+    return parts[0]

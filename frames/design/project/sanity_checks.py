@@ -1,0 +1,139 @@
+"""Whether the values of a project's file can be those of a building: doubts before it is run."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames.design.project.schema import En1998Spectrum, MomentFrame, ShearBuilding
+
+if TYPE_CHECKING:
+    from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.project.schema import ProjectFile
+
+SOFT = 0.5
+"""Period of what is on a storey over the number of storeys above its floor and one more [s], from
+which on it is strange: whole buildings have about 0.1 s a storey."""
+
+FLOOR_MASS = (50.0, 6000.0)
+"""Mass of a storey over its plan [kg/m2]; buildings have 300 to 1500."""
+
+
+def file_doubts(file: ProjectFile) -> tuple[str, ...]:
+    """Return what is strange about a project's file, a sentence for each thing.
+
+    Parameters
+    ----------
+    file : ProjectFile
+        The file.
+
+    Returns
+    -------
+    tuple of str
+        About masses of storeys by area, bays that bearings do not fit into, storeys that are far
+        too soft, and an importance that is in one section alone.
+    """
+    return (*_of_masses(file), *_of_bays(file), *_of_storeys(file), *_of_importance(file))
+
+
+def wind_doubts(
+    file: ProjectFile, system: IsolationSystem, bounds: PropertyBounds
+) -> tuple[str, ...]:
+    """Return whether the wind of a project slides its bearings.
+
+    Parameters
+    ----------
+    file : ProjectFile
+        The file, its wind shear in ``[superstructure]``.
+    system : IsolationSystem
+        The bearings with their average loads, friction nominal.
+    bounds : PropertyBounds
+        Factors on friction; the lower one counts.
+
+    Returns
+    -------
+    tuple of str
+        At most one sentence.
+    """
+    wind = 0.0 if file.superstructure is None else file.superstructure.wind_shear
+    holds = bounds.friction.lower * system.strength
+    if wind <= holds:
+        return ()
+    return (
+        f"[superstructure] wind_shear = {1e-3 * wind:.4g} kN is above {1e-3 * holds:.4g} kN, with "
+        "which all bearings slide at the lower bound of friction: the isolation slides in wind. "
+        "Raise the friction, add a wind restraint, or look at the unit of wind_shear",
+    )
+
+
+def _of_masses(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if isinstance(given, MomentFrame):
+        found = {"floor_load": given.floor_load}
+    elif isinstance(given, ShearBuilding):
+        area = math.prod(n * w for n, w in zip(given.bays, given.bay_width, strict=True))
+        masses = {f"storey_mass[{k}]": mass for k, mass in enumerate(given.storey_mass)}
+        if given.base_mass is not None:
+            masses["base_mass"] = given.base_mass
+        found = {key: mass / area for key, mass in masses.items()} if area > 0.0 else {}
+    else:
+        return []
+    low, high = FLOOR_MASS
+    strange = {k: v for k, v in found.items() if v > high or (v < low and k != "base_mass")}
+    if not strange:
+        return []
+    key, value = next(iter(strange.items()))
+    unit = "is a mass in t written as kg?" if value < low else "is a mass in kg written as t?"
+    return [
+        f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to 1500: "
+        f"{unit} Masses are written with their unit, 300 t or 300000 kg"
+    ]
+
+
+def _of_bays(file: ProjectFile) -> list[str]:
+    given, bearing = file.structure, file.bearing
+    if bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
+        return []
+    side = bearing.capacity + 2.0 * bearing.slider_radius  # both plates go half of the capacity
+    least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
+    if least >= side:
+        return []
+    return [
+        f"[structure] bay_width = {least:.4g} m is less than the {side:.4g} m that a bearing takes "
+        "in plan (capacity and the diameter of the slider): look at its unit"
+    ]
+
+
+def _of_storeys(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, ShearBuilding) or len(given.storey_stiffness) != len(
+        given.storey_mass
+    ):
+        return []
+    count = len(given.storey_mass)
+    for k, stiffness in enumerate(given.storey_stiffness):
+        above = sum(given.storey_mass[k:])
+        period, most = 2.0 * math.pi * math.sqrt(above / stiffness), SOFT * (1 + count - k)
+        if period > most:
+            return [
+                f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
+                f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
+                f"stay below {most:.3g} s: look at its unit"
+            ]
+    return []
+
+
+def _of_importance(file: ProjectFile) -> list[str]:
+    above, spectrum = file.superstructure, file.spectrum
+    if above is None or not isinstance(spectrum, En1998Spectrum):
+        return []
+    if above.importance == spectrum.importance:
+        return []
+    share = above.importance / spectrum.importance
+    return [
+        f"[superstructure] importance = {above.importance:g}, [spectrum] importance = "
+        f"{spectrum.importance:g}: EN 1998 multiplies a_g by gamma_I, which only the spectrum's "
+        f"does; if {above.importance:g} is meant, the spectrum is to be multiplied by {share:.3g}: "
+        "give both sections the same"
+    ]

@@ -1,0 +1,158 @@
+"""How fast a model runs on this machine, and with which error, step by step."""
+
+from __future__ import annotations
+
+import math
+import statistics
+import warnings
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from frames.recording.recording import Recording
+from frames.results.peaks import peaks
+from frames.solve.time_history import time_history
+from lir_element.errors import AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import xarray as xr
+
+    from frames.model.frame_data import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+
+STEPS = (0.02, 0.01, 0.005, 0.0025)
+"""Steps that are tried [s]."""
+REPEATS = 3
+_COMPARED = ("bearing displacement", "base shear", "acceleration in plan, worst node")
+
+
+class Way(NamedTuple):
+    """A way to run a model, and what came of it.
+
+    Attributes
+    ----------
+    dt : float
+        Step [s]; NaN where the program controls its error.
+    level : str
+        Of the bearings.
+    steps : int
+        Taken, refinements included.
+    seconds : float
+        In the loop, median of the repeats [s].
+    share : float
+        Of that over the duration of the motion [-].
+    displacement, base_shear, acceleration : float
+        Differences of the peaks from those of the finest run [-]; NaN where it stopped early.
+    status : str
+        As in the results.
+    """
+
+    dt: float
+    level: str
+    steps: int
+    seconds: float
+    share: float
+    displacement: float
+    base_shear: float
+    acceleration: float
+    status: str
+
+
+def ways_to_run(
+    model: FrameContents,
+    motion: GroundMotion,
+    *,
+    steps: Sequence[float] = STEPS,
+    levels: Sequence[Literal["pendulum", "contact"]] = ("pendulum",),
+    repeats: int = REPEATS,
+) -> Iterator[Way]:
+    """Run a model with several steps, the finest first, with which the others are compared.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure on its bearings.
+    motion : GroundMotion
+        Acceleration of the ground.
+    steps : sequence of float
+        Steps [s], besides the control of the error by the program and half the smallest of them,
+        the finest.
+    levels : sequence of {"pendulum", "contact"}
+        Levels of the bearings. Differences of another level than the first are those of the
+        model as well.
+    repeats : int
+        Runs of each, but the finest.
+
+    Yields
+    ------
+    Way
+        The finest, then level by level the control of the error and each step.
+
+    Raises
+    ------
+    ValueError
+        If a step is out of bounds.
+    lir_element.AnalysisError
+        If there is no equilibrium under gravity.
+    """
+    finest = min(steps) / 2.0
+    time_history(model, motion, min(motion.duration, 4.0 * finest), dt=finest)  # loads the kernels
+    reference = _peaks(_run(model, motion, finest, levels[0]))
+    for level in levels:
+        for dt in (finest, None, *steps) if level == levels[0] else (None, *steps):
+            count = 1 if dt == finest else repeats
+            runs = [_run(model, motion, dt, level) for _ in range(count)]
+            yield _way(runs, motion, dt, level, reference)
+
+
+def recommended(ways: Sequence[Way], error: float) -> Way | None:
+    """Return the cheapest way whose differences are within an error.
+
+    Parameters
+    ----------
+    ways : sequence of Way
+        From `ways_to_run`.
+    error : float
+        In peak displacement, base shear and acceleration [-].
+
+    Returns
+    -------
+    Way or None
+        None where no way keeps it.
+    """
+    good = [
+        way for way in ways
+        if way.status == "ok" and max(way.displacement, way.base_shear, way.acceleration) <= error
+    ]  # fmt: skip
+    return min(good, key=lambda way: way.seconds, default=None)
+
+
+def _run(model: FrameContents, motion: GroundMotion, dt: float | None, level: str) -> xr.Dataset:
+    with warnings.catch_warnings():  # the status is in the table
+        warnings.simplefilter("ignore", AnalysisWarning)
+        return time_history(model, motion, dt=dt, level=level, recording=Recording(every=None))
+
+
+def _peaks(data: xr.Dataset) -> list[float]:
+    values = peaks(data)["value"]
+    return [float(values[name]) for name in _COMPARED]
+
+
+def _way(
+    runs: Sequence[xr.Dataset], motion: GroundMotion, dt: float | None, level: str,
+    reference: Sequence[float],
+) -> Way:  # fmt: skip
+    attrs = runs[0].attrs
+    seconds = statistics.median(float(run.attrs["seconds_loop"]) for run in runs)
+    errors = [math.nan] * len(reference)
+    if attrs["status"] == "ok":
+        errors = [
+            abs(found / expected - 1.0) if expected > 0.0 else abs(found)
+            for found, expected in zip(_peaks(runs[0]), reference, strict=True)
+        ]
+    displacement, base_shear, acceleration = errors
+    return Way(
+        dt=math.nan if dt is None else dt, level=level, steps=int(attrs["steps"]),
+        seconds=seconds, share=seconds / motion.duration, displacement=displacement,
+        base_shear=base_shear, acceleration=acceleration, status=str(attrs["status"]),
+    )  # fmt: skip

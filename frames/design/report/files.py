@@ -1,0 +1,199 @@
+"""The files of a project's run: results, tables, checks with their calculations; read again."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from frames.design._errors import ProjectError
+from frames.design.histories.demand_table import headed
+from frames.design.project.design_run import Histories
+from frames.design.report.numbers import run_tables
+from frames.design.report.writing import report_html
+from frames.results.storage import load, save
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    import xarray as xr
+
+    from frames.design.calculation.check import Bound
+    from frames.design.project.design_run import ProjectRun
+    from frames.design.project.level_runs import LevelRuns
+
+
+UNFINISHED = "unfinished"
+"""Folder among the results that keeps the time histories of a run until all are complete."""
+
+_ENDS = 2  # steps of a run that keeps its first and its last one alone
+
+
+def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
+    """Write what a run gave.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+    folder : Path
+        Made if it is not there; files of an earlier run are written over, its histories removed.
+    source : str
+        Text of the project's file, which is kept beside the results.
+
+    Returns
+    -------
+    list of Path
+        ``project.toml``; ``runs-<bound>.nc``, the time histories, ``runs-<level>-<bound>.nc``
+        where a code has several levels of the seismic action; ``equivalent-linear.csv``,
+        ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
+        ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
+        ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
+        outcome. What an interrupted run left is removed.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for stale in (folder / "run.json", *folder.glob("runs-*.nc")):  # the first is written last
+        stale.unlink(missing_ok=True)
+    written = {label: folder / f"runs-{label}.nc" for label in _labelled(run)}
+    for label, path in written.items():
+        data = _labelled(run)[label][2]
+        save(data, path, compress=data.sizes.get("time", 0) > _ENDS)
+    governing = folder / "governing.nc"
+    save(run.governing, governing, compress=True)
+    kept = [*write_judgement(run, folder, source), *written.values(), governing]
+    (folder / "interrupted.nc").unlink(missing_ok=True)
+    shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
+    return kept
+
+
+def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
+    """Write what follows from a run's time histories, as `write_run` does; return the files."""
+    tables = run_tables(run)
+    texts = {
+        "project.toml": source,
+        **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
+        "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
+        "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
+        "checks.csv": run.checks.to_dataframe().to_csv(index=False),
+        "checks.txt": calculations(run),
+        "report.html": report_html(run, source, tables),
+        "run.json": json.dumps(_facts(run), indent=2) + "\n",
+    }
+    written = []
+    for name, text in texts.items():
+        path = folder / name
+        path.write_text(text, encoding="utf-8")
+        written.append(path)
+    return written
+
+
+def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
+    """Read the time histories that a project's run left.
+
+    Parameters
+    ----------
+    folder : Path
+        Where `write_run` wrote them.
+    inputs : mapping of str to str
+        Digests of what the project's time histories depend on, now.
+
+    Returns
+    -------
+    Histories
+        As they were.
+
+    Raises
+    ------
+    ProjectError
+        If the folder does not hold a complete run, or that of another input: it says of which.
+    """
+    facts = folder / "run.json"
+    if not facts.is_file():
+        partly = (folder / "interrupted.nc").is_file()
+        msg = f"{folder} holds {'an interrupted run' if partly else 'no run'}: `lir run` makes one"
+        raise ProjectError(msg)
+    kept = json.loads(facts.read_text(encoding="utf-8"))
+    was = kept.get("inputs", {})
+    other = sorted(name for name in {*was, *inputs} if was.get(name) != inputs.get(name))
+    if other:
+        msg = (
+            f"the time histories in {folder} are of another input ({', '.join(other)} differ): "
+            "`lir run` makes new ones"
+        )
+        raise ProjectError(msg)
+    try:
+        runs: LevelRuns = {}
+        for label, about in kept["runs"].items():
+            each = runs.setdefault(about.get("level", ""), {})
+            each[about.get("bound", label)] = load(folder / f"runs-{label}.nc")
+        governing = load(folder / "governing.nc")
+    except OSError as cause:
+        msg = f"{folder}: {cause}: `lir run` writes all files anew"
+        raise ProjectError(msg) from cause
+    return Histories(runs=runs, governing=governing, governing_case=kept["governing_case"])
+
+
+def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
+    """Write the runs that were complete when a project's run was interrupted; return the file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "interrupted.nc"
+    save(data, path, compress=True)
+    return path
+
+
+def calculations(run: ProjectRun) -> str:
+    """Return all checks, each with its calculation."""
+    blocks = [f"{run.frame.name}\n\n{run.equivalent!r}\n\n{run.checks}"]
+    for check in run.checks:
+        lines = [str(check), f"standing: {check.standing}"]
+        if check.note:
+            lines.append(f"note: {check.note}")
+        lines += (f"    {line}" for line in check.trace.text().splitlines())
+        blocks.append("\n".join(lines))
+    return "\n\n".join(blocks) + "\n"
+
+
+def _facts(run: ProjectRun) -> dict[str, object]:
+    return {
+        "project": run.frame.name,
+        "written": datetime.now(tz=UTC).isoformat(timespec="seconds"),
+        "lir_dcfp_version": package_version(),
+        "passed": run.checks.passed,
+        "checks": len(run.checks),
+        "failed": [str(check) for check in run.checks.failed],
+        "governing_case": run.governing_case,
+        "fixed_base_period": _fixed_base_period(run),
+        "inputs": dict(run.inputs),
+        "runs": {
+            label: {
+                "level": level,
+                "bound": bound,
+                "runs": data.sizes["run"],
+                "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
+                "seconds": float(data.attrs["seconds"]),
+            }
+            for label, (level, bound, data) in _labelled(run).items()
+        },
+    }
+
+
+def _fixed_base_period(run: ProjectRun) -> float | None:
+    # Of the structure whose base is held, too, as its formulas have it [s]; None without them.
+    for each in run.equivalent.bounds.values():
+        for symbol in ("T_fb", "T_f"):
+            if symbol in each.trace:
+                return each.trace.value(symbol)
+    return None
+
+
+def _labelled(run: ProjectRun) -> dict[str, tuple[str, Bound, xr.Dataset]]:
+    # Level, bound and runs by the words that a file's name has.
+    several = len(run.runs) > 1
+    return {
+        f"{level}-{bound}" if several else bound: (level, bound, data)
+        for level, each in run.runs.items()
+        for bound, data in each.items()
+    }

@@ -1,0 +1,153 @@
+"""A run as one HTML file: what was asked, what came out, every check with its calculation."""
+
+from __future__ import annotations
+
+import platform
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, NamedTuple
+
+import jinja2
+import numpy as np
+import pandas as pd
+from markupsafe import Markup
+from pandas.api.types import is_string_dtype
+
+from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.histories.demand_table import headed, void_said
+from frames.design.report.figures import pictures
+from frames.design.report.tables import in_mm_and_kn, rows_of
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from frames.design.calculation.check import Check
+    from frames.design.project.design_run import ProjectRun
+
+
+class Table(NamedTuple):
+    """A table of the report: cells as text, the first column and those named to the left."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: frozenset[int] = frozenset()
+
+
+class Judged(NamedTuple):
+    """A check as the report shows it."""
+
+    check: Check
+    demand: str
+    limit: str
+    ratio: str
+    steps: list[tuple[Markup, str]]
+
+
+def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]) -> str:
+    """Return a run as a self-contained HTML page.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+    source : str
+        Text of the project's file.
+    tables : mapping of str to pandas.DataFrame
+        Of `run_tables`.
+
+    Returns
+    -------
+    str
+        The page: styles and pictures are in it, nothing is fetched.
+    """
+    page = jinja2.Environment(
+        loader=jinja2.PackageLoader("frames.design.report", "."), autoescape=True,
+        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+    ).get_template("report.html.j2")  # fmt: skip
+    device = next(iter(run.frame.bearings.values())).bearing
+    return page.render(
+        name=run.frame.name,
+        code=run.equivalent.code,
+        device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
+        case=run.governing_case,
+        failed=[_judged(check) for check in run.checks.failed],
+        checks=[_judged(check) for check in run.checks],
+        limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
+        model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
+        bearing=Markup(device._repr_html_()),  # noqa: S704
+        schedule=_table(in_mm_and_kn(tables["bearings"]), "bearing"),
+        friction=_table(tables["friction"], "friction coefficient"),
+        modes=_table(tables["modes"], "mode"),
+        members=_table(tables["members"], "members"),
+        programme=_programme(tables["programme"]),
+        motions=_table(run.motions.table(), "motion"),
+        equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
+        demands=_table(headed(run.demands), "quantity"),
+        void=void_said(run.demands),
+        levels=_levels(run),
+        level=f"the level {run.rules.levels[0].name!r}",
+        audit=run.governing.attrs["audit"].splitlines(),
+        pictures=pictures(run),
+        source=source,
+        facts=_facts(run),
+    )
+
+
+def _levels(run: ProjectRun) -> str:
+    # What is judged at which level of the seismic action, where there are several.
+    levels = run.rules.levels
+    if len(levels) < 2:
+        return ""
+    words = {"all": "bearings and structure", "isolation": "the bearings",
+             "superstructure": "what stands on the bearings"}  # fmt: skip
+    said = (
+        f"{words[one.judges]} at the level {one.name!r}, motions times {one.factor:g}"
+        for one in levels
+    )
+    return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
+
+
+def _judged(check: Check) -> Judged:
+    return Judged(
+        check=check,
+        demand=check.said[0],
+        limit=check.said[1],
+        ratio=check.said[2],
+        steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
+    )
+
+
+def _table(frame: pd.DataFrame, index: str) -> Table:
+    words = [k for k, kind in enumerate(frame.dtypes, start=1) if is_string_dtype(kind)]
+    return Table((index, *map(str, frame.columns)), rows_of(frame, _word), frozenset(words))
+
+
+def _programme(tests: pd.DataFrame) -> Table:
+    # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
+    starred = tests["clause"].where(tests["standing"] != TO_BE_CONFIRMED, tests["clause"] + " *")
+    named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
+    shown = (
+        tests.assign(clause=starred).drop(columns=["standing", "what", "shows"]).set_index(named)
+    )
+    if shown["bearings"].nunique() == 1:
+        shown = shown.drop(columns="bearings")
+    return _table(in_mm_and_kn(shown), "test")
+
+
+def _word(value: object) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    return "" if value is None else str(value)
+
+
+def _facts(run: ProjectRun) -> dict[str, str]:
+    attrs = run.governing.attrs
+    return {
+        "written": datetime.now(tz=UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "lir-dcfp": package_version(),
+        "Python": platform.python_version(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "level, integrator, step control": (
+            f"{attrs['level']}, {attrs['integrator']}, {attrs['step_control']}"
+        ),
+    }

@@ -1,0 +1,311 @@
+"""LIR-DCFP bearings proposed for a structure, beside plain ones that do the same."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import TYPE_CHECKING, Literal
+
+from frames.design._errors import CheckError
+from frames.design.codes.analysis import equivalent_linear
+from frames.design.codes.isolation import IsolationSystem
+from frames.design.hazard.spectrum import Spectrum
+from frames.design.sizing.candidate import Candidate, Size, fitted
+from frames.design.sizing.target import DesignTarget
+from frames.frame import Frame
+from lir_element.argument_checks import require_choice, require_type
+from lir_element.tables import html_table, text_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from frames.design.codes.analysis import Code
+    from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.superstructure import Superstructure
+    from lir_element import LIRBearing
+
+Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
+DEVICES: tuple[Device, ...] = ("LIR-DCFP", "DCFP", "DCFP without rim contact")
+_PREFERENCES = ("base shear", "displacement", "plan diameter")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Design:
+    """Bearings proposed for a structure.
+
+    Attributes
+    ----------
+    system : IsolationSystem
+        The structure as it was given.
+    chosen : Candidate
+        Radius, friction, bearings by size, their analysis without rims, checks and calculation.
+    candidates : tuple of Candidate
+        All that were tried.
+    sizes : tuple of int
+        Which of the chosen bearings stands at each place.
+    """
+
+    system: IsolationSystem
+    chosen: Candidate
+    candidates: tuple[Candidate, ...]
+    sizes: tuple[int, ...]
+
+    def bearings(self, device: Device = "LIR-DCFP") -> tuple[LIRBearing, ...]:
+        """Return the bearing at each place.
+
+        Parameters
+        ----------
+        device : str
+            "LIR-DCFP"; "DCFP": the same plates and rims with the slider in one piece; "DCFP
+            without rim contact": that with plates so large that its rims are not met.
+
+        Returns
+        -------
+        tuple of LIRBearing, (n_bearings,)
+            In the order of the system.
+        """
+        require_choice("device", device, DEVICES, error=CheckError)
+        made = self.chosen.bearings
+        if device != "LIR-DCFP":
+            made = tuple(bearing.as_dcfp() for bearing in made)
+        if device == "DCFP without rim contact":
+            made = tuple(replace(one, capacity=self.chosen.trace.value("D")) for one in made)
+        return tuple(made[size] for size in self.sizes)
+
+    def isolated(self, frame: Frame, device: Device = "LIR-DCFP") -> Frame:
+        """Return a frame on the proposed bearings, its name with that of the device.
+
+        Parameters
+        ----------
+        frame : Frame
+            The structure, whose bearings are in the order of the system.
+        device : str
+            As in `bearings`.
+
+        Returns
+        -------
+        Frame
+            A copy.
+
+        Raises
+        ------
+        CheckError
+            If it has another number of bearings.
+        """
+        made = self.bearings(device)
+        if len(frame.bearings) != len(made):
+            msg = f"the frame has {len(frame.bearings)} bearings, the design {len(made)}"
+            raise CheckError(msg)
+        by_name = dict(zip(frame.bearings, made, strict=True))
+        return frame.with_bearings(by_name, f"{frame.name}, {device}")
+
+    def table(self) -> pd.DataFrame:
+        """Return the three devices side by side, numbers in SI units: a row for each."""
+        import pandas as pd
+
+        t, rows = self.chosen.trace, {}
+        for device in DEVICES:
+            largest = max(self.bearings(device), key=lambda one: one.slider_radius)
+            free = device == "DCFP without rim contact"
+            rows[device] = {
+                "radius [m]": self.chosen.radius,
+                "friction [-]": self.chosen.friction.f_max,
+                "slider radius [m]": largest.slider_radius,
+                "slider height [m]": largest.slider_height,
+                "capacity [m]": largest.lateral_capacity,
+                "interface friction [-]": largest.interface_friction,
+                "plan diameter [m]": t.value("d_plan_free" if free else "d_plan"),
+            }
+        return pd.DataFrame.from_dict(rows, orient="index")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return all candidates with what they lack, a row for each, numbers in SI units."""
+        import pandas as pd
+
+        return pd.DataFrame([candidate.row() for candidate in self.candidates])
+
+    def __repr__(self) -> str:
+        """Return the proposal on one line."""
+        t = self.chosen.trace
+        return (
+            f"{len(self.sizes)} LIR-DCFP: radius {self.chosen.radius:g} m, friction "
+            f"{self.chosen.friction.f_max:g}, rims at {1e3 * t.value('U_cap'):.0f} mm of "
+            f"{1e3 * t.value('D'):.0f} mm, interface friction {t.value('mu_h'):g}, plates "
+            f"{1e3 * t.value('d_plan'):.0f} mm"
+        )
+
+    def __str__(self) -> str:
+        """Return devices, calculation and checks."""
+        head, rows = self._cells()
+        beyond = self.chosen.beyond_procedure
+        note = f"\n\nNeeds a time history: {'; '.join(beyond)}." if beyond else ""
+        calculation = "\n".join(step.text() for step in self.chosen.trace)
+        return f"{text_table(rows, head)}\n\n{calculation}\n\n{self.chosen.checks}{note}"
+
+    def _repr_html_(self) -> str:
+        head, rows = self._cells()
+        return html_table(repr(self), rows, head) + self.chosen.checks._repr_html_()
+
+    def _cells(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        table = self.table().T
+        rows = [
+            (str(name), *(f"{value:.4g}" for value in row)) for name, *row in table.itertuples()
+        ]
+        return ("", *map(str, table.columns)), rows
+
+
+def design(
+    structure: Frame | IsolationSystem,
+    spectrum: Spectrum,
+    *,
+    bounds: PropertyBounds | None,
+    target: DesignTarget | None = None,
+    superstructure: Superstructure | None = None,
+    code: Code | None = None,
+    sizes: int = 1,
+    least: Literal["base shear", "displacement", "plan diameter"] = "base shear",
+) -> Design:
+    """Propose LIR-DCFP bearings for a structure, by equivalent-linear analysis.
+
+    Each radius and friction of the target is tried. Without rims the bearings would go as far as
+    the lower bound of friction lets them, by EN 1998 times gamma_x; rims are put at a share of
+    that, and the interface gets the friction that holds until then and stays stable over what is
+    left. Of those that keep what is asked, the one with the least base shear is taken, or as
+    `least` says.
+
+    Parameters
+    ----------
+    structure : Frame or IsolationSystem
+        Places and loads of the bearings; those it has now are replaced. Of a frame loads are those
+        of `IsolationSystem.from_frame`, with S_MS of the spectrum if it has one.
+    spectrum : Spectrum
+        As in `equivalent_linear`.
+    bounds : PropertyBounds or None
+        Bounds of friction.
+    target : DesignTarget, optional
+        What to choose from, and what is asked.
+    superstructure, code
+        As in `equivalent_linear`; checks of the superstructure then count as well.
+    sizes : int
+        Number of sliders of unlike radius, for bearings of unlike loads.
+    least : {"base shear", "displacement", "plan diameter"}
+        What is made least.
+
+    Returns
+    -------
+    Design
+        The proposal, as a starting point: rims that are met need time histories.
+
+    Raises
+    ------
+    CheckError
+        If no candidate keeps what is asked: the message names the nearest and what it lacks.
+
+    Notes
+    -----
+    Loads are those of the combinations without overturning; `history_checks` has the others.
+    """
+    require_choice("least", least, _PREFERENCES, error=CheckError)
+    target = DesignTarget() if target is None else target
+    require_type("target", target, DesignTarget, "DesignTarget(...)")
+    require_type("spectrum", spectrum, Spectrum, "a Spectrum")
+    system = _system(structure, spectrum)
+    places, loads = grouped(system, sizes)
+    known: dict[tuple[float, ...], EquivalentLinear] = {}
+
+    def analyse(plain: LIRBearing) -> EquivalentLinear:
+        key = (plain.effective_radius, plain.effective_friction)
+        if key not in known:
+            on = replace(system, bearings=(plain,) * len(system.loads))
+            known[key] = equivalent_linear(
+                on, spectrum, bounds=bounds, superstructure=superstructure, code=code
+            )
+        return known[key]
+
+    found = tuple(
+        fitted(radius, law, system, loads, target, bounds, analyse)
+        for radius in target.radii
+        for law in target.laws
+    )
+    return Design(system, _best(found, least), found, places)
+
+
+def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> IsolationSystem:
+    if isinstance(structure, Frame):
+        return IsolationSystem.from_frame(structure, s_ms=spectrum.parameters.get("S_MS"))
+    require_type("structure", structure, IsolationSystem, "a Frame or an IsolationSystem")
+    return structure
+
+
+def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple[Size, ...]]:
+    """Return which size each bearing has, smallest first, and the loads of each size.
+
+    The largest loads are parted so that the sliders' areas, all together, are least.
+
+    Parameters
+    ----------
+    system : IsolationSystem
+        The bearings' loads.
+    sizes : int
+        Number of sizes, at least 1; fewer where there are fewer unlike loads.
+
+    Returns
+    -------
+    tuple of int, (n_bearings,)
+        Size of each bearing.
+    tuple of Size
+        Loads of each size.
+
+    Raises
+    ------
+    CheckError
+        If the number is out of bounds.
+    """
+    if sizes < 1:
+        msg = f"sizes = {sizes}: give a number of sliders, at least 1"
+        raise CheckError(msg)
+    columns = list(zip(system.loads, *system.combinations.values(), strict=True))
+    largest = [max(column) for column in columns]
+    rounded = [float(f"{load:.3g}") for load in largest]
+    steps = sorted(set(rounded))
+    counts = [rounded.count(step) for step in steps]
+    inner = range(len(steps) - 1)
+
+    def area(tops: tuple[int, ...]) -> float:
+        ends = (*tops, len(steps) - 1)
+        starts = (0, *(top + 1 for top in tops))
+        return sum(
+            steps[end] * sum(counts[start : end + 1])
+            for start, end in zip(starts, ends, strict=True)
+        )
+
+    tops = min(combinations(inner, min(sizes, len(steps)) - 1), key=area)
+    limits = [steps[top] for top in tops]
+    places = tuple(sum(load > limit for limit in limits) for load in rounded)
+    return places, tuple(
+        _loads([columns[k] for k, size in enumerate(places) if size == number])
+        for number in range(len(limits) + 1)
+    )
+
+
+def _loads(columns: list[tuple[float, ...]]) -> Size:
+    # A bearing that a combination lifts is asked by its least load while it carries.
+    pressed = [load for column in columns for load in column if load > 0.0]
+    return Size(min(pressed), max(column[0] for column in columns), max(pressed))
+
+
+def _best(found: tuple[Candidate, ...], least: str) -> Candidate:
+    rank: Mapping[str, str] = {"base shear": "V_b", "displacement": "D", "plan diameter": "d_plan"}
+    good = [candidate for candidate in found if not candidate.lacks]
+    if good:
+        return min(good, key=lambda candidate: candidate.trace.value(rank[least]))
+    near = min(found, key=lambda candidate: len(candidate.lacks))
+    msg = (
+        f"none of {len(found)} pairs of radius and friction keeps what is asked; nearest: radius "
+        f"{near.radius:g} m, friction {near.friction.f_max:g}, where {'; '.join(near.lacks)}. "
+        "Offer other radii and frictions, rims at a larger share of the displacement (rim_share), "
+        "or narrower bounds of the interface friction"
+    )
+    raise CheckError(msg)

@@ -1,0 +1,106 @@
+"""What a proposal of bearings is chosen from, and what it has to keep."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from frames.design._errors import CheckError
+from frames.design.devices.limits import LANDING_PRESSURE, DesignLimits
+from lir_element.argument_checks import require_between, require_positive, require_type
+from lir_element.device.friction import CoulombFriction, Friction
+
+INTERFACE_PRESSURE = LANDING_PRESSURE
+"""Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DesignTarget:
+    """What bearings are chosen from, and what is asked of them.
+
+    Pressures and shares are starting points of this package, not of a standard: take those of the
+    liner's maker and of the standard that you design by.
+
+    Parameters
+    ----------
+    radii : sequence of float
+        Radii of the concave surfaces to choose from, both alike [m].
+    frictions : sequence of float or CoulombFriction or VelocityFriction
+        Nominal frictions of the concave surfaces to choose from.
+    rim_share : float
+        Displacement at which the rims are met, over the largest that a bearing without rims must
+        allow [-], in (0, 1): D_TM, by EN 1998 gamma_x d_bd. What is left, the interface has to
+        slip.
+    pressure : float
+        Mean pressure on a slider under the average combination [Pa].
+    largest_pressure : float
+        The same under the largest load of all combinations [Pa].
+    height_ratio : float
+        Height of the whole slider over its radius [-].
+    rim_width : float
+        Width of the rim around a concave surface [m].
+    clearance : float
+        Between the edges of the two plates at rest [m].
+    slider_step, friction_step : float
+        What radii of sliders [m] and the friction of the interface [-] are rounded up to.
+    max_displacement : float, optional
+        Largest that a bearing without rims must allow, as the gap around the building has it [m].
+    max_base_shear : float, optional
+        Largest base shear over weight [-].
+    max_plan_diameter : float, optional
+        Largest diameter of a bearing's plates [m].
+    limits : DesignLimits
+        Of `device_checks`, which the proposal keeps: margin of the interface, eccentricity,
+        strength of a rim, pressure on the overlap.
+
+    Raises
+    ------
+    CheckError
+        If a number is out of bounds.
+    """
+
+    radii: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0)
+    frictions: Sequence[float | Friction] = (0.04, 0.05, 0.06, 0.08)
+    rim_share: float = 0.75
+    pressure: float = 30e6
+    largest_pressure: float = 60e6
+    height_ratio: float = 1.0
+    rim_width: float = 0.025
+    clearance: float = 0.010
+    slider_step: float = 0.005
+    friction_step: float = 0.005
+    max_displacement: float | None = None
+    max_base_shear: float | None = None
+    max_plan_diameter: float | None = None
+    limits: DesignLimits = field(
+        default_factory=lambda: DesignLimits(interface_pressure=INTERFACE_PRESSURE)
+    )
+
+    def __post_init__(self) -> None:
+        for name in ("radii", "frictions"):
+            values = tuple(getattr(self, name))
+            if not values:
+                msg = f"{name} is empty: give one to choose from, at least"
+                raise CheckError(msg)
+            object.__setattr__(self, name, values)
+        for radius in self.radii:
+            require_positive("radius", radius, "m", error=CheckError)
+        require_between("rim_share", self.rim_share, 0.0, 1.0, "-", error=CheckError)
+        for name in (
+            "rim_share", "pressure", "largest_pressure", "height_ratio", "rim_width",
+            "clearance", "slider_step", "friction_step",
+        ):  # fmt: skip
+            require_positive(name, getattr(self, name), error=CheckError)
+        for name in ("max_displacement", "max_base_shear", "max_plan_diameter"):
+            value = getattr(self, name)
+            if value is not None:
+                require_positive(name, value, error=CheckError)
+        require_type("limits", self.limits, DesignLimits, "DesignLimits(...)")
+
+    @property
+    def laws(self) -> tuple[Friction, ...]:
+        """Friction laws to choose from."""
+        return tuple(
+            CoulombFriction(float(each)) if isinstance(each, (int, float)) else each
+            for each in self.frictions
+        )

@@ -1,0 +1,1 @@
+"""Tests of bearings: the programme and the acceptance."""

@@ -1,0 +1,275 @@
+"""Whether measured loops prove the properties that a design counts on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Check, Checks
+from frames.design.calculation.trace import Trace
+from frames.design.codes.pendulum import FrictionPendulum
+from frames.design.codes.secant import CheckBuilder
+from frames.design.testing.programme import PROPOSAL, pressure_factor
+from lir_element import LIRBearing
+from lir_element.argument_checks import require_between, require_choice
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames.design.codes.bounds import PropertyBounds
+    from frames.design.testing.loops import Cycle, PrototypeTest
+
+_ALIKE = 1.1  # displacements of cycles that are judged together, largest over least
+_CLAUSES = {
+    "ASCE 7-22": "ASCE 7-22 17.8.4",
+    "EN 1998": "no code: the limits of ASCE 7-10, not of EN 15129 8.3.4",
+    "NCh2745": "no code: the limits of ASCE 7-10, not of NCh2745 14",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcceptanceLimits:
+    """What measured loops may deviate; defaults of ASCE 7-10, 17.8.4, to be confirmed.
+
+    Parameters
+    ----------
+    spread : float
+        Of second stiffness and energy of a cycle from the mean of the set's cycles [-].
+    drop : float
+        Of effective stiffness and damping over the cycles of a test [-].
+    stiffness : (float, float)
+        Range of the second stiffness over N / L [-].
+
+    Raises
+    ------
+    CheckError
+        If a number is out of bounds.
+    """
+
+    spread: float = 0.15
+    drop: float = 0.20
+    stiffness: tuple[float, float] = (0.85, 1.15)
+
+    def __post_init__(self) -> None:
+        for name in ("spread", "drop"):
+            require_between(name, getattr(self, name), 0.0, 1.0, "-", error=CheckError)
+        least, most = self.stiffness
+        if not 0.0 < least <= 1.0 <= most:
+            msg = f"stiffness = {self.stiffness}: give a range around 1, (0.85, 1.15) is usual"
+            raise CheckError(msg)
+
+
+def acceptance_checks(
+    tests: Sequence[PrototypeTest],
+    bearing: LIRBearing | FrictionPendulum,
+    code: Literal["ASCE 7-22", "EN 1998", "NCh2745"],
+    *,
+    bounds: PropertyBounds,
+    limits: AcceptanceLimits | None = None,
+) -> Checks:
+    """Check measured loops against the properties that a design counted on.
+
+    Parameters
+    ----------
+    tests : sequence of PrototypeTest
+        Tests; those of one name and kind are a set, also of several specimens.
+    bearing : LIRBearing or FrictionPendulum
+        The design, friction nominal.
+    code : {"ASCE 7-22", "EN 1998", "NCh2745"}
+        Standard of the design. The limits are those of ASCE 7-10 unless others are given, to be
+        confirmed for ASCE 7-22; of the other standards no clause is cited, since their own limits
+        were not read: give them.
+    bounds : PropertyBounds
+        Factors of friction that the design was made with.
+    limits : AcceptanceLimits, optional
+        What loops may deviate.
+
+    Returns
+    -------
+    Checks
+        Of each set: least slope of loading, spread of second stiffness and energy, second
+        stiffness and friction within their bounds, drops of effective stiffness and damping over
+        the cycles of a test. Displacements beyond the rims have no second stiffness and no
+        friction of the surfaces; of the interface alone friction, spread and drop of the energy.
+
+    Raises
+    ------
+    CheckError
+        If there is no test, cycles of a set differ in displacement by more than a tenth, the code
+        is not known, the interface was tested of a bearing that has none, or two surfaces of
+        unlike friction do not both slide.
+
+    Notes
+    -----
+    Nominal friction is that of high speed, at the pressure of the test where it goes by that.
+    """
+    require_choice("code", code, tuple(_CLAUSES), error=CheckError)
+    if not tests:
+        msg = "tests is empty: give one PrototypeTest at least"
+        raise CheckError(msg)
+    chosen, found = limits or AcceptanceLimits(), []
+    sets: dict[tuple[str, str], list[PrototypeTest]] = {}
+    for test in tests:
+        sets.setdefault((test.name, test.kind), []).append(test)
+    for (name, kind), group in sets.items():
+        _require_alike(name, group)
+        one = _Set(name, group, bearing, bounds, chosen, _CLAUSES[code])
+        found += one.of_interface() if kind == "interface" else one.of_bearing()
+    return Checks(found)
+
+
+def _require_alike(name: str, tests: Sequence[PrototypeTest]) -> None:
+    ways = [cycle.travel for test in tests for cycle in test.cycles]
+    if max(ways) > _ALIKE * min(ways):
+        msg = (
+            f"test {name!r} has cycles from {500.0 * min(ways):.4g} to {500.0 * max(ways):.4g} mm: "
+            "give the cycles of each displacement as a test with a name of its own"
+        )
+        raise CheckError(msg)
+
+
+@dataclass(frozen=True)
+class _Set:
+    # Tests that are judged together.
+    name: str
+    tests: list[PrototypeTest]
+    bearing: LIRBearing | FrictionPendulum
+    bounds: PropertyBounds
+    limits: AcceptanceLimits
+    clause: str
+
+    @property
+    def _cycles(self) -> list[Cycle]:
+        return [cycle for test in self.tests for cycle in test.cycles]
+
+    @property
+    def _labels(self) -> tuple[str, ...]:
+        return tuple(
+            ", ".join(part for part in (self.name, test.specimen, f"cycle {k}") if part)
+            for test in self.tests
+            for k in range(1, len(test.cycles) + 1)
+        )
+
+    def of_bearing(self) -> list[Check]:
+        own = FrictionPendulum.of(self.bearing)
+        reached = max(max(c.highest, -c.lowest) for c in self._cycles)
+        t, judge = self._begin(TO_BE_CONFIRMED)
+        found = [self._each(judge, "E", "energy of a cycle", "spread")]
+        if reached <= own.capacity:
+            t.given_each("k_d", [sum(c.slopes) / 2.0 for c in self._cycles], "N/m",
+                         note="mean slope of loading")  # fmt: skip
+            t.given_each("k_inc", [min(c.slopes) for c in self._cycles], "N/m",
+                         note="lesser slope of loading")  # fmt: skip
+            t.given("k_0", 0.0, "N/m")
+            found.append(judge.worst(self.clause, "slope of loading", "k_inc", ">=", "k_0",
+                                     subjects=self._labels))  # fmt: skip
+            found.append(self._each(judge, "k_d", "second stiffness", "spread"))
+            found += self._stiffness(judge, own) + self._friction(judge, own)
+        return found + self._drops(judge, ("k_eff", "beta_eff"))
+
+    def of_interface(self) -> list[Check]:
+        if not isinstance(self.bearing, LIRBearing) or self.bearing.is_dcfp:
+            msg = f"test {self.name!r} is of the interface: the bearing has none"
+            raise CheckError(msg)
+        _, judge = self._begin(CONFIRMED)
+        factors = self.bounds.interface_factors
+        mu, said = self.bearing.interface_friction, "friction of the interface"
+        range_ = factors.lower, factors.upper
+        return [
+            self._each(judge, "E", "energy of a cycle", "spread"),
+            *self._within(judge, "mu_h", mu, range_, said), *self._drops(judge, ("E",)),
+        ]  # fmt: skip
+
+    def _begin(self, standing: str) -> tuple[Trace, CheckBuilder]:
+        t = Trace()
+        cycles = self._cycles
+        t.given_each("E", [c.energy for c in cycles], "J", note="of each cycle")
+        t.given_each("N", [c.load for c in cycles], "N", note="mean load of each cycle")
+        t.given_each("Delta", [c.travel / 2.0 for c in cycles], "m", shown="mm",
+                     note="half the way between both ends")  # fmt: skip
+        t.given("n", float(len(cycles)), note="cycles")
+        t.given("spread", self.limits.spread, shown="%")
+        t.given("drop", self.limits.drop, shown="%")
+        return t, CheckBuilder(t, "", standing)
+
+    def _each(self, judge: CheckBuilder, symbol: str, title: str, limit: str) -> Check:
+        # Deviation of each cycle from the mean.
+        judge.t(f"{symbol}_mean", f"sum({symbol}) / n", judge.t[symbol].unit)
+        judge.t.each(f"dev_{symbol}", f"abs({symbol} / {symbol}_mean - 1)", shown="%")
+        return judge.worst(self._cited(judge), f"{title}, off the set's mean", f"dev_{symbol}",
+                           "<=", limit, subjects=self._labels)  # fmt: skip
+
+    def _stiffness(self, judge: CheckBuilder, own: FrictionPendulum) -> list[Check]:
+        t = judge.t
+        t.given("L", own.effective_radius, "m")
+        t("r_k", "sum(k_d * L / N) / n", note="second stiffness over N / L, mean")
+        for name, value in zip(("low", "high"), self.limits.stiffness, strict=True):
+            t.given(f"r_{name}", value)
+        title = "second stiffness over N / L"
+        return [
+            judge.worst(self.clause, title, "r_k", relation, limit, subjects=(self.name,))
+            for relation, limit in _range("r_low", "r_high")
+        ]
+
+    def _friction(self, judge: CheckBuilder, own: FrictionPendulum) -> list[Check]:
+        factors, said = self.bounds.friction, "friction by the energy"
+        count = len(self._cycles)
+        amplitude = sum(c.travel for c in self._cycles) / (2.0 * count)
+        load = sum(c.load for c in self._cycles) / count
+        nominal = own.loop_energy(amplitude, 1.0) / (4.0 * amplitude)
+        nominal *= pressure_factor(self.bearing, load)
+        return self._within(judge, "mu", nominal, (factors.lower, factors.upper), said)
+
+    def _within(
+        self,
+        judge: CheckBuilder,
+        symbol: str,
+        nominal: float,
+        factors: tuple[float, float],
+        title: str,
+    ) -> list[Check]:
+        # Mean friction of the set within its bounds.
+        t = judge.t
+        t.each(f"{symbol}_i", "E / (4 * N * Delta)")
+        t(symbol, f"sum({symbol}_i) / n", note="mean of the cycles")
+        t.given(f"{symbol}_nom", nominal, note="of the design")
+        for name, factor in zip(("min", "max"), factors, strict=True):
+            t.given(f"lambda_{name}", factor)
+            t(f"{symbol}_{name}", f"lambda_{name} * {symbol}_nom")
+        clause = self._cited(judge)
+        return [
+            judge.worst(clause, title, symbol, relation, limit, subjects=(self.name,))
+            for relation, limit in _range(f"{symbol}_min", f"{symbol}_max")
+        ]
+
+    def _drops(self, judge: CheckBuilder, symbols: tuple[str, ...]) -> list[Check]:
+        # Largest drop against the first cycle, of the tests with several cycles.
+        several = [test for test in self.tests if len(test.cycles) > 1]
+        names = tuple(", ".join(p for p in (self.name, test.specimen) if p) for test in several)
+        found = []
+        for symbol in symbols if several else ():
+            values = [[_VALUES[symbol](cycle) for cycle in test.cycles] for test in several]
+            unit, t = _UNITS[symbol], judge.t
+            t.given_each(f"{symbol}_1", [v[0] for v in values], unit, note="first cycle")
+            t.given_each(f"{symbol}_least", [min(v) for v in values], unit, note="of its test")
+            t.each(f"drop_{symbol}", f"1 - {symbol}_least / {symbol}_1", shown="%")
+            found.append(judge.worst(self._cited(judge), f"{_TITLES[symbol]}: drop over the cycles",
+                                     f"drop_{symbol}", "<=", "drop", subjects=names))  # fmt: skip
+        return found
+
+    def _cited(self, judge: CheckBuilder) -> str:
+        return PROPOSAL if judge.standing == CONFIRMED else self.clause
+
+
+def _range(low: str, high: str) -> tuple[tuple[Literal[">=", "<="], str], ...]:
+    return (">=", low), ("<=", high)
+
+
+_VALUES = {
+    "k_eff": lambda cycle: cycle.stiffness,
+    "beta_eff": lambda cycle: cycle.damping,
+    "E": lambda cycle: cycle.energy,
+}
+_UNITS = {"k_eff": "N/m", "beta_eff": "-", "E": "J"}
+_TITLES = {"k_eff": "effective stiffness", "beta_eff": "effective damping", "E": "energy"}

@@ -1,0 +1,144 @@
+"""Kernels of the ledger of energy: what a step puts in, and what takes it up.
+
+All works are taken by the trapezoidal rule, with which Newmark's average acceleration conserves
+energy; what another member of the family adds or takes is the term 'numerical'.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames._jit import inlined
+from frames.kernels.coupling import coupled_work
+from frames.kernels.nonlinear_works import part_energy_on
+from lir_element.kernels.linear import dot, set_product
+from lir_element.kernels.sampling import ground_acceleration
+
+if TYPE_CHECKING:
+    from frames.kernel_data import Ground, Model, Run
+    from frames.nonlinear_data import NonlinearElements
+    from lir_element.layout import Floats
+
+
+@inlined
+def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats) -> float:
+    """Return the kinetic energy relative to the ground; `flow` (n_e,) is mass_eb v_b.
+
+    `momentum` (n_b,) is overwritten.
+    """
+    set_product(model.mass_b, v_b, momentum)
+    total = dot(v_b, momentum)
+    for k in range(v_e.shape[0]):
+        total += v_e[k] * (model.mass_e[k] * v_e[k] + 2.0 * flow[k])
+    return 0.5 * total
+
+
+@inlined
+def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
+    """Return the strain energy of the structure, geometric part included.
+
+    `force` (n_b,) becomes that of the structure on b.
+    """
+    set_product(model.stiffness_b, b, force)
+    total = dot(b, force)
+    for k in range(e.shape[0]):
+        total += model.omega2[k] * e[k] * e[k]
+    return 0.5 * total
+
+
+@inlined
+def damping_work(model: Model, run: Run) -> float:
+    """Return the work of all damping of the structure over the step."""
+    total = 0.0
+    for k in range(run.e.shape[0]):
+        mean = 0.5 * (run.v_e[k] + run.v_e_new[k])
+        run.h_e[k] = mean
+        total += run.g_e[k] * model.damping_e[k] * mean
+    for a in range(run.b.shape[0]):
+        run.h_b[a] = 0.5 * (run.v_b[a] + run.v_b_new[a])
+    if model.damping_b.shape[0] > 0:
+        set_product(model.damping_b, run.h_b, run.g_b)
+        total += dot(run.step, run.g_b)
+    if model.damping_ee.shape[0] > 0:
+        total += coupled_work(
+            model.damping_be, model.damping_eb, model.damping_ee, run.step, run.g_e, run.h_b,
+            run.h_e, run.g_b, run.rhs_e,
+        )  # fmt: skip
+    return total
+
+
+@inlined
+def add_energy(model: Model, run: Run, parts: NonlinearElements | None, ground: Ground) -> None:
+    """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
+
+    Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
+    unbalanced at the ends of the step: nothing for Newmark's method but Newton's tolerance.
+    """
+    energy, clock = run.energy[0], run.clock[0]
+    supplied, lifted, bearings = 0.0, 0.0, 0.0
+    for axis in range(3):
+        mean = 0.5 * (
+            ground_acceleration(ground.acceleration, ground.dt, clock.time + clock.dt, axis)
+            + ground_acceleration(ground.acceleration, ground.dt, clock.time, axis)
+        )
+        for a in range(run.b.shape[0]):
+            supplied -= mean * model.inertia_b[a, axis] * run.step[a]
+        for k in range(run.e.shape[0]):
+            supplied -= mean * model.inertia_e[k, axis] * run.g_e[k]
+    for a in range(run.b.shape[0]):
+        lifted -= model.load_b[a] * run.step[a]
+        bearings += 0.5 * (run.force_old[a] + run.force[a]) * run.step[a]
+    for k in range(run.e.shape[0]):
+        lifted -= model.load_e[k] * run.g_e[k]
+    damped = damping_work(model, run)
+    before = energy.elastic
+    if parts is not None:  # what is not linear comes into the elastic energy by add_part_energy
+        before -= part_store(parts)
+        given = part_energy_on(parts.load_b, parts, parts.to_b, run.step)
+        given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
+        parts.work[3] += given
+        bearings += given
+    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.flow_v_new, run.h_b)
+    elastic = elastic_energy(model, run.b_new, run.e_new, run.held) - clock.elastic_start
+    energy.input += supplied
+    energy.gravity += lifted
+    energy.damping += damped
+    stored = kinetic - energy.kinetic + elastic - before
+    energy.numerical += supplied - lifted - damped - bearings - stored
+    energy.kinetic, energy.elastic = kinetic, elastic
+
+
+@inlined
+def add_bearing_energy(run: Run) -> None:
+    """Set the bearings' terms of the energy from their accumulated works.
+
+    What friction stores counts against the state at rest, where gravity may have left some.
+    """
+    energy = run.energy[0]
+    energy.low_friction_bottom, energy.low_friction_top, energy.high_friction = 0.0, 0.0, 0.0
+    energy.friction_elastic = -run.store_at_rest[0]
+    energy.rims, energy.contact, energy.sliders = 0.0, 0.0, 0.0
+    for k in range(run.old.shape[0]):
+        old = run.old[k]
+        energy.low_friction_bottom += old.work_friction[0]
+        energy.low_friction_top += old.work_friction[1]
+        energy.high_friction += old.work_interface
+        energy.friction_elastic += old.work_elastic
+        energy.numerical += old.work_step
+        energy.rims += old.work_rim[0] + old.work_rim[1]
+        energy.contact += old.work_contact
+        energy.sliders += old.work_sliders
+
+
+@inlined
+def part_store(parts: NonlinearElements) -> float:
+    """Return what parts store besides what the linear structure would: given less dissipated."""
+    return float(parts.work[3] - parts.work[0] - parts.work[1] - parts.work[2])
+
+
+@inlined
+def add_part_energy(run: Run, parts: NonlinearElements) -> None:
+    """Set the nonlinear parts' terms of the energy, and make the elastic one that of the truth."""
+    energy = run.energy[0]
+    energy.yielding, energy.dampers, energy.stops = parts.work[0], parts.work[1], parts.work[2]
+    energy.elastic += part_store(parts)

@@ -1,0 +1,309 @@
+"""Kernels that keep the largest values of a run and their times, step by step.
+
+The definitions are those of frames/results/peak_response.py; tests hold both to each other.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._jit import inlined, kernel
+from frames.kernel_data import ENERGY_TERMS
+from lir_element.kernels.sampling import ground_acceleration
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from frames.kernel_data import Ground, Output
+    from frames.peak_data import Devices, Reached, Shape
+    from lir_element.layout import Floats, Props, Records, State
+
+AT_ONCE = 4
+"""Steps whose displacements are formed together: each column of the maps is read once for them."""
+
+BEARING_COLUMNS = (
+    "displacement", "force", "axial_force", "axial_tension", "vertical_tension", "vertical_change",
+    "lifted", "gap", "sliding", "sliding", "rim_force", "rims_met", "slip", "interface_share",
+    "slipped", "eccentricity", "spin", "centre_shift",
+)  # fmt: skip
+"""Quantities in the columns of `Reached.bearing`; sliding has one for each surface."""
+
+WHOLE_PLACES = (
+    "base_shear", "energy_input", "energy_numerical", "energy_gap", "energy_yielding",
+)  # fmt: skip
+"""Quantities in `Reached.whole`."""
+
+_PRESSED = 0.05  # frames.results.peak_response.PRESSED and FULL_SLIP
+_FULL_SLIP = 1.0 - 1e-9
+_LEAST_SHARE = 1e-3  # of the static force, where the interface holds next to nothing
+_INPUT = ENERGY_TERMS.index("input")
+_YIELDING = ENERGY_TERMS.index("yielding")
+_NUMERICAL = ENERGY_TERMS.index("numerical")
+
+
+@inlined
+def raise_to(values: Floats, times: Floats, place: int, value: float, time: float) -> None:
+    """Keep a value that is larger than those before, or the first that is not a number."""
+    old = values[place]
+    if value > old or (math.isnan(value) and not math.isnan(old)):
+        values[place], times[place] = value, time
+
+
+@inlined
+def eccentricity(
+    state: State, radius: float, height: float, slider_radius: float, floor: float, static: float
+) -> float:
+    """Return the interface's eccentricity over the slider's radius, 0 where hardly pressed."""
+    load = state.axial_force
+    if not (load > _PRESSED * static and load > floor):
+        return 0.0
+    n_x, n_y = state.axis[0], state.axis[1]
+    size = math.sqrt(n_x * n_x + n_y * n_y)
+    unit = size if size > 0.0 else 1.0
+    rim = state.rim_force[0] * state.axis[2] / unit
+    arm = radius - height
+    b_x = (
+        arm * state.interface_force[0] + radius * (rim * n_x - state.friction_force[0, 0])
+    ) / load
+    b_y = (
+        arm * state.interface_force[1] + radius * (rim * n_y - state.friction_force[0, 1])
+    ) / load
+    t_x, t_y = b_x - state.slip[0], b_y - state.slip[1]
+    return math.sqrt(max(b_x * b_x + b_y * b_y, t_x * t_x + t_y * t_y)) / slider_radius
+
+
+@inlined
+def gap_of(u: Floats, shift_x: float, shift_y: float, length: float, slip: float) -> float:
+    """Return the gap of the axial contact of a bearing that has lifted off."""
+    x, y, rise = u[6] - u[0] + shift_x, u[7] - u[1] + shift_y, length - (u[8] - u[2])
+    square = x * x + y * y + rise * rise - slip * slip
+    return max(length - math.sqrt(max(square, 0.0)), 0.0)
+
+
+@inlined
+def peak_contact(
+    p: Props, state: State, static: float, values: Floats, times: Floats, t: float
+) -> None:
+    """Keep what the axial force, the rims and the interface of a bearing reached."""
+    load, f = state.axial_force, state.force
+    raise_to(values, times, 1, math.sqrt(f[6] * f[6] + f[7] * f[7]), t)
+    raise_to(values, times, 2, load, t)
+    raise_to(values, times, 3, -load, t)
+    ratio = load / static
+    raise_to(values, times, 4, -ratio, t)
+    raise_to(values, times, 5, abs(ratio - 1.0), t)
+    raise_to(values, times, 6, 1.0 if ratio <= 0.0 else 0.0, t)
+    for surface in range(2):
+        x, y = state.slider_displacement[surface, 0], state.slider_displacement[surface, 1]
+        raise_to(values, times, 8 + surface, math.sqrt(x * x + y * y), t)
+    rim = max(state.rim_force[0], state.rim_force[1])
+    raise_to(values, times, 10, rim, t)
+    raise_to(values, times, 11, 1.0 if rim > 0.0 else 0.0, t)
+    h_x, h_y = state.interface_force[0], state.interface_force[1]
+    holds = p.interface_friction * max(load, _LEAST_SHARE * static)
+    share = math.sqrt(h_x * h_x + h_y * h_y) / holds
+    raise_to(values, times, 13, share, t)
+    raise_to(values, times, 14, 1.0 if share >= _FULL_SLIP else 0.0, t)
+    raise_to(values, times, 16, abs(state.spin), t)
+
+
+@inlined
+def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> None:
+    """Add a step of a bearing to the sums over steps."""
+    load = max(state.axial_force, 0.0)
+    for surface in range(2):
+        speed = state.sliding_speed[surface]
+        reached.total[0] += load * p.friction_max[surface] * speed
+        if p.friction_drop[surface] != 0.0:
+            lower = p.friction_drop[surface] * math.exp(-p.friction_rate[surface] * speed)
+            reached.total[1] += load * lower * speed
+    lifted = state.axial_force <= 0.0
+    if lifted and reached.lifted[k, 1] == 0.0:
+        reached.total[2] += 1.0
+    if lifted and reached.last[1] > 0.0:
+        reached.lifted[k, 0] += t - reached.last[0]
+    reached.lifted[k, 1] = 1.0 if lifted else 0.0
+
+
+@kernel
+def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int, t: float) -> None:
+    """Take up one step of all bearings."""
+    for k in range(devices.records.shape[0]):
+        p, state = devices.records[k], states[row, k]
+        values, times = reached.bearing[k], reached.bearing_at[k]
+        u = state.displacement
+        x, y, z = u[6] - u[0], u[7] - u[1], u[8] - u[2]
+        raise_to(values, times, 0, math.sqrt(x * x + y * y), t)
+        raise_to(reached.axis, reached.axis_at, 0, abs(x), t)
+        raise_to(reached.axis, reached.axis_at, 1, abs(y), t)
+        raise_to(reached.axis, reached.axis_at, 2, abs(z), t)
+        shift_x = -p.lever[0] * u[4] - p.lever[1] * u[10]  # C2 - C1: x_j - l2 e_j - x_i - l1 e_i
+        shift_y = p.lever[0] * u[3] + p.lever[1] * u[9]
+        s = state.slip_total
+        slip = math.sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2])
+        gap = 0.0
+        if state.axial_force <= 0.0:
+            gap = gap_of(u, shift_x, shift_y, p.length, slip)
+        raise_to(values, times, 7, gap, t)
+        raise_to(values, times, 12, slip, t)
+        raise_to(values, times, 17, math.sqrt(shift_x * shift_x + shift_y * shift_y), t)
+        share = eccentricity(
+            state, devices.radius[k], devices.height[k], p.slider_radius, devices.floor[k],
+            devices.static[k],
+        )  # fmt: skip
+        raise_to(values, times, 15, share, t)
+        peak_contact(p, state, devices.static[k], values, times, t)
+        add_totals(p, state, reached, k, t)
+
+
+@kernel
+def peak_energy(reached: Reached, energy: Floats, t: float) -> None:
+    """Take up the terms of the energy at one step."""
+    total = 0.0
+    for term in range(1, energy.shape[0]):
+        total += energy[term]
+    given = energy[_INPUT]
+    raise_to(reached.whole, reached.whole_at, 1, abs(given), t)
+    raise_to(reached.whole, reached.whole_at, 2, abs(energy[_NUMERICAL]), t)
+    raise_to(reached.whole, reached.whole_at, 3, abs(given - total), t)
+    raise_to(reached.whole, reached.whole_at, 4, abs(energy[_YIELDING]), t)
+
+
+@kernel
+def columns_times(matrix: Floats, x: Floats, out: Floats) -> None:
+    """Add ``matrix.T @ x`` of `AT_ONCE` vectors: matrix (n, m), x (4, n), out (4, m)."""
+    a, b, c, d = out[0], out[1], out[2], out[3]
+    for k in range(matrix.shape[0]):
+        row = matrix[k]
+        x_a, x_b, x_c, x_d = x[0, k], x[1, k], x[2, k], x[3, k]
+        for r in range(row.shape[0]):
+            value = row[r]
+            a[r] += value * x_a
+            b[r] += value * x_b
+            c[r] += value * x_c
+            d[r] += value * x_d
+
+
+@kernel
+def expand_steps(shape: Shape, out: Output, first: int, count: int) -> None:
+    """Form the displacements and accelerations needed of `count` <= AT_ONCE steps."""
+    n_b, n_e, m = out.b.shape[1], out.e.shape[1], out.beyond.shape[1]
+    for s in range(count):
+        for k in range(n_b):
+            shape.x[s, k], shape.x_rate[s, k] = out.b[first + s, k], out.a_b[first + s, k]
+        for k in range(n_e):
+            shape.x[s, n_b + k] = out.e[first + s, k]
+            shape.x_rate[s, n_b + k] = shape.mass_e[k] * out.a_e[first + s, k]
+        for k in range(m):
+            shape.x[s, n_b + n_e + k] = out.beyond[first + s, k]
+        for k in range(shape.rest.shape[0]):
+            shape.u[s, k] = shape.rest[k]
+        for k in range(shape.a.shape[1]):
+            shape.a[s, k] = 0.0
+    columns_times(shape.moves, shape.x, shape.u)
+    columns_times(shape.rates, shape.x_rate, shape.a)
+
+
+@inlined
+def sparse_row(start: Any, place: Any, value: Floats, row: int, of: Floats) -> float:
+    """Return one row of a sparse map times a vector."""
+    total = 0.0
+    for k in range(start[row], start[row + 1]):
+        total += value[k] * of[place[k]]
+    return total
+
+
+@inlined
+def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float) -> None:
+    """Take up accelerations of nodes and levels, drifts of storeys and of lines at one step."""
+    n_nodes, n_levels, n_storeys = shape.sizes[0], shape.sizes[1], shape.sizes[2]
+    a, u = shape.a[s], shape.u[s]
+    g_x = ground_acceleration(ground.acceleration, ground.dt, t, 0)
+    g_y = ground_acceleration(ground.acceleration, ground.dt, t, 1)
+    g_z = ground_acceleration(ground.acceleration, ground.dt, t, 2)
+    for k in range(n_nodes + n_levels):
+        x = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k, a) + g_x
+        y = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k + 1, a) + g_y
+        z = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k + 2, a) + g_z
+        plan, vertical = math.sqrt(x * x + y * y), abs(z)
+        if k < n_nodes:
+            raise_to(reached.node[k], reached.node_at[k], 0, plan, t)
+            raise_to(reached.node[k], reached.node_at[k], 1, vertical, t)
+        else:
+            raise_to(reached.level[k - n_nodes], reached.level_at[k - n_nodes], 0, plan, t)
+            raise_to(reached.level[k - n_nodes], reached.level_at[k - n_nodes], 1, vertical, t)
+    for k in range(n_storeys + shape.sizes[3]):
+        x = sparse_row(shape.u_start, shape.u_place, shape.u_value, 2 * k, u)
+        y = sparse_row(shape.u_start, shape.u_place, shape.u_value, 2 * k + 1, u)
+        if k < n_storeys:
+            raise_to(reached.storey, reached.storey_at, k, math.sqrt(x * x + y * y), t)
+        else:
+            raise_to(reached.line, reached.line_at, k - n_storeys, math.sqrt(x * x + y * y), t)
+
+
+@inlined
+def peak_shear(
+    devices: Devices, shape: Shape, reached: Reached, states: Records, beyond: Floats, row: int,
+    s: int, t: float,
+) -> None:  # fmt: skip
+    """Take up the base shear at one step: of bearings on the ground, and of other supports."""
+    first, m = 2 * (shape.sizes[2] + shape.sizes[3]), beyond.shape[1]
+    square = 0.0
+    for axis in range(2):
+        force = shape.shear[axis, m]
+        for k in range(m):
+            force += shape.shear[axis, k] * beyond[row, k]
+        force += sparse_row(shape.u_start, shape.u_place, shape.u_value, first + axis, shape.u[s])
+        for k in range(devices.on_ground.shape[0]):
+            if devices.on_ground[k] == 1:
+                force += states[row, k].force[6 + axis]
+        square += force * force
+    raise_to(reached.whole, reached.whole_at, 0, math.sqrt(square), t)
+
+
+@inlined
+def peak_storey_shear(
+    shape: Shape, reached: Reached, states: Records, row: int, s: int, t: float
+) -> None:
+    """Take up the shear of each storey at one step: of members, and of bearings through it."""
+    storeys, n_bearings = shape.crossed.shape
+    u, first = shape.u[s], shape.u.shape[1] - 2 * storeys
+    for k in range(storeys):
+        x, y = u[first + 2 * k], u[first + 2 * k + 1]
+        for b in range(n_bearings):
+            if shape.crossed[k, b] == 1:
+                x += states[row, b].force[6]
+                y += states[row, b].force[7]
+        raise_to(reached.shear, reached.shear_at, k, math.sqrt(x * x + y * y), t)
+
+
+@kernel
+def peak_of_bearings(
+    devices: Devices, reached: Reached, states: Records, out: Output, first: int, last: int
+) -> None:
+    """Take up rows first <= k < last of the output: bearings and energy."""
+    for row in range(first, last):
+        t = out.time[row]
+        peak_bearings(devices, reached, states, row, t)
+        peak_energy(reached, out.energy[row], t)
+        reached.last[0] = t
+        reached.last[1] += 1.0
+
+
+@kernel
+def peak_of_structure(
+    devices: Devices, shape: Shape, reached: Reached, states: Records, out: Output,
+    ground: Ground, first: int, last: int,
+) -> None:  # fmt: skip
+    """Take up rows first <= k < last of the output: what the structure above does."""
+    row = first
+    while row < last:
+        count = min(AT_ONCE, last - row)
+        expand_steps(shape, out, row, count)
+        for s in range(count):
+            t = out.time[row + s]
+            peak_motion(shape, reached, ground, s, t)
+            peak_shear(devices, shape, reached, states, out.beyond, row + s, s, t)
+            peak_storey_shear(shape, reached, states, row + s, s, t)
+        row += count

@@ -1,0 +1,182 @@
+"""Combinations of permanent loads: factors on load cases and on what masses weigh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.model.applied_loads import applied_loads, load_masses
+from frames.model.frame_data import FrameContents, frozen
+from lir_element.argument_checks import require_finite, require_non_negative, require_type
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+
+
+def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
+    r"""Return the gravity parts of the vertical load combinations for isolators of ASCE 7-22.
+
+    Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.2 S; minimum 0.9 D - E_v, where
+    :math:`E_v = 0.2 S_{MS} D`. The horizontal earthquake is what the time history adds.
+    Source: ASCE/SEI 7-22, sec. 17.2.7.1; compare with the edition that you design by.
+
+    Parameters
+    ----------
+    s_ms : float
+        Spectral acceleration S_MS at short periods [g], >= 0; 0 leaves E_v out, as where the
+        vertical component is part of the ground motion.
+
+    Returns
+    -------
+    dict of str to dict of str to float
+        "average", "maximum" and "minimum": factors of dead load "D", live load "L" and snow "S",
+        for `Frame.combined`.
+
+    Examples
+    --------
+    >>> isolator_combinations()["maximum"]
+    {'D': 1.2, 'L': 1.0, 'S': 0.2}
+    """
+    part = 0.2 * require_non_negative("s_ms [g]", s_ms)
+    return {
+        "average": {"D": 1.0, "L": 0.5, "S": 0.0},
+        "maximum": {"D": 1.2 + part, "L": 1.0, "S": 0.2},
+        "minimum": {"D": 0.9 - part, "L": 0.0, "S": 0.0},
+    }
+
+
+def combination(
+    frame: FrameContents, factors: Mapping[str, float], weight: str
+) -> dict[str, float]:
+    """Return the factors of a combination once they fit the frame.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    factors : mapping of str to float
+        Factor of each load case.
+    weight : str
+        The case that what masses weigh belongs to.
+
+    Returns
+    -------
+    dict of str to float
+        The factors.
+
+    Raises
+    ------
+    ModelError
+        If a case of the frame, or that of the weight, has no factor, or one is not finite.
+    """
+    what = 'factors by load case: write {"D": 1.2, "L": 1.0}'
+    require_type("factors of combined", factors, Mapping, what)
+    found = {
+        case: require_finite(f'factor of load case "{case}"', value, error=ModelError)
+        for case, value in factors.items()
+    }
+    lacking = [case for case in (weight, *frame.load_cases) if case not in found]
+    if lacking:
+        what = "what masses weigh" if lacking[0] == weight else "loads of the frame"
+        message = (
+            f'combined: load case "{lacking[0]}" ({what}) has no factor: give it one, 0 to leave '
+            f"it out; there are factors of {', '.join(found) or 'nothing'}"
+        )
+        raise ModelError(message)
+    return found
+
+
+def factor_loads(frame: FrameContents, factors: Mapping[str, float], weight: str) -> None:
+    """Multiply the permanent loads of a frame and what its masses weigh; masses stay.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model, a copy; it is changed.
+    factors : mapping of str to float
+        Of `combination`.
+    weight : str
+        The case of weights, those of superelements included.
+    """
+    for node, mass in load_masses(frame, applied_loads(frame)).items():
+        both = np.array([mass] * 3 + [0.0] * 3)
+        for group in (frame._masses, frame._weightless):
+            group[node] = frozen(group.get(node, np.zeros(6)) + both)
+    frame._mass_source = {}
+    _multiply(frame, factors)
+    frame._weight_factor *= factors[weight]
+    frame._superelements = {
+        name: replace(part, load=frozen(factors[weight] * part.load))
+        for name, part in frame._superelements.items()
+    }
+
+
+def factor_all(frame: FrameContents, factors: Mapping[str, float], weight: str) -> None:
+    """Multiply permanent loads and masses of a frame, so that all that weighs is mass.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model, a copy; it is changed.
+    factors : mapping of str to float
+        Of `combination`.
+    weight : str
+        The case of masses, whose factor theirs is.
+
+    Raises
+    ------
+    ModelError
+        If that factor is not positive, or the frame has masses that do not weigh, or
+        superelements.
+    """
+    share = factors[weight]
+    if share <= 0.0:
+        message = f'combined: masses by the factor {share:g} of "{weight}", it must be positive'
+        raise ModelError(message)
+    if frame._superelements or frame._weightless:
+        what = "superelements" if frame._superelements else "masses that do not weigh"
+        message = f"combined(masses=True): the frame has {what}, which are in no load case"
+        raise ModelError(message)
+    _multiply(frame, factors)
+    frame._mass_source = dict.fromkeys(frame.load_cases, 1.0)
+    frame._masses = {node: frozen(share * mass) for node, mass in frame._masses.items()}
+    frame._members = {
+        name: replace(
+            member, section=replace(member.section, density=share * member.section.density)
+        )
+        for name, member in frame._members.items()
+    }
+
+
+def _multiply(frame: FrameContents, factors: Mapping[str, float]) -> None:
+    def scaled(group: dict[str, dict[str, FloatArray]]) -> dict[str, dict[str, FloatArray]]:
+        return {
+            key: {case: frozen(factors[case] * values) for case, values in cases.items()}
+            for key, cases in group.items()
+        }
+
+    frame._loads, frame._uniform_loads = scaled(frame._loads), scaled(frame._uniform_loads)
+    frame._tapered_loads = {
+        member: tuple(
+            replace(
+                load,
+                start=_times(factors[load.case], load.start),
+                end=_times(factors[load.case], load.end),
+            )
+            for load in loads
+        )
+        for member, loads in frame._tapered_loads.items()
+    }
+    frame._floor_loads = {
+        name: replace(load, q=factors[load.case] * load.q, mass=None)
+        for name, load in frame._floor_loads.items()
+    }
+
+
+def _times(factor: float, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    x, y, z = vector
+    return factor * x, factor * y, factor * z

@@ -1,0 +1,157 @@
+"""Whether the numbers of a frame can be those of a structure, before anything is computed.
+
+The bounds are wide: models at a twentieth of the scale, towers, bridges and rigid links of any
+section pass without a word. What lies beyond was probably given in another unit.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from lir_element.units import ACCELERATIONS, DENSITIES, LENGTHS, MODULI, meant
+
+if TYPE_CHECKING:
+    from frames.model.frame_data import FrameContents
+
+TALLEST, WIDEST = 1000.0, 50e3
+"""Extent along z, and in plan, that no structure on bearings has [m]."""
+
+SOFTEST, LARGEST_AREA = 3e8, 50.0
+"""Elastic modulus [Pa] below which a member is softer than any plastic, unless its area [m2] shows
+that it stands for a stiffness."""
+
+LIGHTEST = 20.0
+"""Density of the lightest material of members [kg/m3]; 0 leaves their mass out."""
+
+LIGHTEST_FLOOR = 30.0
+"""Load of a floor panel, below which it may be in kN/m2 [N/m2]."""
+
+USUAL_GRAVITY = (8.5, 11.5)
+"""Acceleration of gravity on the ground [m/s2]."""
+
+SLENDEREST, STOUTEST = 600.0, 8.0
+"""Length over radius of gyration, and radius of gyration over length, that half of the members of
+a frame do not exceed [-]."""
+
+
+def refuse_extent(frame: FrameContents) -> None:
+    """Refuse coordinates that no structure has.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+
+    Raises
+    ------
+    ModelError
+        If it is higher or wider than any; the message names the unit to suspect.
+    """
+    if not frame.nodes:
+        return
+    places = np.array([node.position for node in frame.nodes.values()])
+    spans = np.ptp(places, axis=0)
+    for words, span, bound in (
+        ("high", float(spans[2]), TALLEST),
+        ("wide", float(spans[:2].max()), WIDEST),
+    ):
+        if span > bound:
+            message = (
+                f'frame "{frame.name}" is {span:g} m {words}, at most {bound:g} m: '
+                f"{meant(span, 'm', LENGTHS, 0.05, 0.5 * bound)}"
+            )
+            raise ModelError(message)
+
+
+def doubts(frame: FrameContents) -> tuple[str, ...]:
+    """Return what is strange about a frame, a sentence each; nothing for usual ones.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+
+    Returns
+    -------
+    tuple of str
+        Each names the value, what is usual, and the unit to suspect.
+    """
+    return (
+        *_of_gravity(frame), *_of_members(frame), *_of_sections(frame), *_of_floors(frame),
+        *_of_mass_source(frame),
+    )  # fmt: skip
+
+
+def _of_gravity(frame: FrameContents) -> list[str]:
+    g = frame.gravity
+    if g <= 0.0 or USUAL_GRAVITY[0] <= g <= USUAL_GRAVITY[1]:
+        return []
+    hint = meant(g, "m/s2", ACCELERATIONS, *USUAL_GRAVITY)
+    return [f"gravity = {g:g} m/s2 is not the Earth's: {hint} if that is not meant"]
+
+
+def _of_members(frame: FrameContents) -> list[str]:
+    ratios = []
+    for member in frame.members.values():
+        ends = (np.array(frame.nodes[node].position) for node in (member.i, member.j))
+        length = float(np.linalg.norm(np.subtract(*ends)))
+        section = member.section
+        inertia = min(section.inertia_y, section.inertia_z)
+        ratios.append(length / float(np.sqrt(inertia / section.area)))
+    if not ratios:
+        return []
+    middle = float(np.median(ratios))
+    first = next(iter(frame.members))
+    if middle > SLENDEREST:
+        return [
+            f"half of the members are more than {middle:.3g} radii of gyration long, as thin as a "
+            f'wire (member "{first}": {ratios[0]:.3g}): give coordinates and sections in m, m2 '
+            "and m4 (are the coordinates in mm or cm?)"
+        ]
+    if middle < 1.0 / STOUTEST:
+        return [
+            f"half of the members are shorter than {middle:.2g} of their radius of gyration "
+            f'(member "{first}": {ratios[0]:.2g}): give coordinates and sections in m, m2 and m4 '
+            "(are the sections in mm or cm?)"
+        ]
+    return []
+
+
+def _of_sections(frame: FrameContents) -> list[str]:
+    found = []
+    for section in dict.fromkeys(member.section for member in frame.members.values()):
+        modulus, density = section.elastic_modulus, section.density
+        if modulus < SOFTEST and section.area < LARGEST_AREA:
+            hint = meant(modulus, "Pa", MODULI, 1e9, 5e11)
+            found.append(
+                f"a section's elastic_modulus = {modulus:g} Pa is softer than plastic: {hint}"
+            )
+        if 0.0 < density < LIGHTEST:
+            hint = meant(density, "kg/m3", DENSITIES, 100.0, 2e4)
+            found.append(f"a section's density = {density:g} kg/m3 is lighter than cork: {hint}")
+    return found
+
+
+def _of_floors(frame: FrameContents) -> list[str]:
+    light = [load for load in frame.floor_loads.values() if 0.0 < load.q < LIGHTEST_FLOOR]
+    if not light:
+        return []
+    load = light[0]
+    return [
+        f'floor load "{load.name}" has {load.q:g} N/m2, less than snow or sheeting: '
+        f"{meant(load.q, 'N/m2', (('kN/m2', 1e3),), 300.0, 5e4)}"
+    ]
+
+
+def _of_mass_source(frame: FrameContents) -> list[str]:
+    cases = frame.load_cases
+    empty = [name for name, share in frame.mass_source.items() if share and name not in cases]
+    if not empty:
+        return []
+    return [
+        f'set_mass_source takes mass from load case "{empty[0]}", of which there is no load: '
+        f"there are {', '.join(cases) or 'no load cases'}"
+    ]

@@ -1,0 +1,106 @@
+"""What changes a ground motion: from components by axis [m/s2] to new ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import MotionError
+from frames.motion.baseline import LARGEST_CHANGE, corrected, drift_of
+from frames.motion.components import AXES
+from lir_element.argument_checks import require_finite
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+
+Given = Mapping[str, "FloatArray"]
+Changed = dict[str, "FloatArray"]
+
+
+def scaled(given: Given, factor: float | Sequence[float]) -> Changed:
+    """Return components times one factor, or times one for each of x, y and z."""
+    factors = [factor] * 3 if np.ndim(factor) == 0 else list(np.ravel(factor))
+    if len(factors) != 3:
+        msg = f"factor has {len(factors)} entries: give one number, or three for x, y and z"
+        raise MotionError(msg)
+    sizes = [
+        require_finite("factor", value, remedy="give a pure number", error=MotionError)
+        for value in factors
+    ]
+    return {axis: sizes[AXES.index(axis)] * values for axis, values in given.items()}
+
+
+def rotated(given: Given, angle: float) -> Changed:
+    """Return components turned about z by an angle [rad], from x towards y."""
+    turn = require_finite("angle", angle, "rad", error=MotionError)
+    cos, sin = math.cos(turn), math.sin(turn)
+    nothing = np.zeros(len(next(iter(given.values()))))
+    east, north = (given.get(axis, nothing) for axis in ("x", "y"))
+    return {**given, "x": cos * east - sin * north, "y": sin * east + cos * north}
+
+
+def trimmed(given: Given, dt: float, start: float, end: float | None) -> Changed:
+    """Return the samples from `start` to `end` [s]; None for the last one."""
+    count = len(next(iter(given.values())))
+    duration = (count - 1) * dt
+    first = require_finite("start", start, "s", error=MotionError)
+    last = duration if end is None else require_finite("end", end, "s", error=MotionError)
+    near = 1e-6 * dt  # a time that is a multiple of dt up to round-off counts as one
+    time = np.arange(count) * dt
+    keep = (time >= first - near) & (time <= last + near)
+    if np.count_nonzero(keep) < 2:
+        msg = (
+            f"start = {first:g} s, end = {last:g} s keep fewer than 2 samples: give times "
+            f"between 0 and {duration:g} s, at least {dt:g} s apart"
+        )
+        raise MotionError(msg)
+    return {axis: values[keep] for axis, values in given.items()}
+
+
+def resampled(given: Given, dt: float, new: float) -> tuple[Changed, float]:
+    """Return components at another time step [s] by linear interpolation, and that step."""
+    count = len(next(iter(given.values())))
+    duration = (count - 1) * dt
+    step = require_finite("dt", new, "s", error=MotionError)
+    if not 0.0 < step <= duration:
+        msg = (
+            f"dt = {step:g} s must be greater than 0 and at most {duration:g} s, "
+            "the duration: give a time step in s"
+        )
+        raise MotionError(msg)
+    time = np.arange(math.floor(duration / step + 1e-6) + 1) * step
+    before = np.arange(count) * dt
+    return {axis: np.interp(time, before, values) for axis, values in given.items()}, step
+
+
+def with_tail(given: Given, dt: float, seconds: float) -> Changed:
+    """Return components with zeros after them, `seconds` rounded up to whole steps."""
+    length = require_finite("seconds", seconds, "s", error=MotionError)
+    if length < 0.0:
+        msg = f"seconds = {length:g} must be at least 0: use trimmed to shorten a motion"
+        raise MotionError(msg)
+    tail = (0, math.ceil(length / dt - 1e-6))
+    return {axis: np.pad(values, tail) for axis, values in given.items()}
+
+
+def baseline_corrected(given: Given, dt: float, *, displacement: bool) -> tuple[Changed, float]:
+    """Return components whose baseline is corrected, and the largest change of a peak [-]."""
+    arrays, largest = {}, 0.0
+    for axis, values in given.items():
+        arrays[axis] = corrected(values, dt, displacement=displacement)
+        before, after = float(np.abs(values).max()), float(np.abs(arrays[axis]).max())
+        change = after / before - 1.0 if before > 0.0 else 0.0
+        if abs(change) > LARGEST_CHANGE:
+            left = drift_of(values, dt)
+            msg = (
+                f"the correction would change the peak of {axis} by {change:.1%}, at most "
+                f"{LARGEST_CHANGE:.0%}: velocity {left.velocity:.3g} m/s and displacement "
+                f"{left.displacement:.3g} m at the end are no matter of a baseline; use the "
+                "whole record, or corrected(displacement=False)"
+            )
+            raise MotionError(msg)
+        largest = max(largest, abs(change))
+    return arrays, largest

@@ -1,0 +1,102 @@
+"""The nonlinear parts of a structure as the time loop reads them: links and hinged members."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from frames.kernel_data import MOST_HALVINGS
+from frames.nonlinear_layout import SCRATCH, STATE_SIZE, WIDEST
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from frames._types import SparseMatrix
+    from frames.assembly.basis import Basis
+    from frames.assembly.nonlinear_parts import NonlinearParts
+
+    Array = npt.NDArray[Any]
+
+_POOL = 256 * 2**20  # bytes of flexibilities kept between steps, at most
+
+
+class NonlinearElements(NamedTuple):
+    """Nonlinear parts with `m` deformations in all, and how the frame gives way to them.
+
+    The force of a deformation is ``k0 d + g``: k0 belongs to the linear structure, and g is what
+    the time loop adds. Committed (old) and trial; changed in place.
+    """
+
+    kind: Array  # (n,) law by number
+    first: Array  # (n + 1,) first deformation of each part
+    par: Array  # (n, constants)
+    elastic: Array  # (m,) k0 of parts of one deformation, 0 where it is not of the structure
+    stiff: Array  # (m,) elastic stiffness, of hinged members too; 0 of what is put in later
+    scale: Array  # (m,) to a force: 1, and 1 / length of the member for moments
+    old: Array  # (n, STATE_SIZE)
+    new: Array
+    d_old: Array  # (m,) deformation, its rates, force beyond the elastic one
+    d: Array
+    v_old: Array
+    v: Array
+    a_old: Array
+    g_old: Array
+    g: Array
+    g_before: Array  # one step before the committed one
+    change: Array  # (m,) g - g_old
+    guess: Array  # (m,) the same as guessed, from which the deformations of loose parts are
+    slope: Array  # (m, WIDEST) derivatives of g within the part
+    loose: Array  # (n,) 1 where the force of the step is not linear
+    active: Array  # (m,) deformations of loose parts
+    number: Array  # (2,) number of those; number of flexibilities in the pool
+    known: Array  # (m,) deformation if b rests
+    linear: Array  # (m,) deformation if nothing is loose
+    to_b: Array  # (m, n_b) deformations of b and of the modes
+    to_e: Array  # (m, n_e)
+    still: Array  # (m, m) static flexibility of what has no mass
+    follow: Array  # (halvings, m, n_b) deformations of b with the modes that follow
+    slot: Array  # (halvings, m) place in the pool plus one, 0 where there is none
+    pool: Array  # (size, m) rows of the flexibility at a step
+    load_b: Array  # (n_b,) committed forces g in frame coordinates
+    load_e: Array
+    matrix: Array  # (m, m) scratch
+    right: Array  # (m, max(n_b, 1)) scratch
+    small: Array  # SCRATCH, of of a hinged member
+    vector: Array  # (2, m) scratch
+    modes: Array  # (2, n_e) scratch
+    scheme: Array  # (5,) speed over deformation, what is known of it, share of the end, tolerance
+    work: Array  # (4,) of yielding, of dampers, of stops; all work on the linear structure [J]
+
+
+def part_sizes(parts: NonlinearElements | None) -> tuple[int, int, int]:
+    """Return the numbers of deformations and of parts, and of what is kept of a part."""
+    return (0, 0, 0) if parts is None else (len(parts.d), len(parts.kind), STATE_SIZE)
+
+
+def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> NonlinearElements:
+    """Return the parts at rest; `rows` (m, n_free) are their deformations."""
+    m, n = int(found.first[-1]), len(found.kind)
+    n_b, n_e = len(basis.load_b), len(basis.load_e)
+    sizes = MOST_HALVINGS + 1
+    pool = max(2 * m, min(sizes * m, _POOL // (8 * m)))
+
+    def each() -> Array:
+        return np.zeros(m)
+
+    return NonlinearElements(
+        kind=found.kind.copy(), first=found.first.copy(), par=found.par.copy(),
+        elastic=found.elastic.copy(), stiff=found.own_stiffness(), scale=found.scale.copy(),
+        old=np.zeros((n, STATE_SIZE)), new=np.zeros((n, STATE_SIZE)),
+        d_old=each(), d=each(), v_old=each(), v=each(), a_old=each(), g_old=each(), g=each(),
+        g_before=each(), change=each(), guess=each(), slope=np.zeros((m, WIDEST)),
+        loose=np.zeros(n, np.int64), active=np.zeros(m, np.int64), number=np.zeros(2, np.int64),
+        known=each(), linear=each(),
+        to_b=np.ascontiguousarray(rows @ basis.expand_b),
+        to_e=np.ascontiguousarray(rows @ basis.expand_e),
+        still=np.ascontiguousarray(rows @ basis.shift(rows.T.toarray())),
+        follow=np.zeros((sizes, m, n_b)), slot=np.zeros((sizes, m), np.int64),
+        pool=np.zeros((pool, m)), load_b=np.zeros(n_b), load_e=np.zeros(n_e),
+        matrix=np.zeros((m, m)), right=np.zeros((m, max(n_b, 1))), small=np.zeros(SCRATCH),
+        vector=np.zeros((2, m)), modes=np.zeros((2, n_e)), scheme=np.zeros(5), work=np.zeros(4),
+    )  # fmt: skip

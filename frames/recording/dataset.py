@@ -1,0 +1,298 @@
+"""From recorded arrays to the labelled Dataset."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from frames.assembly.assemble import node_geometric_stiffness
+from frames.assembly.basis import bearing_rows
+from frames.kernel_data import ENERGY_TERMS, device_records
+from frames.model.components import DOFS
+from frames.recording.nonlinear_results import part_variables
+from frames.recording.section_cuts import storey_rows
+from frames.statics.gravity import expand
+from frames.statics.resultants import moving_mass
+from lir_element.results.dataset import (
+    bearing_coordinates,
+    bearing_variables,
+    device_variables,
+    labelled,
+    some_bodies,
+    temperature_variables,
+)
+from lir_element.results.deferred import deferred
+from lir_element.results.eccentricity import interface_eccentricity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from frames._types import FloatArray
+    from frames.assembly.assemble import System
+    from frames.kernel_data import Ground, Output
+    from frames.model.frame_data import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+    from frames.statics.gravity import GravityState
+    from lir_element.layout import Records
+
+
+def build_dataset(
+    frame: FrameContents,
+    state: GravityState,
+    shaking: Ground,
+    peak: FloatArray,
+    out: Output,
+    states: Records,
+    bodies: Records,
+    count: int,
+    *,
+    kept: bool = False,
+) -> xr.Dataset:
+    """Put the first `count` recorded steps into a Dataset (docs/results.md).
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    state : GravityState
+        The state the run started from, and the run.
+    shaking : Ground
+        The ground motion as the loop integrated it.
+    peak : ndarray, (3,)
+        Peak velocities of the motion as it was given [m/s].
+    out, states : Output, records
+        What was recorded.
+    count : int
+        Number of recorded steps.
+    kept : bool
+        Whether what was recorded stays as it is: states are not copied then, and what takes long
+        is formed when it is first looked at.
+
+    Returns
+    -------
+    xarray.Dataset
+        Without attributes.
+    """
+    system = state.system
+    motion = _Motion(state, shaking, out, states, count)
+
+    def of(form: Callable[[], FloatArray], *shape: int) -> Any:
+        return deferred((count, *shape), form) if kept else form()
+
+    nodes, bearings = len(system.node_names), len(system.bearings)
+    velocity = of(motion.bearing_velocity, bearings, 3)
+    variables = bearing_variables("time", states[:count], velocity, kept=kept)
+    if state.contacts is not None:
+        variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
+    variables |= temperature_variables("time", states[:count], state.model.props)
+    node = ("time", "node", "dof")
+    variables |= _device_variables(system)
+    more, names = part_variables(system.parts, frame, out, count)
+    variables |= more
+    variables |= {
+        "interface_eccentricity": labelled(
+            ("time", "bearing"),
+            of(motion.eccentricity, bearings),
+            "m",
+            "offset of the resultant between the sliders from their axes, the larger; 0 lifted",
+        ),
+        "peak_ground_velocity": labelled(
+            ("axis",), peak, "m/s", "largest velocity of the ground, also of a direction left out"
+        ),
+        "imbalance": labelled(
+            ("time", "resultant"),
+            of(motion.imbalance, len(state.resultants.names)),
+            "1",
+            "sum of all forces over the weight, of moments over that times half the extent",
+        ),
+        "node_displacement": labelled(
+            node,
+            of(motion.displacement, nodes, 6),
+            "m, rad",
+            "displacement relative to the ground",
+        ),
+        "node_acceleration": labelled(
+            node,
+            of(motion.acceleration, nodes, 6),
+            "m/s2, rad/s2",
+            "total acceleration, ground included",
+        ),
+        "ground_acceleration": labelled(
+            ("time", "axis"), motion.ground, "m/s2", "ground acceleration"
+        ),
+        "base_shear": labelled(
+            ("time", "axis"),
+            of(motion.base_shear, 3),
+            "N",
+            "resisting force of the ground: bearings on it, and other supports",
+        ),
+        "energy": labelled(
+            ("time", "term"),
+            out.energy[:count] if kept else out.energy[:count].copy(),
+            "J",
+            "energy since gravity",
+        ),
+    } | _permanent(frame, state)
+    storeys = [lv.name for lv in frame.levels[1:]]
+    if storeys:
+        names["storey"] = storeys
+        variables["storey_shear"] = labelled(
+            ("time", "storey", "axis"),
+            of(lambda: motion.storey_shear([lv.z for lv in frame.levels]), len(storeys), 3),
+            "N",
+            "resisting force of what is below a storey: its members, and bearings through it",
+        )
+    coordinates = {
+        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
+        "node": list(system.node_names),
+        "dof": list(DOFS),
+        "term": list(ENERGY_TERMS),
+        "resultant": list(state.resultants.names),
+        "level": [lv.name for lv in frame.levels],
+        **names,
+        **bearing_coordinates([name for name, _, _, _ in system.bearings]),
+    }
+    return xr.Dataset(variables, coordinates)
+
+
+def _permanent(frame: FrameContents, state: GravityState) -> dict[str, xr.Variable]:
+    # What a structure carries, and its levels.
+    system = state.system
+    return {
+        "node_position": labelled(
+            ("node", "axis"), system.coordinates.copy(), "m", "place of the node, undeformed"
+        ),
+        "node_mass": labelled(
+            ("node", "axis"), moving_mass(state), "kg", "mass at the node, 0 where it is fixed"
+        ),
+        "weight": labelled(
+            (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
+        ),
+        "static_axial_force": labelled(
+            ("bearing",), state.axial_forces, "N", "axial force under permanent loads"
+        ),
+        "level_height": labelled(
+            ("level",), np.array([lv.z for lv in frame.levels]), "m", "elevation of the level"
+        ),
+        "level_node": labelled(
+            ("node",),
+            _levels_of_nodes(frame, system.node_names),
+            "1",
+            "place of the node's level, -1 for none",
+        ),
+    }
+
+
+class _Motion:
+    """What the structure did, from what was recorded: formed where it is asked for."""
+
+    def __init__(
+        self, state: GravityState, shaking: Ground, out: Output, states: Records, count: int
+    ) -> None:
+        self._state, self._out, self._states, self._count = state, out, states, count
+        self._shape = (count, len(state.system.node_names), 6)
+        self.ground = ground_at(shaking, out.time[:count])
+
+    def displacement(self) -> FloatArray:
+        return self._of_nodes(self._moves())
+
+    def _moves(self) -> FloatArray:
+        # Of the free degrees of freedom.
+        state, out, count = self._state, self._out, self._count
+        q = expand(state.basis, out.b[:count], out.e[:count])
+        if state.parts is not None:
+            q -= out.beyond[:count] @ state.part_shift.T
+        return q
+
+    def acceleration(self) -> FloatArray:
+        out, count = self._out, self._count
+        rates = np.hstack([out.a_b[:count], out.a_e[:count]])
+        found = self._of_nodes(rates @ self._state.accelerating.T)
+        found[..., :3] += self.ground[:, None, :]
+        return found
+
+    def imbalance(self) -> FloatArray:
+        return self._state.resultants.of(self._out, self._states, self.ground, 0, self._count)
+
+    def bearing_velocity(self) -> FloatArray:
+        return _bearing_velocity(self._state, self._out.v_b[: self._count])
+
+    def eccentricity(self) -> FloatArray:
+        return interface_eccentricity(self._state.model.props, self._states[: self._count])
+
+    def base_shear(self) -> FloatArray:
+        system = self._state.system
+        grounded = np.isin([6 * i for _, i, _, _ in system.bearings], system.fixed_dofs)
+        forces = self._states["force"][: self._count, grounded, 6:9].sum(axis=1)
+        beyond = self._out.beyond[: self._count]
+        found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
+        return found
+
+    def storey_shear(self, heights: list[float]) -> FloatArray:
+        state = self._state
+        rows = storey_rows(state.system, state.member_forces, heights)
+        found = np.asarray(rows.over_q @ self._moves().T).T + rows.constant
+        found += self._out.beyond[: self._count] @ rows.over_beyond.T
+        found = found.reshape(self._count, len(rows.crossed), 3)
+        for k, crossed in enumerate(rows.crossed):
+            found[:, k] += self._states["force"][: self._count, crossed, 6:9].sum(axis=1)
+        return found
+
+    def _of_nodes(self, q: FloatArray) -> FloatArray:
+        found = np.asarray(self._state.system.transform @ q.T).T.reshape(self._shape)
+        return np.ascontiguousarray(found)
+
+
+def ground_at(ground: Ground, time: FloatArray) -> FloatArray:
+    """Return the ground acceleration (n, 3) at `time`, linear between samples, zero after."""
+    samples = np.arange(len(ground.acceleration))
+    place = time / ground.dt
+    columns = [np.interp(place, samples, ground.acceleration[:, axis]) for axis in range(3)]
+    shaking = place < samples[-1] + 1e-9  # the time loop's own bound
+    found: FloatArray = np.column_stack(columns) * shaking[:, None]
+    return found
+
+
+def peak_velocity(motion: GroundMotion, end: float) -> FloatArray:
+    """Return the largest ground velocity (3,) up to the time `end` [m/s]."""
+    a = motion.components[: max(round(end / motion.dt), 1) + 1]
+    velocity = np.cumsum(0.5 * (a[1:] + a[:-1]), axis=0) * motion.dt
+    return np.asarray(np.abs(velocity).max(axis=0, initial=0.0), dtype=np.float64)
+
+
+def _device_variables(system: System) -> dict[str, xr.Variable]:
+    variables = device_variables(device_records(system))
+    ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64)
+    variables["bearing_node"] = labelled(
+        ("bearing", "end"), ends, "1", "place of the node among the nodes"
+    )
+    return variables
+
+
+def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
+    # Velocity of node j relative to node i, (n, n_bearings, 3).
+    rows = bearing_rows(state.system)[:, state.basis.bearing_dofs]
+    v = np.asarray(rows @ v_b.T).T.reshape(len(v_b), -1, 12)
+    relative: FloatArray = v[..., 6:9] - v[..., :3]
+    return relative
+
+
+def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> FloatArray:
+    # What supports of the structure itself resist (members on the ground), signed as bearing forces
+    # are: positive with positive displacement of the structure.
+    system = state.system
+    fixed = system.fixed_dofs[system.fixed_dofs % 6 < 3]
+    stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
+    forces = system.node_load[fixed] - np.asarray((stiffness[fixed] @ system.transform) @ q.T).T
+    forces -= np.asarray(system.parts.node_rows[:, fixed].T @ beyond.T).T
+    total = np.zeros((len(q), 3))
+    for axis in range(3):
+        total[:, axis] = forces[:, fixed % 6 == axis].sum(axis=1)
+    return total
+
+
+def _levels_of_nodes(frame: FrameContents, names: tuple[str, ...]) -> Any:
+    place = {node: k for k, level in enumerate(frame.levels) for node in level.nodes}
+    return np.array([place.get(name, -1) for name in names], dtype=np.int64)

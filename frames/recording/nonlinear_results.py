@@ -1,0 +1,141 @@
+"""What nonlinear parts of a structure did over a time history, as labelled variables and forces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.kernels.hinges import place
+from frames.model.components import hinge_name, hinged_ends
+from frames.nonlinear_layout import N_PLASTIC, WORK_DONE
+from frames.results.recorded import require_recorded
+from lir_element.results.dataset import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.assembly.nonlinear_parts import NonlinearParts
+    from frames.assembly.system import System
+    from frames.kernel_data import Output
+    from frames.model.components import HingedEnd
+    from frames.model.frame_data import FrameContents
+
+HINGE_FORCES = ("N", "My", "Mz")
+"""Forces on a hinge, in local axes of its member."""
+
+
+def part_variables(
+    found: NonlinearParts, frame: FrameContents, out: Output, count: int
+) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
+    """Return the variables of links and hinges over the first `count` records; coordinates too."""
+    variables: dict[str, xr.Variable] = {}
+    coordinates: dict[str, list[str]] = {}
+    if found.links:
+        coordinates["link"] = [link.name for link in found.links]
+        variables |= _link_variables(found, out, count)
+    if found.hinged:
+        hinges = hinged_ends(frame.hinges)
+        coordinates["hinge"] = [hinge.name for hinge in hinges]
+        coordinates["hinge_force_component"] = list(HINGE_FORCES)
+        variables |= _hinge_variables(found, hinges, out, count)
+    return variables, coordinates
+
+
+def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str, xr.Variable]:
+    n = len(found.links)
+    d = out.deformation[:count, :n].copy()
+    history = ("time", "link")
+    limits = [getattr(link.law, "yield_deformation", np.nan) for link in found.links]
+    return {
+        "link_deformation": labelled(
+            history, d, "m, rad", "deformation of the link; of dampers, ties and stops from gravity"
+        ),
+        "link_force": labelled(
+            history, out.beyond[:count, :n] + found.elastic[:n] * d, "N, N m", "force of the link"
+        ),
+        "link_work": labelled(
+            history,
+            out.part_state[:count, :n, WORK_DONE].copy(),
+            "J",
+            "work the link took up: what yielding dissipates, and hardening or a wall stores",
+        ),
+        "link_yield_deformation": labelled(
+            ("link",), np.array(limits), "m, rad", "deformation at first yield, NaN without"
+        ),
+    }
+
+
+def _hinge_variables(
+    found: NonlinearParts, hinges: list[HingedEnd], out: Output, count: int
+) -> dict[str, xr.Variable]:
+    order = {member: k for k, member in enumerate(found.hinged, start=len(found.links))}
+    shape = (count, len(hinges), 3)
+    force, plastic = np.zeros(shape), np.zeros(shape)
+    turn, work = np.zeros(shape[:2]), np.zeros(shape[:2])
+    for h, (_, member, end, _) in enumerate(hinges):
+        k = order[member]
+        at = slice(found.first[k], found.first[k + 1])
+        stiffness = found.par[k, :25].reshape(5, 5)
+        five = found.par[k, 25:30] + out.deformation[:count, at] @ stiffness
+        five += out.beyond[:count, at]
+        force[:, h] = five[:, _places(end)]
+        plastic[:, h] = out.part_state[:count, k, 3 * end : 3 * end + 3]
+        turn[:, h] = out.part_state[:count, k, N_PLASTIC + end]
+        work[:, h] = out.part_state[:count, k, WORK_DONE + end]
+    history = ("time", "hinge")
+    return {
+        "hinge_force": labelled(
+            (*history, "hinge_force_component"), force, "N, N m", "N (tension +), My, Mz there"
+        ),
+        "hinge_rotation": labelled(
+            (*history, "hinge_force_component"),
+            plastic,
+            "m, rad",
+            "plastic elongation, and rotations about local y and z",
+        ),
+        "hinge_turn": labelled(
+            history, turn, "rad", "plastic rotation run through since the start"
+        ),
+        "hinge_work": labelled(
+            history, work, "J", "work the hinge took up, what hardening stores included"
+        ),
+        "hinge_moment": labelled(
+            ("hinge", "hinge_force_component"),
+            np.array([(each.axial, each.moment_y, each.moment_z) for *_, each in hinges]),
+            "N, N m",
+            "plastic forces of the hinge: axial from its centre, moments",
+        ),
+    }
+
+
+def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
+    """Return what nonlinear parts add to the elastic forces g of a time history, (time, m)."""
+    found = system.parts
+    beyond = np.zeros((data.sizes["time"], int(found.first[-1])))
+    n = len(found.links)
+    needed = ["link_deformation", "link_force"] if n else []
+    needed += ["hinge_rotation"] if found.hinged else []
+    require_recorded(data, "forces of a structure that yields", *needed)
+    if n:
+        d = data["link_deformation"].transpose("time", "link").to_numpy()
+        force = data["link_force"].transpose("time", "link").to_numpy()
+        beyond[:, :n] = force - found.elastic[:n] * d
+    if found.hinged:
+        plastic = data["hinge_rotation"].transpose("time", "hinge", ...).to_numpy()
+        names = {str(name): h for h, name in enumerate(data["hinge"].to_numpy())}
+        for k, member in enumerate(found.hinged, start=n):
+            stiffness = found.par[k, :25].reshape(5, 5)
+            for end in (0, 1):
+                h = names.get(hinge_name(member, end))
+                if h is not None:
+                    columns = stiffness[:, _places(end)]
+                    at = slice(found.first[k], found.first[k + 1])
+                    beyond[:, at] -= plastic[:, h] @ columns.T
+    return beyond
+
+
+def _places(end: int) -> list[int]:
+    # Of N, My and Mz at an end among a member's five forces.
+    return [place(end, part) for part in range(3)]

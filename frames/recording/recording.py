@@ -1,0 +1,251 @@
+"""What a time history records: steps, variables, bearings, nodes, or only what it reached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Self
+
+from frames.model.names import likely
+from frames.results.recorded import ENDS, EVERY_STEP
+from lir_element.argument_checks import require_non_negative, require_type
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_NAMES = {
+    "channels": "variables (docs/results.md)",
+    "bearings": "bearings",
+    "nodes": "nodes",
+    "levels": "levels",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """What a time history records; its parts go together as they are given.
+
+    Whatever is left out, the run keeps what it reached at all of its base steps (`peaks`, the
+    audit, the ledger of energy read that), and takes no more memory than what is recorded and a
+    buffer of some 64 MB.
+
+    Parameters
+    ----------
+    every : int or None
+        Every so many base steps, the first one included. None: the first and the last only.
+    channels : sequence of str, optional
+        Variables by name, as in docs/results.md, such as "bearing_displacement"; all if None. What
+        has no dimension `time` is kept always.
+    bearings : sequence of str, optional
+        Names of the bearings recorded; all if None.
+    nodes : sequence of str, optional
+        Names of the nodes recorded; all if None, and no level is named either.
+    levels : sequence of str, optional
+        Names of levels whose nodes are recorded, besides `nodes`.
+    around_impacts : (float, float), optional
+        All steps from so long before to so long after each rim contact [s], whatever `every`; a
+        contact is a base step at which a slider presses on a rim.
+    extremes : bool
+        Whether the largest and the smallest value of every variable recorded are kept, and their
+        times, over all base steps: read them by ``envelope(data, variable)``.
+
+    Raises
+    ------
+    ValueError
+        If a value is out of its bounds, or a list of names is empty.
+    TypeError
+        If a value is of another kind.
+
+    Examples
+    --------
+    >>> Recording(every=10, channels=("bearing_force", "energy"))
+    Recording(every=10, channels=('bearing_force', 'energy'))
+    >>> print(Recording.impacts(before=0.2, after=0.5, every=20))
+    every 20th step, all from 0.2 s before to 0.5 s after rim contact
+    >>> print(Recording.peaks())
+    first and last step, extremes of all
+    """
+
+    every: int | None = 1
+    channels: tuple[str, ...] | None = None
+    bearings: tuple[str, ...] | None = None
+    nodes: tuple[str, ...] | None = None
+    levels: tuple[str, ...] | None = None
+    around_impacts: tuple[float, float] | None = None
+    extremes: bool = False
+
+    def __post_init__(self) -> None:
+        """Check, and keep what was given as tuples."""
+        if self.every is not None:
+            object.__setattr__(self, "every", whole_steps("every", self.every))
+        for name in _NAMES:
+            object.__setattr__(self, name, _names(name, getattr(self, name)))
+        if self.around_impacts is not None:
+            object.__setattr__(self, "around_impacts", _window(self.around_impacts))
+        require_type("extremes", self.extremes, bool, "True or False")
+
+    @classmethod
+    def everything(cls) -> Self:
+        """Return the recording of all base steps and all variables."""
+        return cls()
+
+    @classmethod
+    def impacts(cls, before: float = 0.2, after: float = 0.5, every: int | None = 10) -> Self:
+        """Return the recording of all steps around rim contacts [s], and every n-th elsewhere."""
+        return cls(every=every, around_impacts=(before, after))
+
+    @classmethod
+    def peaks(cls) -> Self:
+        """Return the recording of extremes alone, with the first and the last step."""
+        return cls(every=None, extremes=True)
+
+    @property
+    def is_everything(self) -> bool:
+        """Whether nothing is left out, and nothing kept besides."""
+        return self == type(self)()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names given: of channels, bearings, nodes and levels."""
+        return tuple(name for kind in _NAMES for name in getattr(self, kind) or ())
+
+    def __str__(self) -> str:
+        """Return what is recorded, in words."""
+        steps = ENDS if self.every is None else f"every {_ordinal(self.every)}step"
+        parts = [EVERY_STEP if self.every == 1 else steps]
+        if self.around_impacts is not None and self.every != 1:
+            before, after = self.around_impacts
+            parts.append(f"all from {before:g} s before to {after:g} s after rim contact")
+        for name in _NAMES:
+            chosen = getattr(self, name)
+            if chosen is not None:
+                parts.append(f"{name} {' '.join(chosen)}")
+        if self.extremes:
+            parts.append("extremes of all")
+        return ", ".join(parts)
+
+    def __repr__(self) -> str:
+        """Return how it is made, without what was left at its default."""
+        given = [
+            f"{field.name}={getattr(self, field.name)!r}"
+            for field in fields(self)
+            if getattr(self, field.name) != field.default
+        ]
+        return f"Recording({', '.join(given)})"
+
+
+def recording_of(recording: object, record_every: object) -> Recording:
+    """Return what `time_history` was asked to record.
+
+    Parameters
+    ----------
+    recording : Recording or None
+        Its argument.
+    record_every : int
+        The older argument, which stands for ``Recording(every=record_every)``.
+
+    Returns
+    -------
+    Recording
+        Checked.
+
+    Raises
+    ------
+    ValueError
+        If both are given, or `record_every` is no whole number of at least 1.
+    TypeError
+        If the recording is none.
+    """
+    every = whole_steps("record_every", record_every)
+    if recording is None:
+        return Recording(every=every)
+    if not isinstance(recording, Recording):
+        msg = (
+            f"recording = {recording!r} must be a Recording, such as Recording(every=10) or "
+            "Recording.peaks(), or None"
+        )
+        raise TypeError(msg)
+    if every != 1:
+        msg = (
+            f"record_every = {every} and recording = {recording!r} say the same thing twice: give "
+            f"Recording(every={every}, ...) alone"
+        )
+        raise ValueError(msg)
+    return recording
+
+
+def require_known(recording: Recording, data: xr.Dataset) -> None:
+    """Refuse names that a model or its results do not have.
+
+    Parameters
+    ----------
+    recording : Recording
+        What was asked for.
+    data : xarray.Dataset
+        A result with all variables, of any step.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, or a channel has no history.
+    """
+    known = {
+        "channels": [str(name) for name in data.data_vars if "time" in data[name].dims],
+        "bearings": [str(name) for name in data["bearing"].to_numpy()],
+        "nodes": [str(name) for name in data["node"].to_numpy()],
+        "levels": [str(name) for name in data["level"].to_numpy()],
+    }
+    for kind, names in known.items():
+        unknown = [name for name in getattr(recording, kind) or () if name not in names]
+        if unknown and unknown[0] in data.variables:
+            msg = f'{kind}: "{unknown[0]}" has no history, it is kept always: leave it out'
+            raise ValueError(msg)
+        if unknown:
+            hint = likely(unknown[0], names) or "the model has none"
+            msg = f'{kind}: "{unknown[0]}" is not among the {_NAMES[kind]} of this run: {hint}'
+            raise ValueError(msg)
+
+
+def whole_steps(name: str, value: object) -> int:
+    """Return `value` as a whole number of at least 1, or raise."""
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if (not number and not hasattr(value, "__index__")) or isinstance(value, bool):
+        msg = f"{name} = {value!r} must be a whole number of at least 1: count base steps"
+        raise TypeError(msg)
+    if not value >= 1 or value % 1:  # type: ignore[operator]
+        msg = f"{name} = {value!r} must be a whole number of at least 1"
+        raise ValueError(msg)
+    return int(value)  # type: ignore[call-overload, no-any-return]
+
+
+def _names(name: str, value: object) -> tuple[str, ...] | None:
+    if value is None:
+        return None
+    if isinstance(value, str) or not hasattr(value, "__iter__"):
+        msg = f"{name} = {value!r} must be a sequence of names: write {name}=({value!r},)"
+        raise TypeError(msg)
+    names = tuple(value)
+    for one in names:
+        require_type(f"{name}: {one!r}", one, str, "a name: a string")
+    if not names:
+        msg = f"{name} is empty: name at least one of the {_NAMES[name]}, or leave it out for all"
+        raise ValueError(msg)
+    return tuple(dict.fromkeys(names))
+
+
+def _window(value: object) -> tuple[float, float]:
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        msg = (
+            f"around_impacts = {value!r} must be a pair of times (before, after) in s, such as "
+            "(0.2, 0.5)"
+        )
+        raise TypeError(msg)
+    before, after = value
+    return (
+        require_non_negative("before a rim contact", before, "s"),
+        require_non_negative("after a rim contact", after, "s"),
+    )
+
+
+def _ordinal(number: int) -> str:
+    last = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{'th' if number // 10 % 10 == 1 else last} "

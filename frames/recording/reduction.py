@@ -1,0 +1,390 @@
+"""Histories made smaller as a run goes on: steps and variables chosen, running extremes of all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from frames.recording.recording import Recording
+from frames.results.envelopes import EXTREMES
+from frames.results.peak_response import (
+    LEFT,
+    QUANTITIES,
+    TOTALS,
+    Extreme,
+    extreme_of,
+    later,
+    rims_met,
+    storeys_of_lines,
+)
+from frames.results.recorded import REACHED
+from lir_element.results.dataset import labelled
+
+if TYPE_CHECKING:
+    from frames._types import BoolArray, FloatArray, IntArray
+
+    Columns = dict[str, Any]
+
+UNTIL = f"{REACHED}until"
+"""Variable that holds the time of the last base step of a run."""
+
+_SAME_TIME = 1e-9  # s: times that differ by less are one
+
+
+class _Held(NamedTuple):
+    # Steps that a later rim contact may still ask for.
+    columns: Columns  # variables (n, ...)
+    step: IntArray  # (n,)
+    met: BoolArray  # (n,) a rim was met
+
+
+class _State(NamedTuple):
+    # All that was taken up; replaced in one assignment, so that no interruption finds half of it.
+    taken: int  # base steps taken up, the first one (at rest) included
+    parts: tuple[Columns, ...]  # what is recorded, piece by piece
+    held: _Held | None
+    last_contact: float  # s
+    last_kept: int  # base step
+    reached: dict[str, Extreme]
+    totals: dict[str, FloatArray]
+    extremes: dict[str, tuple[Extreme, Extreme]]  # of -values: the smallest
+    tail: xr.Dataset | None  # the last piece's last step and all that has no time
+
+
+class Findings(NamedTuple):
+    """What a run reached, by quantity."""
+
+    reached: dict[str, Extreme]
+    totals: dict[str, FloatArray]
+    left: dict[str, FloatArray]
+    """Of those of `LEFT`, at the last step."""
+    until: float
+    """Time of that step [s]."""
+
+
+def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
+    """Return a result without histories with what its run reached, as the audit reads it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        All of a result that has no time.
+    found : Findings
+        What was reached.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same with the variables ``reached_...`` (docs/results.md).
+    """
+    variables: dict[str, xr.Variable] = {}
+    for name, most in found.reached.items():
+        dims, unit, meaning, _ = QUANTITIES[name]
+        text = meaning if meaning.startswith("1:") else f"largest {meaning}"
+        variables[REACHED + name] = labelled(dims, most.values, unit, text)
+        variables[f"{REACHED}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
+    for name, value in found.totals.items():
+        dims, unit, meaning, _ = TOTALS[name]
+        variables[REACHED + name] = labelled(dims, value, unit, meaning)
+    for name, value in found.left.items():
+        dims, unit, meaning, _ = QUANTITIES[name]
+        variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, f"{meaning}, left")
+    variables[UNTIL] = labelled((), found.until, "s", "time of the last base step")
+    coordinates: dict[str, Any] = {}
+    if "line_drift" in found.reached:
+        lines, storeys = storeys_of_lines(data)
+        variables[f"{REACHED}line_storey"] = xr.Variable(("line",), storeys)
+        coordinates["line"] = lines
+    return data.assign_coords(coordinates).assign(variables)
+
+
+def with_other_findings(data: xr.Dataset, found: Findings, peak: FloatArray) -> xr.Dataset:
+    """Return what `with_findings` gave of one run with the numbers of another one.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a run of the same structure.
+    found : Findings
+        What the other run reached.
+    peak : ndarray, (3,)
+        Peak velocities of its motion [m/s].
+
+    Returns
+    -------
+    xarray.Dataset
+        As `with_findings` makes it, in a tenth of the time.
+    """
+    known = data.variables
+    values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
+    for name, most in found.reached.items():
+        values[REACHED + name], values[f"{REACHED}{name}_at"] = most
+    values |= {REACHED + name: value for name, value in found.totals.items()}
+    values |= {f"{REACHED}{name}_left": value for name, value in found.left.items()}
+    values |= {UNTIL: np.array(found.until), "peak_ground_velocity": peak}
+    return data.copy(data=values)
+
+
+class Reduction:
+    """What a recording makes of a run that hands its steps over piece by piece.
+
+    Parameters
+    ----------
+    recording : Recording
+        What to keep.
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        self._recording = recording
+        self._state = _State(0, (), None, -np.inf, -1, {}, {}, {}, None)
+
+    def take(self, piece: xr.Dataset, first: int, *, final: bool) -> None:
+        """Take up the steps of a piece that are new.
+
+        Parameters
+        ----------
+        piece : xarray.Dataset
+            All variables of consecutive base steps: where it does not begin with the run, it
+            begins with the last two steps taken up or before, so that differences over time can
+            be formed.
+        first : int
+            The base step of its first row.
+        final : bool
+            Whether it is the last one.
+        """
+        state, count = self._state, piece.sizes["time"]
+        fresh = slice(state.taken - first, count)
+        step = np.arange(state.taken, first + count)
+        columns = self._columns(piece)
+        extremes = self._extremes(columns, fresh, piece["time"].to_numpy(), state.extremes)
+        # what is formed over neighbours waits for the next piece with its last step
+        begin = max(state.taken - 1, 0) - first
+        reached, totals = _measured(piece, begin, count if final else count - 1, state)
+        new = {name: values[fresh] for name, values in columns.items()}
+        met = np.asarray(rims_met(piece).max(axis=1) > 0.0)[fresh]
+        kept, held, contact = self._chosen(_Held(new, step, met), final=final)
+        parts, last_kept = state.parts, state.last_kept
+        if len(kept.step):
+            parts, last_kept = (*parts, kept.columns), int(kept.step[-1])
+        if final and self._recording.every is None and last_kept < first + count - 1:
+            parts = (*parts, {name: values[-1:].copy() for name, values in columns.items()})
+        tail = piece.isel(time=[-1])
+        self._state = _State(
+            first + count, parts, held, contact, last_kept, reached, totals, extremes, tail
+        )
+
+    def judgeable(self) -> xr.Dataset:
+        """Return what the audit reads of a run that was taken up to its end: no histories."""
+        state = self._state
+        tail = _tail(state)
+        at_end = {name: QUANTITIES[name].of(tail)[-1] for name in LEFT if name in state.reached}
+        end = float(tail["time"][-1])
+        found = Findings(state.reached, state.totals, at_end, end)
+        return with_findings(_without_time(tail), found)
+
+    def recorded(self, judged: xr.Dataset) -> xr.Dataset:
+        """Return the result: what `judgeable` gave, judged, with what is recorded besides.
+
+        Parameters
+        ----------
+        judged : xarray.Dataset
+            From `judgeable`, its attributes complete.
+
+        Returns
+        -------
+        xarray.Dataset
+            Of the bearings and nodes that the recording names.
+        """
+        state, tail = self._state, _tail(self._state)
+        self._state = state._replace(parts=())
+        data = self._selected(judged)
+        names = ["time", *self._channels(tail)]
+        parts = [dict(part) for part in state.parts]
+        del state
+        variables = {}
+        note = {"recording": str(self._recording)}
+        for name in names:  # one by one: what is put together is let go
+            values = np.concatenate([part.pop(name) for part in parts])
+            variables[name] = xr.Variable(tail[name].dims, values, tail[name].attrs | note)
+        del variables["time"].attrs["recording"]
+        for name, (high, low) in self._state.extremes.items():
+            attrs, dims = tail[name].attrs, tail[name].dims[1:]
+            known = np.isfinite(high.values) & np.isfinite(low.values)
+            each = (high.values, high.at, -low.values, low.at)
+            numbers = (np.where(known, values, np.nan) for values in each)
+            for kind, values in zip(EXTREMES, numbers, strict=True):
+                own = {"units": "s"} if kind.startswith("time") else attrs
+                variables[f"{kind}_{name}"] = xr.Variable(dims, values, own)
+        return data.assign_coords(time=variables.pop("time")).assign(variables)
+
+    def _channels(self, piece: xr.Dataset) -> list[str]:
+        # Names of the variables recorded, in the order of the Dataset.
+        histories = [str(name) for name in piece.data_vars if "time" in piece.variables[name].dims]
+        chosen = self._recording.channels
+        return histories if chosen is None else [name for name in histories if name in chosen]
+
+    def _columns(self, piece: xr.Dataset) -> Columns:
+        # The recorded variables of the chosen bearings and nodes, time first.
+        names, part = self._channels(piece), piece
+        if self._recording.bearings or self._recording.nodes or self._recording.levels:
+            part = self._selected(piece[names], statics=piece)
+        return {name: part.variables[name].to_numpy() for name in ("time", *names)}
+
+    def _selected(self, data: xr.Dataset, statics: xr.Dataset | None = None) -> xr.Dataset:
+        # The bearings and nodes that the recording names; `statics` has the levels of the nodes.
+        recording = self._recording
+        statics = data if statics is None else statics
+        if recording.bearings is not None and "bearing" in data.dims:
+            data = data.sel(bearing=list(recording.bearings))
+        if (recording.nodes is None and recording.levels is None) or "node" not in data.dims:
+            return data
+        names = [str(name) for name in statics["node"].to_numpy()]
+        levels = [str(name) for name in statics["level"].to_numpy()]
+        wanted = {levels.index(name) for name in recording.levels or ()}
+        place = statics["level_node"].to_numpy()
+        nodes = recording.nodes or ()
+        kept = [k for k, name in enumerate(names) if name in nodes or int(place[k]) in wanted]
+        data = data.isel(node=kept)
+        if "bearing_node" in data:
+            own = {k: n for n, k in enumerate(kept)}
+            ends = [[own.get(int(k), -1) for k in row] for row in data["bearing_node"].to_numpy()]
+            data["bearing_node"] = data["bearing_node"].copy(data=np.array(ends, dtype=np.int64))
+            counts = np.array([int((place == k).sum()) for k in range(len(levels))])
+            data["nodes_of_level"] = labelled(("level",), counts, "1", "nodes of it in the model")
+        return data
+
+    def _extremes(
+        self, columns: Columns, fresh: slice, time: FloatArray, old: dict[str, Any]
+    ) -> dict[str, tuple[Extreme, Extreme]]:
+        if not self._recording.extremes or fresh.start >= fresh.stop:
+            return old
+        found = {}
+        for name, values in columns.items():
+            if name == "time":
+                continue
+            both = [extreme_of(sign * values[fresh], time[fresh]) for sign in (1.0, -1.0)]
+            if name in old:
+                both = [later(a, b) for a, b in zip(old[name], both, strict=True)]
+            found[name] = (both[0], both[1])
+        return found
+
+    def _chosen(self, new: _Held, *, final: bool) -> tuple[_Held, _Held | None, float]:
+        # What to keep of the new steps and of those held, what to hold, and the last contact.
+        every, window, state = self._recording.every, self._recording.around_impacts, self._state
+        if window is None:
+            return _part(new, _regular(new.step, every)), None, state.last_contact
+        held = state.held
+        if held is not None and len(held.step):
+            columns = {k: np.concatenate([held.columns[k], v]) for k, v in new.columns.items()}
+            step, met = (
+                np.concatenate([getattr(held, k), getattr(new, k)]) for k in ("step", "met")
+            )
+            new = _Held(columns, step, met)
+        time = new.columns["time"]
+        contacts = np.concatenate([[state.last_contact], time[new.met]])
+        place = np.searchsorted(contacts, time, side="right")
+        since = time - contacts[np.maximum(place - 1, 0)]
+        until = np.append(contacts, np.inf)[place] - time
+        near = (since <= window[1] + _SAME_TIME) | (until <= window[0] + _SAME_TIME)
+        near |= new.met
+        decided = np.full(len(time), True)
+        if not final and len(time):
+            decided = time < time[-1] - window[0] - _SAME_TIME
+        kept = _part(new, decided & (near | _regular(new.step, every)))
+        last = np.append(time[new.met & decided], state.last_contact).max()
+        return kept, _part(new, ~decided), float(last)
+
+
+def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
+    """Return what a recording keeps of a result that holds all steps, its attributes kept.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, complete.
+    recording : Recording
+        What to keep.
+
+    Returns
+    -------
+    xarray.Dataset
+        As if the run had recorded it so.
+    """
+    reduction = Reduction(recording)
+    reduction.take(data, 0, final=True)
+    return reduction.recorded(reduction.judgeable().assign_attrs(data.attrs))
+
+
+def judgeable_of(data: xr.Dataset) -> xr.Dataset:
+    """Return what the audit reads of a result that holds all steps, without its histories.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, complete.
+
+    Returns
+    -------
+    xarray.Dataset
+        What it reached, and all that has no time; its attributes.
+    """
+    reduction = Reduction(Recording(every=None))
+    reduction.take(data, 0, final=True)
+    return reduction.judgeable().assign_attrs(data.attrs)
+
+
+def _measured(
+    piece: xr.Dataset, begin: int, end: int, state: _State
+) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
+    # What was reached with the steps begin to end of a piece.
+    if begin >= end:
+        return state.reached, state.totals
+    time = piece["time"].to_numpy()[begin:end]
+    reached, totals = {}, {}
+    for name in present_quantities(piece):
+        now = extreme_of(QUANTITIES[name].of(piece)[begin:end], time)
+        reached[name] = later(state.reached[name], now) if name in state.reached else now
+    for name, total in TOTALS.items():
+        now_total = total.of(piece, begin, end)
+        totals[name] = state.totals[name] + now_total if name in state.totals else now_total
+    return reached, totals
+
+
+def present_quantities(piece: xr.Dataset) -> list[str]:
+    """Return the names of the quantities that the model of a result has."""
+    levels = piece.sizes["level"]
+    lacking: set[str] = set() if levels else {"floor_plan", "floor_vertical"}
+    if levels < 2:
+        lacking |= {"drift", "line_drift", "storey_shear"}
+    elif not storeys_of_lines(piece)[0]:
+        lacking |= {"line_drift"}
+    if "body_rotation" not in piece:
+        lacking |= {"tilt"}
+    if "temperature" not in piece:
+        lacking |= {"temperature"}
+    for part in ("link", "hinge"):
+        if part not in piece.dims:
+            lacking |= {name for name, each in QUANTITIES.items() if part in each.dims}
+    return [name for name in QUANTITIES if name not in lacking]
+
+
+def _regular(step: IntArray, every: int | None) -> BoolArray:
+    return np.asarray(step == 0 if every is None else step % every == 0)
+
+
+def _part(held: _Held, chosen: BoolArray) -> _Held:
+    columns = {name: values[chosen] for name, values in held.columns.items()}
+    return _Held(columns, held.step[chosen], held.met[chosen])
+
+
+def _tail(state: _State) -> xr.Dataset:
+    if state.tail is None:
+        msg = "no step was taken up"
+        raise AssertionError(msg)
+    return state.tail
+
+
+def _without_time(data: xr.Dataset) -> xr.Dataset:
+    return data.drop_dims("time")

@@ -1,0 +1,417 @@
+"""The audit of a run: whether what was left out mattered, and what was modelled was needed.
+
+It reads the Dataset alone: what a run left out is judged by what the run itself reached.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.results.energy_balance import Remark, equilibrium, time_step
+from frames.results.peak_response import FULL_SLIP, Extreme, largest, left_out, total
+from lir_element.device.features import Features
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+NEAR = 0.95
+"""Share of a limit at which it counts as reached in a run that left out something else as well."""
+
+SMALL = {
+    "plate_rotation": 0.02,  # of the largest displacement
+    "velocity_dependence": 0.02,  # of friction
+    "second_direction": 0.02,  # of the x direction
+    "vertical_coupling": 0.05,  # of the static axial force
+    "pressure_dependence": 0.02,  # of friction
+    "friction_heating": 0.02,  # of friction
+}
+"""What must not be exceeded by an effect that is left out."""
+
+KERN = 0.25
+"""Eccentricity over slider radius up to which a circular contact is closed all over."""
+
+HOLDS = 0.8
+"""Slip over the one that holds without rims, `slip_stability`, from which a run says so."""
+
+OVERLAPS = 0.9
+"""The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
+
+SPUN = 0.5
+"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the slip that is left
+depends on it (docs/validation/slip.md)."""
+
+EDGE = 0.5
+"""Eccentricity over slider radius beyond which one edge carries nearly all: the level 'contact' is
+asked for."""
+
+CONTACT = 0.33
+"""The same where rims are met, from which on the level 'contact' is asked for: of such scenes
+forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
+
+TURNED = 0.05
+"""Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
+strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
+
+_ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """What the audit found on one feature.
+
+    Attributes
+    ----------
+    feature : str
+        Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
+        "slip_stability": whether the slip that is left holds; or "yielding": whether hinges
+        turned further than they keep their strength; or "equilibrium", "accelerations" and
+        "time_step": whether the numbers of the run belong together.
+    left_out : bool
+        Whether the run left it out.
+    mattered : bool
+        Left out: whether that spoils the run. Modelled: whether it came into play.
+    number : float
+        What the judgement rests on; the sentence says what it is.
+    sentence : str
+        For people.
+    doubtful : bool
+        Whether what came into play asks to be looked at.
+    """
+
+    feature: str
+    left_out: bool
+    mattered: bool
+    number: float
+    sentence: str
+    doubtful: bool = False
+
+
+def audit(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge what a time history left out, and what of the rest it needed.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, also one that was saved and loaded.
+
+    Returns
+    -------
+    tuple of Finding
+        One for each feature, in the order of `Features.names()`, one on full contact, one on the
+        slip that holds; of a structure with hinges one on how far they turned; one on the sum of
+        all forces, and where it applies one on nodes accelerated by more than 50 g and one on the
+        error of a step that was given.
+
+    Notes
+    -----
+    A recording that leaves steps or variables out (`Recording`) keeps what was reached at all
+    steps, so that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the
+    recorded steps are seen.
+    """
+    out = left_out(data)
+    found = [_JUDGES[name](data, name in out) for name in Features.names()]
+    remarks = tuple(_remarked(each) for each in (*equilibrium(data), *time_step(data)))
+    return (*found, _full_contact(data), _slip_stability(data), *_yielding(data), *remarks)
+
+
+def audit_report(data: xr.Dataset) -> str:
+    """Return the audit of a time history as text, a line a finding.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    str
+        Lines that begin with "!" tell of something left out that mattered, or of a slip that the
+        interface may not hold.
+    """
+    return report_of(audit(data))
+
+
+def report_of(findings: tuple[Finding, ...]) -> str:
+    """Return findings as text: what was left out first, then what was modelled."""
+    ordered = sorted(findings, key=lambda finding: not finding.left_out)
+    marks = ("! " if is_missing(finding) or finding.doubtful else "  " for finding in ordered)
+    return "\n".join(m + finding.sentence for m, finding in zip(marks, ordered, strict=True))
+
+
+def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
+    """Return what the audit of a result marks with "!", a sentence each.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history, also one that was loaded; others have none.
+
+    Returns
+    -------
+    tuple of str
+        Without their marks.
+    """
+    lines = str(data.attrs.get("audit", "")).splitlines()
+    return tuple(line[2:] for line in lines if line.startswith("! "))
+
+
+def is_missing(finding: Finding) -> bool:
+    """Return whether the run should be repeated with what it left out."""
+    return finding.left_out and finding.mattered
+
+
+def needed_level(findings: tuple[Finding, ...]) -> str:
+    """Return the cheapest level that is sufficient: "pendulum", or "contact".
+
+    Parameters
+    ----------
+    findings : tuple of Finding
+        Of `audit`.
+
+    Returns
+    -------
+    str
+        "contact" where a bearing lifted off; where the resultant between the sliders came further
+        than half a radius off an axis (a third where rims are met); where the sliders spun by more
+        than half a radian; where a slip is so large that a few per cent decide whether it holds.
+    """
+    return "contact" if asking_for_contact(findings) else "pendulum"
+
+
+def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings that ask for the level "contact"."""
+    return tuple(f for f in findings if f.mattered and f.feature in _ASKING)
+
+
+def _rims(data: xr.Dataset, out: bool) -> Finding:
+    limit = data.variables["rim_displacement"].to_numpy()
+    share = float((largest(data, "sliding").values / limit).max())
+    met = largest(data, "rims_met")
+    mattered = share >= (_reached(data, "rims") if out else 1.0)
+    if np.isinf(limit).all():
+        return _finding("rims", out, False, 0.0, "the bearings have none")
+    if out or not met.values.any():
+        text = f"reached {_share(share)} of capacity"
+        return _finding("rims", out, out and mattered, share, text)
+    return _finding("rims", out, True, share, f"met by {_by_whom(met)}")
+
+
+def _interface(data: xr.Dataset, out: bool) -> Finding:
+    if np.isinf(data.variables["interface_friction"].to_numpy()).all():
+        return _finding("interface", out, False, 0.0, "the sliders are in one piece")
+    share = float(largest(data, "interface_share").values.max())
+    if out or share < FULL_SLIP:
+        mattered = out and share >= _reached(data, "interface")
+        text = f"carried {_share(share)} of what its friction holds"
+        return _finding("interface", out, mattered, share, text)
+    size = float(largest(data, "slip").values.max())
+    who = _by_whom(largest(data, "slipped"))
+    return _finding("interface", out, True, share, f"slipped up to {1e3 * size:.3g} mm, {who}")
+
+
+def _uplift(data: xr.Dataset, out: bool) -> Finding:
+    least = 0.0 - float(largest(data, "vertical_tension").values.max())
+    if out or least > 0.0:
+        return _finding("uplift", out, least <= 0.0, least, f"smallest N {least:.2f} W")
+    who = _by_whom(largest(data, "lifted"))
+    return _finding("uplift", out, True, least, f"lifted off: {who}")
+
+
+def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
+    shift = float(largest(data, "centre_shift").values.max())
+    moved = float(largest(data, "displacement").values.max())
+    share = shift / moved if moved > 0.0 else 0.0
+    text = f"tilt moves the spheres' centres by up to {1e3 * shift:.2g} mm, {_share(share, 1)} of "
+    text += "the largest displacement"
+    return _finding("plate_rotation", out, share > SMALL["plate_rotation"], share, text)
+
+
+def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
+    if not data.variables["friction_drop"].to_numpy().any():
+        text = "no friction depends on speed"
+        return _finding("velocity_dependence", out, False, 0.0, text)
+    work = float(total(data, "sliding_work"))
+    share = float(total(data, "sliding_work_lower")) / work if work > 0.0 else 0.0
+    text = f"over the paths slid, friction is {_share(share, 1)} below that at high speed"
+    return _finding("velocity_dependence", out, share > SMALL["velocity_dependence"], share, text)
+
+
+def _second_direction(data: xr.Dataset, out: bool) -> Finding:
+    if not out:
+        moves = largest(data, "displacement_along").values
+        x, y = float(moves[0]), float(moves[1])
+        share = _ratio(y, x)
+        text = f"displacement along y reached {1e3 * y:.3g} mm, along x {1e3 * x:.3g} mm"
+    else:
+        peak = data["peak_ground_velocity"]
+        x, y = float(peak.sel(axis="x")), float(peak.sel(axis="y"))
+        coupled = float(data.attrs["plane_coupling"])
+        share = max(_ratio(y, x), coupled)
+        text = f"peak ground velocity along y {_share(_ratio(y, x))} of that along x, pushed along "
+        text += f"x the bearings move along y by {_share(coupled, 1)} of it"
+    return _finding("second_direction", out, share > SMALL["second_direction"], share, text)
+
+
+def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
+    share = float(largest(data, "vertical_change").values.max())
+    text = f"axial forces differ from those at rest by up to {_share(share)}"
+    return _finding("vertical_coupling", out, share > SMALL["vertical_coupling"], share, text)
+
+
+def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
+    if "pressure_rate" not in data or not data.variables["pressure_rate"].to_numpy().any():
+        text = "no friction depends on pressure"
+        return _finding("pressure_dependence", out, False, 0.0, text)
+    share = _ratio(float(total(data, "sliding_work_pressed")), float(total(data, "sliding_work")))
+    text = f"over the paths slid, it changes friction by {_share(share, 1)}"
+    return _finding("pressure_dependence", out, share > SMALL["pressure_dependence"], share, text)
+
+
+def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
+    if "softening_rate" not in data or not data.variables["softening_rate"].to_numpy().any():
+        text = "no friction depends on temperature"
+        return _finding("friction_heating", out, False, 0.0, text)
+    share = _ratio(float(total(data, "sliding_work_heated")), float(total(data, "sliding_work")))
+    hottest = float(np.nanmax(largest(data, "temperature").values[:, :2]))
+    text = f"the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "
+    text += _share(share, 1)
+    return _finding("friction_heating", out, share > SMALL["friction_heating"], share, text)
+
+
+def _full_contact(data: xr.Dataset) -> Finding:
+    share = float(largest(data, "eccentricity").values.max())
+    if share <= KERN:
+        verdict = "full contact holds"
+    elif share <= EDGE:
+        verdict = "partial contact, no tipping"
+    else:
+        verdict = "edge contact" if share < 1.0 else "the slider tips"
+    met = bool(largest(data, "rims_met").values.any())
+    text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
+    has_spin = "slider_spin" in data or "reached_spin" in data
+    spin = float(largest(data, "spin").values.max()) if has_spin else 0.0
+    if spin > SPUN:
+        text += f"; the sliders spun by {spin:.2g} rad"
+    asked = share > (CONTACT if met else EDGE) or spin > SPUN
+    at_pendulum = str(data.attrs["level"]) == "pendulum"
+    if asked and at_pendulum:
+        text += ", see the level 'contact'"
+    return Finding(
+        feature="full_contact",
+        left_out=at_pendulum,
+        mattered=asked,
+        number=share,
+        sentence=text,
+    )
+
+
+def _slip_stability(data: xr.Dataset) -> Finding:
+    # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
+    friction = data.variables["interface_friction"].to_numpy()
+    rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
+    held = data.variables["length"].to_numpy() * friction
+    held -= (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
+    slip = largest(data, "slip").values
+    shares = slip / np.maximum(held, 1e-12)
+    overlaps = (
+        slip / data.variables["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+    )
+    worst, last = int(np.argmax(shares)), int(np.argmax(overlaps))
+    share = float(shares[worst])
+    names, parts = data.variables["bearing"].to_numpy(), []
+    if share > HOLDS:
+        limit = 1e3 * max(float(held[worst]), 0.0)
+        parts.append(
+            f"{names[worst]} slipped {1e3 * slip[worst]:.3g} mm, without rims the interface "
+            f"holds {limit:.3g} mm: where the motion turns again in that direction, the sliders "
+            "slip on; raise mu_h"
+        )
+    if overlaps[last] > OVERLAPS:
+        limit = 1e3 * float(data["slip_capacity"][last])
+        parts.append(
+            f"{names[last]} slipped {1e3 * slip[last]:.4g} mm of the {limit:.4g} mm at which "
+            "the sliders' overlap ends: a few per cent decide whether it fails; raise mu_h or "
+            "the capacity"
+        )
+    text = "; ".join(parts) or f"the slip reached {_share(share)} of what holds without rims"
+    if np.isinf(friction).all():
+        text = "the sliders are in one piece"
+    finding = _finding("slip_stability", False, bool(parts), share, text)
+    return replace(finding, doubtful=bool(parts))
+
+
+def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
+    # Hinges keep their strength here; those of steel lose it from about TURNED on.
+    if "hinge" not in data.dims:
+        return ()
+    turned = largest(data, "hinge_rotation")
+    k = int(np.argmax(turned.values))
+    most = float(turned.values[k])
+    text = f"hinges turned by up to {1e3 * most:.3g} mrad"
+    if most > TURNED:
+        text = (
+            f"hinge {data['hinge'].to_numpy()[k]} turned by {1e3 * most:.3g} mrad at t = "
+            f"{float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
+            "mrad on, which is not modelled; take it as the beginning of a failure"
+        )
+    finding = _finding("yielding", False, most > 0.0, most, text)
+    return (replace(finding, doubtful=most > TURNED),)
+
+
+def _remarked(remark: Remark) -> Finding:
+    return Finding(
+        feature=remark.feature, left_out=False, mattered=remark.doubtful, number=remark.number,
+        sentence=remark.sentence, doubtful=remark.doubtful,
+    )  # fmt: skip
+
+
+def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:
+    label = feature.replace("_", " ")
+    if out:
+        sentence = f"{label} left out: {text}"
+    else:
+        sentence = f"{label}: {text}" if mattered else f"{label}: not needed, {text}"
+    return Finding(
+        feature=feature, left_out=out, mattered=bool(mattered), number=number, sentence=sentence
+    )
+
+
+def _by_whom(happened: Extreme) -> str:
+    # "3 of 9 bearings, first at 4.17 s", from a quantity (bearing,) that is 1 once it happens.
+    those = happened.values > 0.0
+    first = float(happened.at[those].min())
+    return f"{int(those.sum())} of {len(those)} bearings, first at {first:.2f} s"
+
+
+def _reached(data: xr.Dataset, own: str) -> float:
+    others = set(left_out(data)) - {own}
+    return NEAR if others else 1.0
+
+
+def _share(value: float, digits: int = 0) -> str:
+    return f"{100.0 * value:.{digits}f} %" if value < 10.0 else "more than 1000 %"
+
+
+def _ratio(value: float, base: float) -> float:
+    if base > 0.0:
+        return value / base
+    return math.inf if value > 0.0 else 0.0
+
+
+_JUDGES: dict[str, Callable[[xr.Dataset, bool], Finding]] = {
+    "rims": _rims,
+    "interface": _interface,
+    "uplift": _uplift,
+    "plate_rotation": _plate_rotation,
+    "velocity_dependence": _velocity_dependence,
+    "second_direction": _second_direction,
+    "vertical_coupling": _vertical_coupling,
+    "pressure_dependence": _pressure_dependence,
+    "friction_heating": _friction_heating,
+}

@@ -1,0 +1,92 @@
+"""What a recording keeps besides its histories, and what a result says where it kept too little."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+
+EVERY_STEP = "every step"
+"""Attribute `recording` of a result that holds all base steps and all variables."""
+
+ENDS = "first and last step"
+"""How that attribute begins where no step between is kept as a rule."""
+
+REACHED = "reached_"
+"""Begins the names of what was reached at all steps: `frames.results.peak_response`."""
+
+
+def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:
+    """Return what a recording kept of a quantity: its largest values and their times [s].
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+    name : str
+        A quantity of `frames.results.peak_response`.
+
+    Returns
+    -------
+    tuple of ndarray, or None
+        None where the result has the histories of all steps instead.
+    """
+    if REACHED + name not in data.variables:
+        return None
+    values, at = (data.variables[REACHED + key].to_numpy() for key in (name, f"{name}_at"))
+    return values, at
+
+
+def noted(data: xr.Dataset) -> dict[str, str]:
+    """Return the attribute that tells what a history lacks; nothing where it holds every step."""
+    recording = str(data.attrs.get("recording", EVERY_STEP))
+    return {} if recording == EVERY_STEP else {"recording": recording}
+
+
+def require_recorded(data: xr.Dataset, what: str, *names: str) -> None:
+    """Raise a ValueError unless a result has the variables that `what` is made from."""
+    missing = [name for name in names if name not in data.variables]
+    if missing:
+        msg = (
+            f"{what}: data has no {', '.join(missing)}; its recording is "
+            f'"{data.attrs.get("recording", "not known")}": name it among the channels '
+            "(frames.Recording), or give the Dataset of a time_history"
+        )
+        raise ValueError(msg)
+
+
+def require_steps(data: xr.Dataset, what: str) -> None:
+    """Raise a ValueError if a result holds nothing between the first and the last step."""
+    require_between_ends(str(data.attrs.get("recording", EVERY_STEP)), what)
+
+
+def require_between_ends(recording: str, what: str) -> None:
+    """Raise a ValueError if a recording, in words, has no step between its ends."""
+    if recording.startswith(ENDS) and "rim contact" not in recording:
+        msg = (
+            f"{what}: the recording is the {ENDS} only: run with "
+            "recording=Recording(every=n), or all of it; what was reached is in peaks(data), and "
+            "with extremes=True in envelope(data, variable)"
+        )
+        raise ValueError(msg)
+
+
+def require_whole_levels(data: xr.Dataset, what: str) -> None:
+    """Raise a ValueError if nodes of a level were not recorded: its mean would be another."""
+    if "nodes_of_level" not in data.variables:
+        return
+    place = data["level_node"].to_numpy()
+    there = np.array([int((place == k).sum()) for k in range(data.sizes["level"])])
+    lacking = there < data["nodes_of_level"].to_numpy()
+    if lacking.any():
+        k = int(np.argmax(lacking))
+        msg = (
+            f"{what}: data holds {there[k]} of the {int(data['nodes_of_level'][k])} nodes of level "
+            f'"{data["level"].to_numpy()[k]}": record all nodes, or all levels'
+        )
+        raise ValueError(msg)

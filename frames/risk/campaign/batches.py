@@ -1,0 +1,282 @@
+"""A batch of a campaign computed: its runs as arrays of the shape that the store has."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from frames.batch.cases import NOT_BUILT
+from frames.batch.time_histories import time_histories
+from frames.frame import Frame
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.designs import with_parameters
+from lir_element.errors import AnalysisError, AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import xarray as xr
+
+    from frames._types import IntArray
+    from frames.batch.cases import BatchProgress
+    from frames.motion.ground_motion import GroundMotion
+    from frames.recording.recording import Recording
+    from frames.risk.campaign.plan import Plan
+
+REFUSED = ValueError, ArithmeticError, AnalysisError
+"""Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
+
+_PROBE_STEPS = 10
+_TIMING = "seconds of the time loop"
+_MOST_WARNINGS = 5
+
+Builder = Callable[[dict[str, float]], Frame]
+Told = Callable[["BatchProgress"], None]
+
+
+class Batch(NamedTuple):
+    """What a batch gave."""
+
+    arrays: dict[str, Any]  # by name of variable, (runs, ...)
+    histories: list[xr.Dataset]
+    warnings: list[str]
+
+
+class Reference(NamedTuple):
+    """What the store is laid out by: the first model of each name that can be set up."""
+
+    frames: dict[str, Frame]
+    layout: xr.Dataset
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """All that computes batches, wherever that is.
+
+    Parameters
+    ----------
+    plan : Plan
+        The rows.
+    models : mapping of str to Frame or callable
+        The structures, or functions of a set of parameters that give one.
+    motions : mapping of str to GroundMotion
+        The motions.
+    options : mapping
+        Of `time_histories`.
+    record : Recording or None
+        Which histories are kept.
+    """
+
+    plan: Plan
+    models: Mapping[str, Frame | Builder]
+    motions: Mapping[str, GroundMotion]
+    options: Mapping[str, Any]
+    record: Recording | None
+
+    def build(self, name: str, k: int) -> Frame:
+        """Return a model with set `k` of the parameters."""
+        given, sample = self.models[name], self.plan.sample
+        parameters = {} if sample is None else sample[k]
+        if isinstance(given, Frame):
+            return with_parameters(given, parameters) if parameters else given
+        frame: object = given(parameters)
+        if not isinstance(frame, Frame):
+            msg = f'model "{name}" gave {frame!r}: return a Frame'
+            raise TypeError(msg)
+        return frame
+
+    def reference(self) -> Reference:
+        """Return of each model the first that can be set up, and what runs of these give.
+
+        Returns
+        -------
+        Reference
+            Models that cannot be set up have none.
+
+        Raises
+        ------
+        CampaignError
+            If there is none.
+        """
+        motion = next(iter(self.motions.values()))
+        brief = dict(self.options)
+        brief["duration"] = min(motion.duration, _PROBE_STEPS * (brief["dt"] or motion.dt))
+        found: dict[str, Frame] = {}
+        first = ""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the batches tell them
+            for name in self.models:
+                for k in range(self.plan.sets):
+                    try:
+                        frame = self.build(name, k)
+                        data = time_histories({name: frame}, motion, **brief)
+                    except REFUSED as cause:
+                        first = first or str(cause)
+                        continue
+                    if "reached_until" in data:
+                        found[name] = frame
+                        break
+                    first = first or str(data["message"].item())
+            if not found:
+                msg = f"no model can be set up; the first: {first}"
+                raise CampaignError(msg)
+            layout = _untimed(time_histories(found, motion, record=self.record, **brief))
+            return Reference(found, layout.drop_dims(["time", "step"], errors="ignore"))
+
+
+def compute(
+    work: Work, layout: xr.Dataset, batch: int, workers: int | None, told: Told | None = None
+) -> Batch:
+    """Compute a batch.
+
+    Parameters
+    ----------
+    work : Work
+        The campaign's.
+    layout : xarray.Dataset
+        Variables and labels of the store, `Reference.layout`.
+    batch : int
+        Which.
+    workers : int or None
+        Runs at a time.
+    told : callable, optional
+        Hears of each run that is done.
+
+    Returns
+    -------
+    Batch
+        Its runs, failed ones with their reason.
+    """
+    rows = work.plan.rows(batch)
+    arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
+    histories = []
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        for places, found in _Runs(work, layout, workers, told).of(rows):
+            at = np.array(places) - rows.start
+            if isinstance(found, str):
+                arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
+            else:
+                _put(arrays, at, found, layout)
+                if work.record is not None:
+                    histories.append(_recorded(found, layout, places))
+    texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
+    said = [text for text, _ in Counter(texts).most_common(_MOST_WARNINGS)]
+    return Batch(arrays, histories, said)
+
+
+class _Runs:
+    # The runs of a batch, in parts: whatever keeps others from running is a part of its own.
+
+    def __init__(
+        self, work: Work, layout: xr.Dataset, workers: int | None, told: Told | None
+    ) -> None:
+        self._work, self._layout, self._workers, self._told = work, layout, workers, told
+
+    def of(self, rows: Sequence[int]) -> Iterator[tuple[list[int], xr.Dataset | str]]:
+        frames: dict[str, Frame] = {}
+        whole: dict[str, list[int]] = {}
+        for row in rows:
+            run = self._work.plan.run(row)
+            whole.setdefault(f"{run.model}, set {run.parameters}", []).append(row)
+        for key, own in whole.items():
+            run = self._work.plan.run(own[0])
+            try:
+                frames[key] = self._work.build(run.model, run.parameters)
+            except REFUSED as cause:
+                yield own, str(cause)
+        yield from self._parts(frames, {key: whole[key] for key in frames})
+
+    def _parts(
+        self, frames: dict[str, Frame], rows: dict[str, list[int]]
+    ) -> Iterator[tuple[list[int], xr.Dataset | str]]:
+        if not rows:
+            return
+        places = [row for own in rows.values() for row in own]
+        try:
+            data = self._histories(frames, rows)
+        except REFUSED as cause:
+            if len(places) == 1:
+                yield places, str(cause)
+                return
+        else:
+            extra = _extra(data, self._layout)
+            if not extra or len(rows) == 1:
+                yield places, extra or data
+                return
+        for part in _split(rows):
+            yield from self._parts(frames, part)
+
+    def _histories(self, frames: dict[str, Frame], rows: dict[str, list[int]]) -> xr.Dataset:
+        runs = [(key, self._work.plan.run(row)) for key, own in rows.items() for row in own]
+        return _untimed(time_histories(
+            {key: frames[key] for key in rows},
+            {run.motion: self._work.motions[run.motion] for _, run in runs},
+            cases=[(key, run.motion, run.scale) for key, run in runs],
+            record=self._work.record, workers=self._workers, progress=self._told,
+            **self._work.options,
+        ))  # fmt: skip
+
+
+def _extra(data: xr.Dataset, layout: xr.Dataset) -> str:
+    # What results have that the store has no place for, in words.
+    for dim in {*layout.dims} & {*data.dims} - {"run"}:
+        if extra := _texts(data, dim) - _texts(layout, dim):
+            return (
+                f"the model has the {dim} {min(extra)}, which the first one has not: models of one "
+                "function have the same names"
+            )
+    return ""
+
+
+def _untimed(data: xr.Dataset) -> xr.Dataset:
+    # Without the quantity that is never the same twice: `seconds_loop` has it.
+    return data.drop_sel(quantity=_TIMING, errors="ignore")
+
+
+def _texts(data: xr.Dataset, dim: Any) -> set[str]:
+    return {str(name) for name in data[dim].to_numpy()}
+
+
+def _split(rows: dict[str, list[int]]) -> list[dict[str, list[int]]]:
+    if len(rows) > 1:
+        return [{key: own} for key, own in rows.items()]
+    ((key, own),) = rows.items()
+    return [{key: own[: len(own) // 2]}, {key: own[len(own) // 2 :]}]
+
+
+def _empty(variable: xr.DataArray, runs: int) -> Any:
+    shape = (runs, *variable.shape[1:])
+    if variable.dtype.kind == "f":
+        return np.full(shape, np.nan)
+    return np.full(shape, "", dtype=object)
+
+
+def _put(arrays: dict[str, Any], at: IntArray, found: xr.Dataset, layout: xr.Dataset) -> None:
+    # What was found at its places: by row, and by the names along the other dimensions.
+    place = {
+        dim: {str(name): k for k, name in enumerate(layout[dim].to_numpy())} for dim in layout.dims
+    }
+    for name, array in arrays.items():
+        if name not in found:
+            continue
+        variable = found[name]
+        others = [
+            np.array([place[dim][str(label)] for label in found[dim].to_numpy()], dtype=np.int64)
+            for dim in variable.dims[1:]
+        ]
+        array[np.ix_(at, *others)] = variable.to_numpy()
+
+
+def _recorded(found: xr.Dataset, layout: xr.Dataset, places: list[int]) -> xr.Dataset:
+    # The histories alone, with names as texts of any length, which the store takes.
+    names = [name for name in found.data_vars if name not in layout.data_vars]
+    data = found[names].drop_vars(["model", "motion", "scale", "motion_digest"])
+    data = data.assign_coords(run=places)
+    labels = {dim: data[dim].astype(object) for dim in data.dims if data[dim].dtype.kind == "U"}
+    return data.assign_coords(labels)

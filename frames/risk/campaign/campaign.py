@@ -1,0 +1,279 @@
+"""Campaigns: models, motions, scales and parameters, run in batches into a store on disk."""
+
+from __future__ import annotations
+
+import importlib.util
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from frames._errors import ModelWarning
+from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
+from frames.frame import Frame
+from frames.recording.recording import Recording
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.batches import Reference, Work, compute
+from frames.risk.campaign.cluster import over_cluster
+from frames.risk.campaign.plan import Plan
+from frames.risk.campaign.plan_description import described
+from frames.risk.campaign.sampling import ParameterSample, whole
+from frames.risk.campaign.store import CampaignStatus, CampaignStore
+from lir_element.argument_checks import require_type
+from lir_element.errors import AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    import xarray as xr
+
+    from frames.motion.ground_motion import GroundMotion
+    from frames.risk.campaign.batches import Batch, Builder, Told
+    from lir_element.device.features import Features
+
+FEWEST, MOST, PARTS = 16, 512, 8
+"""Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
+
+
+class Campaign:
+    """Many time histories in a store on disk, which can be stopped at any moment and resumed.
+
+    Parameters
+    ----------
+    models : Frame, mapping of str to Frame, or callable
+        The structures; or functions, alone or in a mapping by name, that return a Frame for a set
+        of parameters, a dict of str to float. The models of one function have the same names of
+        nodes, bearings and levels.
+    motions : GroundMotion, or a sequence or mapping of them
+        As for `time_histories`.
+    store : str or path
+        Folder of the results, made by the first run.
+    sample : ParameterSample, optional
+        Sets of parameters (`full_grid`, `latin_hypercube`, `sobol_sample`); of a Frame they are
+        fields of its bearings (docs/campaigns.md).
+    scales : float or sequence of float, optional
+        Factors on the motions [-]; 1 if None.
+    record : Recording, optional
+        Histories to be kept besides what is reached.
+    batch : int, optional
+        Runs of a batch, the least that is computed and written at once. None: an eighth of all,
+        at least 16 and at most 512, with histories 16; of a store that is there, its own.
+    duration, dt, level, integrator, spectral_radius, tolerance, features
+        As for `time_histories`, the same for all runs.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument cannot be.
+    ImportError
+        If zarr is not installed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.risk import Campaign, full_grid
+    >>> from lir_element import CoulombFriction, LIRBearing
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
+    >>> campaign = Campaign(lumped_mass(bearing, 1e5), pulse, store="runs", scales=[1.0, 2.0],
+    ...                     sample=full_grid({"friction": [0.05, 0.06]}))
+    >>> campaign
+    Campaign('runs': 4 runs = 1 models x 2 sets of parameters x 1 motions x 2 scales)
+    """
+
+    def __init__(
+        self,
+        models: Frame | Builder | Mapping[str, Frame | Builder],
+        motions: GroundMotion | Sequence[GroundMotion] | Mapping[str, GroundMotion],
+        *,
+        store: str | Path,
+        sample: ParameterSample | None = None,
+        scales: float | Sequence[float] | None = None,
+        record: Recording | None = None,
+        batch: int | None = None,
+        duration: float | None = None,
+        dt: float | None = None,
+        level: str | Mapping[str, str] = "pendulum",
+        integrator: str | None = None,
+        spectral_radius: float = 0.8,
+        tolerance: float | None = None,
+        features: Features | None = None,
+    ) -> None:
+        if importlib.util.find_spec("zarr") is None:
+            msg = "campaigns need zarr: pip install 'lir-dcfp[campaign]'"
+            raise ImportError(msg)
+        require_type("sample", sample, (ParameterSample, type(None)), "a ParameterSample")
+        require_type("record", record, (Recording, type(None)), "a Recording, or None")
+        structures, grounds = _named(models), named_motions(motions)
+        one = {name: None for name in (next(iter(structures)),)}
+        first = next(iter(grounds))
+        factors = tuple(c.scale for c in grid(one, {first: None}, scales, None))
+        self.store = CampaignStore(store)
+        options = {
+            "duration": duration, "dt": dt, "level": level, "integrator": integrator,
+            "spectral_radius": spectral_radius, "tolerance": tolerance, "features": features,
+        }  # fmt: skip
+        plan = Plan(tuple(structures), tuple(grounds), factors, sample, FEWEST)
+        if batch is not None:
+            plan = replace(plan, batch=whole("batch", batch, 1))
+        elif self.store.exists:
+            plan = replace(plan, batch=int(self.store.plan()["batch"]))
+        elif record is None:
+            plan = replace(plan, batch=min(max(plan.runs // PARTS, FEWEST), MOST))
+        self._work = Work(plan, structures, grounds, options, record)
+
+    def __repr__(self) -> str:
+        """Return the store and the number of runs."""
+        plan = self._work.plan
+        sets = "" if plan.sample is None else f"{plan.sets} sets of parameters x "
+        return (
+            f"Campaign({str(self.store.path)!r}: {plan.runs} runs = {len(plan.models)} models x "
+            f"{sets}{len(plan.motions)} motions x {len(plan.scales)} scales)"
+        )
+
+    def run(
+        self,
+        *,
+        workers: int | None = None,
+        client: Any = None,
+        progress: Told | bool | None = None,
+        accept_other_sources: bool = False,
+    ) -> xr.Dataset:
+        """Run what is not done yet, and return the results.
+
+        Parameters
+        ----------
+        workers : int, optional
+            Runs at a time, as for `time_histories`; with a client, those of each worker.
+        client : distributed.Client, optional
+            A Dask cluster that computes the batches; they are written here.
+        progress : callable or bool, optional
+            Called with a `BatchProgress` of the runs of this call; True writes it to the standard
+            error.
+        accept_other_sources : bool
+            Whether a store that other sources or another version of the package began is gone on
+            with: where a change does not touch the numbers. The store keeps from which run on.
+            Everything else must be as it was planned, properties of the bearings included.
+
+        Returns
+        -------
+        xarray.Dataset
+            `results()`.
+
+        Raises
+        ------
+        CampaignError
+            If the store was planned otherwise, or begun by other sources of the package (each
+            difference is named), or is in use, no model
+            can be set up, or the cluster is lost.
+        OSError
+            If the store cannot be written. What was done before stays.
+        KeyboardInterrupt
+            After Ctrl-C; the batches done are in the store.
+
+        Warns
+        -----
+        AnalysisWarning
+            How many runs stopped early or are doubtful.
+        ModelWarning
+            What was warned of while models were built and set up.
+        """
+        told = tell(progress)
+        reference = self._work.reference()
+        plan = described(self._work, reference)
+        if not self.store.exists:
+            self.store.create(self._work.plan, plan, reference.layout)
+        with self.store.owned():
+            self.store.require_plan(plan, accept_other_sources=accept_other_sources)
+            done = set(self.store.batches_done())
+            todo = [k for k in range(self._work.plan.batches) if k not in done]
+            computed = _Counting(self._work.plan, todo, told)
+            for number, batch in self._computed(reference, computed, client, workers):
+                self.store.write(self._work.plan, number, batch)
+        _warn(self.store.status())
+        return self.results()
+
+    def _computed(
+        self, reference: Reference, counting: _Counting, client: Any, workers: int | None
+    ) -> Iterator[tuple[int, Batch]]:
+        layout, todo = reference.layout, counting.todo
+        if client is None:
+            for number in todo:
+                told = counting.of_batch()
+                batch = compute(self._work, layout, number, workers, told)
+                counting.add(batch)
+                yield number, batch
+            return
+        for number, batch in over_cluster(client, self._work, layout, todo, workers):
+            counting.add(batch)
+            counting.tell()
+            yield number, batch
+
+    def results(self) -> xr.Dataset:
+        """Return what the runs reached so far: `CampaignStore.results`."""
+        return self.store.results()
+
+    def status(self) -> CampaignStatus:
+        """Return how far the campaign is: `CampaignStore.status`."""
+        return self.store.status()
+
+    def digest(self) -> str:
+        """Return a digest of what the runs reached: `CampaignStore.digest`."""
+        return self.store.digest()
+
+
+class _Counting:
+    # How far the batches of one call are, for who is told.
+
+    def __init__(self, plan: Plan, todo: list[int], told: Told | None) -> None:
+        self.todo, self._told = todo, told
+        self._total = sum(len(plan.rows(number)) for number in todo)
+        self._done, self._failed, self._began = 0, 0, perf_counter()
+
+    def of_batch(self) -> Callable[[BatchProgress], None] | None:
+        return None if self._told is None else self._within
+
+    def _within(self, progress: BatchProgress) -> None:
+        self.tell(progress.done, progress.failed)
+
+    def tell(self, done: int = 0, failed: int = 0) -> None:
+        if self._told is not None:
+            elapsed = perf_counter() - self._began
+            now = min(self._done + done, self._total)
+            self._told(BatchProgress(now, self._total, elapsed, self._failed + failed))
+
+    def add(self, batch: Batch) -> None:
+        status = batch.arrays["status"]
+        self._done += len(status)
+        self._failed += int((status != "ok").sum())
+
+
+def _warn(status: CampaignStatus) -> None:
+    ill = status.done - status.statuses.get("ok", 0)
+    if ill:
+        warnings.warn(f"{ill} runs are not ok: {status}", AnalysisWarning, stacklevel=3)
+    if status.warnings:
+        more = len(status.warnings) - 1
+        others = f" (and {more} more, see status())" if more else ""
+        warnings.warn(f"{status.warnings[0]}{others}", ModelWarning, stacklevel=3)
+
+
+def _named(models: object) -> dict[str, Frame | Builder]:
+    # Structures and functions by name.
+    if not isinstance(models, Frame) and callable(models):
+        return {str(getattr(models, "__name__", "model")): models}
+    if not isinstance(models, Mapping):
+        found: dict[str, Any] = dict(named_models(models))
+        return found
+    functions = {n: m for n, m in models.items() if not isinstance(m, Frame) and callable(m)}
+    frames = {name: model for name, model in models.items() if name not in functions}
+    checked: dict[str, Any] = named_models(frames) if frames else {}
+    if not checked and not functions:
+        msg = "models is empty: give a Frame, a function, or a mapping of them by name"
+        raise CampaignError(msg)
+    both = checked | functions
+    return {name: both[name] for name in models}

@@ -1,0 +1,139 @@
+"""Batches of a campaign as tasks of Dask: workers compute, the owner of the store alone writes."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.batches import Batch, Work, compute
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import xarray as xr
+
+_AHEAD = 2  # batches at a worker: one computed, one waiting
+
+_LOSSES = 3  # of a batch's result, before it was fetched
+_GONE = {"cancelled", "lost"}
+
+_LOST = (
+    "the connection to Dask's scheduler is lost: the batches before are kept, run again to go on"
+)
+
+_ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its threads
+
+
+def over_cluster(
+    client: Any, work: Work, layout: xr.Dataset, batches: Sequence[int], workers: int | None
+) -> Iterator[tuple[int, Batch]]:
+    """Compute batches on a Dask cluster, in whichever order they are done.
+
+    Parameters
+    ----------
+    client : distributed.Client
+        Of the cluster.
+    work : Work
+        The campaign's.
+    layout : xarray.Dataset
+        Of the store.
+    batches : sequence of int
+        Which.
+    workers : int or None
+        Runs at a time in each worker; None: its number of threads.
+
+    Yields
+    ------
+    tuple of int and Batch
+        Number of a batch and what it gave.
+
+    Raises
+    ------
+    CampaignError
+        If a batch ended its workers again and again, or the connection is lost.
+    """
+    from distributed import as_completed
+    from distributed.protocol.pickle import dumps
+
+    payload = dumps((work, layout))
+    shared = _shared(client, payload)
+    todo, running = list(reversed(batches)), as_completed()
+    numbers: dict[Any, int] = {}
+    lost: Counter[int] = Counter()
+    try:
+        while todo or numbers:
+            for _ in range(min(_AHEAD * _width(client) - len(numbers), len(todo))):
+                number = todo.pop()
+                future = client.submit(_computed, shared, number, workers, pure=False)
+                numbers[future] = number
+                running.add(future)
+            future = next(running)
+            number = numbers.pop(future)
+            batch = _result(future, number)
+            if batch is not None:
+                yield number, batch
+                continue
+            lost[number] += 1
+            if lost[number] > _LOSSES or client.status != "running":
+                msg = f"batch {number} was cancelled, or {_LOST}"
+                raise CampaignError(msg)
+            todo.append(number)
+            if shared.status in _GONE:
+                shared = _shared(client, payload)
+    finally:
+        if client.status == "running":
+            client.cancel([shared, *numbers])
+
+
+def _shared(client: Any, payload: bytes) -> Any:
+    # What all batches need, as the result of a task: what is scattered dies with its worker.
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Sending large graph")
+        return client.submit(_unpacked, payload, pure=False)
+
+
+def _width(client: Any) -> int:
+    # Workers that there are now: some may come, some go.
+    if client.status != "running":
+        raise CampaignError(_LOST)
+    try:
+        return max(len(client.ncores()), 1)
+    except OSError as cause:
+        raise CampaignError(_LOST) from cause
+
+
+def _result(future: Any, number: int) -> Batch | None:
+    # What a batch gave; None if it went with its worker before it was fetched.
+    from distributed import CancelledError, KilledWorker
+
+    if future.status in _GONE:
+        return None
+    try:
+        batch: Batch = future.result()
+    except CancelledError:
+        return None
+    except KilledWorker as cause:
+        msg = (
+            f"batch {number} ended its workers again and again ({cause}): give them more memory, "
+            "or take smaller batches in another store; the batches before are kept"
+        )
+        raise CampaignError(msg) from cause
+    return batch
+
+
+def _unpacked(payload: bytes) -> tuple[Work, xr.Dataset]:
+    from distributed.protocol.pickle import loads
+
+    found: tuple[Work, xr.Dataset] = loads(payload)
+    return found
+
+
+def _computed(shared: tuple[Work, xr.Dataset], number: int, workers: int | None) -> Batch:
+    from distributed import get_worker
+
+    work, layout = shared
+    with _ONE_AT_A_TIME:
+        return compute(work, layout, number, workers or get_worker().state.nthreads)

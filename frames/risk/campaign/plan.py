@@ -1,0 +1,125 @@
+"""The plan of a campaign: which run stands in which row and batch, whoever computes it when."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames._types import IntArray
+    from frames.risk.campaign.sampling import ParameterSample
+
+MOST_LINES = 12
+"""Differences that a message names."""
+
+
+class PlannedRun(NamedTuple):
+    """One run: names of its model and motion, its set of parameters, the factor on the motion."""
+
+    model: str
+    parameters: int
+    motion: str
+    scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Rows of a campaign: models, sets of parameters, motions, scales, the last change first.
+
+    Parameters
+    ----------
+    models, motions : tuple of str
+        Names.
+    scales : tuple of float
+        Factors on the motions [-].
+    sample : ParameterSample or None
+        Sets of parameters, if any.
+    batch : int
+        Runs of a batch, which is a chunk of the store.
+    """
+
+    models: tuple[str, ...]
+    motions: tuple[str, ...]
+    scales: tuple[float, ...]
+    sample: ParameterSample | None
+    batch: int
+
+    @property
+    def sets(self) -> int:
+        """Number of sets of parameters, 1 without any."""
+        return 1 if self.sample is None else len(self.sample)
+
+    @property
+    def runs(self) -> int:
+        """Number of runs."""
+        return len(self.models) * self.sets * len(self.motions) * len(self.scales)
+
+    @property
+    def batches(self) -> int:
+        """Number of batches."""
+        return math.ceil(self.runs / self.batch)
+
+    def rows(self, batch: int) -> range:
+        """Return the rows of a batch."""
+        return range(batch * self.batch, min((batch + 1) * self.batch, self.runs))
+
+    def places(self) -> tuple[IntArray, ...]:
+        """Return model, set, motion and scale of each row, by number, (runs,) each."""
+        sizes = len(self.models), self.sets, len(self.motions), len(self.scales)
+        return tuple(np.unravel_index(np.arange(self.runs), sizes))
+
+    def run(self, row: int) -> PlannedRun:
+        """Return the run that stands in a row."""
+        rest, scale = divmod(row, len(self.scales))
+        rest, motion = divmod(rest, len(self.motions))
+        model, k = divmod(rest, self.sets)
+        return PlannedRun(self.models[model], k, self.motions[motion], self.scales[scale])
+
+
+def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
+    """Return in words how what a store was planned with differs from what is given now.
+
+    Parameters
+    ----------
+    stored, own : mapping of str to value or mapping
+        Both plans.
+
+    Returns
+    -------
+    list of str
+        A line each.
+    """
+    found = []
+    for key in {**stored, **own}:
+        old, new = stored.get(key), own.get(key)
+        if old == new:
+            continue
+        if not (isinstance(old, dict) and isinstance(new, dict)):
+            found.append(f"{key} was {_short(old)}, is {_short(new)}")
+            continue
+        for name in {**old, **new}:
+            if name not in new:
+                found.append(f'{key}: "{name}" is missing')
+            elif name not in old:
+                found.append(f'{key}: "{name}" is new')
+            elif old[name] != new[name]:
+                found.append(f'{key}: "{name}" was {_short(old[name])}, is {_short(new[name])}')
+        if list(old) != list(new) and sorted(old) == sorted(new):
+            found.append(f"{key} are in another order")
+    return found
+
+
+def listed(lines: list[str]) -> str:
+    """Return differences line by line, the first ones where there are many."""
+    more = [f"... and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+    return "\n".join(f"  {line}" for line in lines[:MOST_LINES] + more)
+
+
+def _short(value: object) -> str:
+    text = str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."

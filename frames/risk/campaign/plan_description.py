@@ -1,0 +1,135 @@
+"""What a store is planned with: all that must be the same for it to be gone on with."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames._fingerprint import fingerprint, motion_digest
+from frames._provenance import numerical_sources, provenance
+from frames.risk.campaign.plan import differences
+from lir_element.device.features import Features
+from lir_element.results.dataset import package_version
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames.frame import Frame
+    from frames.risk.campaign.batches import Reference, Work
+    from lir_element import LIRBearing
+
+FORMAT, READABLE = 2, (1, 2)
+"""Format of the stores that are written, and those that can be read."""
+
+SOURCES = "sources", "program"
+"""ProjectInputs of a plan in which a store may differ where other sources are accepted."""
+
+TAKEN_OVER = "gone on with"
+"""Part of a plan that tells which other sources were accepted, after how many runs."""
+
+_NOT_COMPARED = {*SOURCES, "provenance", TAKEN_OVER}
+
+
+def described(work: Work, reference: Reference) -> dict[str, Any]:
+    """Return what a campaign is planned with, as plan.json holds it.
+
+    Parameters
+    ----------
+    work : Work
+        The campaign's.
+    reference : Reference
+        Of each model the first that can be set up, which stands for all of them.
+
+    Returns
+    -------
+    dict
+        Digests of models, motions, parameters and sources; properties of the bearings with their
+        defaults filled in; options; and, not compared, date and versions.
+    """
+    plan = work.plan
+    options = {name: value for name, value in work.options.items() if name != "features"}
+    features = work.options["features"] or Features.all()
+    sample: dict[str, str] = {}
+    if plan.sample is not None:
+        columns = zip(plan.sample.names, plan.sample.values.T, strict=True)
+        sample = {name: fingerprint(values) for name, values in columns}
+    frames = reference.frames
+    properties: dict[str, Any] = {}
+    for name, frame in frames.items():
+        properties |= bearing_properties(name, frame)
+    return {
+        "format": FORMAT,
+        "program": package_version(),
+        "sources": numerical_sources(),
+        "runs": plan.runs,
+        "batch": plan.batch,
+        "models": {
+            name: fingerprint(frames[name]) if name in frames else "none" for name in plan.models
+        },
+        "bearings": properties,
+        "motions": {name: motion_digest(motion) for name, motion in work.motions.items()},
+        "scales": list(plan.scales),
+        "parameters": sample,
+        "options": options | {"features left out": list(features.left_out)},
+        "record": str(work.record) if work.record else "what was reached",
+        "provenance": provenance()
+        | ({} if plan.sample is None else {"sample": plan.sample.origin or "given"}),
+    }
+
+
+def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """Return in words what differs of two plans.
+
+    Parameters
+    ----------
+    stored, given : mapping
+        That of a store, and what is given now.
+
+    Returns
+    -------
+    tuple of list of str
+        Differences of what is computed, and of the sources that compute it: of the store's plan
+        those that were accepted last.
+    """
+    latest = dict(stored)
+    for taken in stored.get(TAKEN_OVER, []):
+        latest |= taken
+    asked = [{k: v for k, v in plan.items() if k not in _NOT_COMPARED} for plan in (stored, given)]
+    sources = [{k: plan.get(k) for k in SOURCES} for plan in (latest, given)]
+    return differences(*asked), differences(*sources)
+
+
+def bearing_properties(model: str, frame: Frame) -> dict[str, Any]:
+    """Return the properties that the bearings of a model are computed with.
+
+    Parameters
+    ----------
+    model : str
+        Its name.
+    frame : Frame
+        The model.
+
+    Returns
+    -------
+    dict
+        Numbers, or lists of them, SI, by "model: property"; where bearings differ, by "model, name
+        of the first such bearing: property".
+    """
+    kinds: dict[str, tuple[str, dict[str, Any]]] = {}
+    for name, link in frame.bearings.items():
+        own = _properties(link.bearing)
+        kinds.setdefault(fingerprint(own), (name, own))
+    several = len(kinds) > 1
+    return {
+        f"{model}, {first}: {key}" if several else f"{model}: {key}": value
+        for first, own in kinds.values()
+        for key, value in own.items()
+    }
+
+
+def _properties(bearing: LIRBearing) -> dict[str, Any]:
+    # Defaults filled in, then what the kernels read.
+    record = np.asarray(bearing.to_record()).reshape(-1)[0]
+    kernels = {name: record[name].tolist() for name in record.dtype.names or ()}
+    return {name: float(value) for name, value in bearing.resolved().items()} | kernels

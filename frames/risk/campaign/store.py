@@ -1,0 +1,402 @@
+"""The store of a campaign on disk: whole chunks first, then a mark that they are there."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import uuid
+from collections import Counter
+from collections.abc import Mapping
+from contextlib import contextmanager
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from frames.results.storage import write_whole
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.layout import digest_of, lay_out
+from frames.risk.campaign.lock import locked
+from frames.risk.campaign.opened_store import opened, results_of
+from frames.risk.campaign.plan import listed
+from frames.risk.campaign.plan_description import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    import xarray as xr
+
+    from frames.risk.campaign.batches import Batch
+    from frames.risk.campaign.plan import Plan
+
+_PLAN, _RUNS, _HISTORIES, _DONE, _LOCK = "plan.json", "runs.zarr", "histories", "done", "lock"
+
+
+class CampaignStatus(NamedTuple):
+    """How far a campaign is.
+
+    Attributes
+    ----------
+    done, total : int
+        Runs.
+    statuses : dict of str to int
+        Number of runs done by their status.
+    doubtful : int
+        Runs in which the audit marks something.
+    warnings : tuple of str
+        What was warned of while batches were computed.
+    """
+
+    done: int
+    total: int
+    statuses: dict[str, int]
+    doubtful: int
+    warnings: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """Return it on one line."""
+        parts = ", ".join(f"{count} {name}" for name, count in self.statuses.items())
+        doubts = f"; the audit marks something in {self.doubtful}" if self.doubtful else ""
+        return f"{self.done} of {self.total} runs done{f': {parts}' if parts else ''}{doubts}"
+
+
+class CampaignStore:
+    """A campaign's folder: its plan, results of the batches that are done, and their marks.
+
+    Parameters
+    ----------
+    path : str or path
+        The folder.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+
+    def __repr__(self) -> str:
+        """Return where it is."""
+        return f"CampaignStore({str(self.path)!r})"
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a store."""
+        return (self.path / _PLAN).is_file()
+
+    def plan(self) -> dict[str, Any]:
+        """Return what the store was planned with.
+
+        Returns
+        -------
+        dict
+            As it stands in plan.json: digests of models and motions, scales, parameters, options.
+
+        Raises
+        ------
+        CampaignError
+            If there is no store, or one of another format.
+        """
+        try:
+            found = json.loads((self.path / _PLAN).read_text(encoding="utf-8"))
+        except FileNotFoundError as cause:
+            msg = f"{self.path} holds no campaign: name the folder that one was run in"
+            raise CampaignError(msg) from cause
+        except json.JSONDecodeError as cause:
+            msg = f"{self.path / _PLAN} cannot be read: {cause}"
+            raise CampaignError(msg) from cause
+        if found.get("format") not in READABLE:
+            msg = (
+                f"{self.path} has format {found.get('format')}, this program reads "
+                f"{' and '.join(map(str, READABLE))}: open it with the version that wrote it"
+            )
+            raise CampaignError(msg)
+        return dict(found)
+
+    def create(self, plan: Plan, described: Mapping[str, Any], layout: xr.Dataset) -> None:
+        """Make the store, in one move: there is a whole one, or none.
+
+        Parameters
+        ----------
+        plan : Plan
+            The rows.
+        described : mapping
+            What it is planned with.
+        layout : xarray.Dataset
+            Variables and labels.
+
+        Raises
+        ------
+        CampaignError
+            If something else stands there, or a parameter has the name of a result.
+        OSError
+            If it cannot be written.
+        """
+        if self.path.exists():
+            msg = f"{self.path} is there and holds no campaign: name another folder"
+            raise CampaignError(msg)
+        beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
+        try:
+            (beside / _DONE).mkdir(parents=True)
+            lay_out(beside / _RUNS, plan, layout)
+            (beside / _PLAN).write_text(json.dumps(described, indent=1), encoding="utf-8")
+            beside.rename(self.path)
+        except OSError as cause:
+            if self.exists:
+                msg = f"{self.path} was made by another process just now: run again to resume it"
+                raise CampaignError(msg) from cause
+            msg = f"{self.path} could not be written: {cause.strerror or cause}: make room"
+            raise OSError(cause.errno, msg) from cause
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+
+    def require_plan(
+        self, described: Mapping[str, Any], *, accept_other_sources: bool = False
+    ) -> None:
+        """Refuse to go on with another plan than that of the store.
+
+        Parameters
+        ----------
+        described : mapping
+            What is given now.
+        accept_other_sources : bool
+            Whether the version of the package and its sources may be others than those that began
+            the store; plan.json keeps which ones took over, and after how many runs.
+
+        Raises
+        ------
+        CampaignError
+            With a line for each difference.
+        """
+        stored, given = self.plan(), json.loads(json.dumps(described))
+        if stored["format"] != FORMAT:
+            msg = (
+                f"{self.path} has format {stored['format']}, which does not tell the sources that "
+                "it was computed with: open_campaign reads it; to run, name another store"
+            )
+            raise CampaignError(msg)
+        found, sources = unlike(stored, given)
+        if found:
+            msg = (
+                f"{self.path} was planned otherwise: name another store, or give what it was "
+                f"planned with\n{listed(found)}"
+            )
+            raise CampaignError(msg)
+        if sources and not accept_other_sources:
+            msg = (
+                f"{self.path} was computed by other sources of the package: its runs and new ones "
+                "might not belong together. Name another store; or, if the change does not touch "
+                "the numbers, run(accept_other_sources=True), which is kept in the store\n"
+                f"{listed(sources)}"
+            )
+            raise CampaignError(msg)
+        if sources:
+            taken = {"after runs": self.status().done, "provenance": given["provenance"]}
+            stored.setdefault(TAKEN_OVER, []).append(taken | {k: given[k] for k in SOURCES})
+            write_whole(self.path / _PLAN, json.dumps(stored, indent=1).encode())
+
+    @contextmanager
+    def owned(self) -> Generator[None, None, None]:
+        """Hold the store alone.
+
+        Yields
+        ------
+        None
+            While it is held.
+
+        Raises
+        ------
+        CampaignError
+            If another process works on it.
+        """
+        with locked(self.path / _LOCK):
+            yield
+
+    def batches_done(self) -> list[int]:
+        """Return the batches that are complete, in order."""
+        return sorted(int(mark.stem) for mark in (self.path / _DONE).glob("*.json"))
+
+    def write(self, plan: Plan, number: int, batch: Batch) -> None:
+        """Write a batch: its chunks, then its mark.
+
+        Parameters
+        ----------
+        plan : Plan
+            The rows.
+        number : int
+            Which batch.
+        batch : Batch
+            What it gave.
+
+        Raises
+        ------
+        CampaignError
+            If the store was laid out for other results.
+        OSError
+            If it cannot be written. The batch has no mark then, and is run again.
+        """
+        unknown = [name for name in batch.arrays if name not in self._arrays]
+        if unknown:
+            msg = (
+                f"{self.path} has no room for {', '.join(unknown)}: another version of the package "
+                "began it; name another store"
+            )
+            raise CampaignError(msg)
+        rows = plan.rows(number)
+        try:
+            for name, values in batch.arrays.items():
+                self._arrays[name][rows.start : rows.stop] = values
+            where = self.path / _HISTORIES / f"{number:06d}"
+            shutil.rmtree(where, ignore_errors=True)
+            for k, histories in enumerate(batch.histories):
+                histories.to_zarr(where / f"{k}.zarr", mode="w", consolidated=False)
+            mark = {
+                "runs": len(rows),
+                "statuses": dict(Counter(batch.arrays["status"].tolist())),
+                "doubtful": int((batch.arrays["doubts"] != "").sum()),
+                "warnings": batch.warnings,
+                "digest": digest_of([batch.arrays]),
+            }
+            write_whole(self.path / _DONE / f"{number:06d}.json", json.dumps(mark).encode())
+        except OSError as cause:
+            done = len(self.batches_done())
+            msg = (
+                f"{self.path}: batch {number} could not be written: {cause.strerror or cause}. "
+                f"The {done} batches before it are kept: make room, and run again to go on"
+            )
+            raise OSError(cause.errno, msg) from cause
+
+    def status(self) -> CampaignStatus:
+        """Return how far the campaign is, also while it runs.
+
+        Returns
+        -------
+        CampaignStatus
+            Numbers of runs.
+
+        Raises
+        ------
+        CampaignError
+            If there is no store.
+        """
+        total, done, doubtful = int(self.plan()["runs"]), 0, 0
+        statuses: Counter[str] = Counter()
+        said: dict[str, None] = {}
+        for number in self.batches_done():
+            mark = self._mark(number)
+            done += mark["runs"]
+            doubtful += mark["doubtful"]
+            statuses.update(mark["statuses"])
+            said.update(dict.fromkeys(mark["warnings"]))
+        return CampaignStatus(done, total, dict(statuses.most_common()), doubtful, tuple(said))
+
+    def results(self) -> xr.Dataset:
+        """Return what the runs reached, read from the disk where it is used; also while it runs.
+
+        Returns
+        -------
+        xarray.Dataset
+            As `time_histories` gives it, a row a planned run; the parameters are coordinates
+            along `run`, and `done` says which rows are there: others are NaN and "".
+
+        Raises
+        ------
+        CampaignError
+            If there is no store.
+        """
+        plan = self.plan()
+        done = np.zeros(plan["runs"], dtype=bool)
+        for number in self.batches_done():
+            done[number * plan["batch"] : (number + 1) * plan["batch"]] = True
+        return results_of(self.path / _RUNS, plan, done)
+
+    def histories(self, run: int) -> xr.Dataset:
+        """Return the recorded histories of a run.
+
+        Parameters
+        ----------
+        run : int
+            Its row.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over `time` or `step`, read where it is used.
+
+        Raises
+        ------
+        CampaignError
+            If the campaign keeps none, or this run is not done.
+        """
+        number = run // self.plan()["batch"]
+        if number in self.batches_done():
+            for part in (self.path / _HISTORIES / f"{number:06d}").glob("*.zarr"):
+                data = opened(part)
+                if run in data["run"].to_numpy():
+                    return data.sel(run=run)
+        msg = (
+            f"no histories of run {run}: it is not done, its model could not be built (see its "
+            "message), or the campaign keeps none (record=Recording() does)"
+        )
+        raise CampaignError(msg)
+
+    def digest(self) -> str:
+        """Return a digest of what the runs reached, bit by bit, times of computation left out.
+
+        Returns
+        -------
+        str
+            64 hexadecimal digits, the same for one plan whatever computed it, and in which order.
+
+        Raises
+        ------
+        CampaignError
+            If runs are missing, or a batch is not as it was written.
+        """
+        plan, done = self.plan(), self.batches_done()
+        if len(done) * plan["batch"] < plan["runs"]:
+            msg = f"{self.path}: {self.status()}: run it to its end first"
+            raise CampaignError(msg)
+        return digest_of(self._read(number) for number in done)
+
+    def _read(self, number: int) -> dict[str, Any]:
+        size = self.plan()["batch"]
+        rows = slice(number * size, (number + 1) * size)
+        arrays = {name: array[rows] for name, array in self._arrays.items()}
+        if digest_of([arrays]) != self._mark(number)["digest"]:
+            mark = self.path / _DONE / f"{number:06d}.json"
+            msg = f"batch {number} is not as it was written: remove {mark}, and run it again"
+            raise CampaignError(msg)
+        return arrays
+
+    @cached_property
+    def _arrays(self) -> dict[str, Any]:
+        import zarr
+
+        group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
+        return {name: group[name] for name in group.attrs["results"]}
+
+    def _mark(self, number: int) -> dict[str, Any]:
+        text = (self.path / _DONE / f"{number:06d}.json").read_text(encoding="utf-8")
+        return dict(json.loads(text))
+
+
+def open_campaign(path: str | Path) -> CampaignStore:
+    """Return the store of a campaign, to look at, also while the campaign runs.
+
+    Parameters
+    ----------
+    path : str or path
+        The folder that it is run in.
+
+    Returns
+    -------
+    CampaignStore
+        With `results()`, `status()`, `histories(run)` and `digest()`.
+
+    Raises
+    ------
+    CampaignError
+        If there is none.
+    """
+    store = CampaignStore(path)
+    store.plan()
+    return store

@@ -1,0 +1,194 @@
+"""Multiple stripes, clouds and incremental dynamic analyses, run in batches."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from frames.batch.cases import named_motions
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.hunt_fill import HuntFill
+from frames.risk.fragility.incremental import IDA
+from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.limit_state import LimitState
+from frames.risk.fragility.plans import CLOUD, HUNT, STRIPES
+from frames.risk.fragility.runs import IntensityRuns, run_at
+from lir_element.argument_checks import require_positive, require_type
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from frames.model.frame_data import FrameContents
+
+
+def ida(
+    model: FrameContents,
+    motions: object,
+    *,
+    intensity: Intensity,
+    rules: HuntFill,
+    limit: LimitState | None = None,
+    known: IntensityRuns | None = None,
+    **options: Any,
+) -> IDA:
+    """Analyse a structure under motions of rising intensity, up to a limit state.
+
+    Each round is one call of `time_histories` with the next intensities of all motions.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    motions : GroundMotion, or a sequence or mapping of them
+        The motions; they are scaled as a whole.
+    intensity : Intensity
+        The measure that rises.
+    rules : HuntFill
+        How intensities are chosen.
+    limit : LimitState, optional
+        What is hunted; failure of a bearing if None.
+    known : IntensityRuns, optional
+        Runs of the same structure and measure that are there already, as of an analysis that was
+        interrupted: it goes on from them.
+    **options
+        Of `time_histories`: `level`, `dt`, `workers` and so on.
+
+    Returns
+    -------
+    IDA
+        Runs, curves and capacities.
+
+    Raises
+    ------
+    FragilityError
+        If an option is one that is decided here, or `known` is of another measure or has runs of
+        motions that are not given.
+
+    Warns
+    -----
+    AnalysisWarning
+        If runs failed numerically: they count as neither.
+    """
+    require_type("intensity", intensity, Intensity, "an Intensity")
+    require_type("rules", rules, HuntFill, "a HuntFill")
+    state = LimitState.bearing_failure() if limit is None else limit
+    grounds = named_motions(motions)
+    if known is None:
+        begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
+        runs = run_at(model, grounds, begin, intensity, options, HUNT)
+    else:
+        runs = _checked(known, grounds, intensity)
+    while cases := _next_cases(runs, tuple(grounds), rules, state):
+        runs = runs.joined(run_at(model, grounds, cases, intensity, options, HUNT))
+    return IDA(runs, state, rules)
+
+
+def _checked(
+    known: IntensityRuns, motions: Mapping[str, object], intensity: Intensity
+) -> IntensityRuns:
+    require_type("known", known, IntensityRuns, "IntensityRuns")
+    if known.intensity != intensity:
+        msg = f"known is of {known.intensity.label}, not of {intensity.label}: take one measure"
+        raise FragilityError(msg)
+    stray = [name for name in known.motions if name not in motions]
+    if stray:
+        msg = f"known has runs of {stray[0]!r}, which is not among the motions: give it, too"
+        raise FragilityError(msg)
+    return known
+
+
+def _next_cases(
+    runs: IntensityRuns, motions: Sequence[str], rules: HuntFill, limit: LimitState
+) -> list[tuple[str, float]]:
+    over, im = runs.exceeded(limit), runs.table["im"].to_numpy()
+    cases = []
+    for motion in motions:
+        own = runs.table["motion"].to_numpy() == motion
+        cases += [(motion, level) for level in rules.next_intensities(im[own], over[own])]
+    return cases
+
+
+def multiple_stripes(
+    model: FrameContents,
+    motions: object,
+    levels: Sequence[float],
+    *,
+    intensity: Intensity,
+    **options: Any,
+) -> IntensityRuns:
+    """Analyse a structure under all motions, each scaled to each of some intensities.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    motions : GroundMotion, or a sequence or mapping of them
+        The motions. Where each stripe has motions of its own, join the runs of several calls.
+    levels : sequence of float
+        Intensities of the stripes, in the unit of the measure.
+    intensity : Intensity
+        The measure.
+    **options
+        Of `time_histories`.
+
+    Returns
+    -------
+    IntensityRuns
+        A run a motion and stripe.
+
+    Raises
+    ------
+    FragilityError
+        If there is no level, or one is not positive.
+    """
+    require_type("intensity", intensity, Intensity, "an Intensity")
+    if not len(levels):
+        msg = "levels is empty: give the intensities of the stripes"
+        raise FragilityError(msg)
+    stripes = [require_positive("level", each, error=FragilityError) for each in levels]
+    grounds = named_motions(motions)
+    cases = [(motion, level) for motion in grounds for level in stripes]
+    return run_at(model, grounds, cases, intensity, options, STRIPES)
+
+
+def cloud_analysis(
+    model: FrameContents,
+    motions: object,
+    *,
+    intensity: Intensity,
+    scales: Sequence[float] = (1.0,),
+    **options: Any,
+) -> IntensityRuns:
+    """Analyse a structure under motions as they are, or times a few factors.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    motions : GroundMotion, or a sequence or mapping of them
+        The motions.
+    intensity : Intensity
+        The measure that demands are regressed on.
+    scales : sequence of float
+        Factors on all motions [-], positive.
+    **options
+        Of `time_histories`.
+
+    Returns
+    -------
+    IntensityRuns
+        A run a motion and factor.
+
+    Raises
+    ------
+    FragilityError
+        If there is no factor, or one is not positive.
+    """
+    require_type("intensity", intensity, Intensity, "an Intensity")
+    if not len(scales):
+        msg = "scales is empty: give factors on the motions, 1 for as they are"
+        raise FragilityError(msg)
+    factors = [require_positive("scale", each, "-", error=FragilityError) for each in scales]
+    grounds = named_motions(motions)
+    own = {name: intensity.of(motion) for name, motion in grounds.items()}
+    cases = [(name, factor * own[name]) for name in grounds for factor in factors]
+    return run_at(model, grounds, cases, intensity, options, CLOUD)

@@ -1,0 +1,226 @@
+"""Fragility fitted to stripes and to capacities, with records resampled.
+
+Likelihoods of stripes and of censored capacities are those of the package pyFragility (Dahal,
+Burton and Onyambu 2022, Structural Safety 96:102185), the optional extra "fragility".
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import pandas as pd
+
+from frames._types import FloatArray
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.curve import Fragility
+from frames.risk.fragility.intensity import Intensity, unit_of
+from frames.risk.fragility.likelihood import Likely, binomial, censored_lognormal
+from frames.risk.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+
+def fit_stripes(
+    im: npt.ArrayLike,
+    exceeded: npt.ArrayLike,
+    records: Sequence[str],
+    *,
+    name: str = "",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility:
+    """Fit a lognormal curve to runs that exceed a limit state or do not, by maximum likelihood.
+
+    Parameters
+    ----------
+    im : array_like, shape (n,)
+        Intensity of each run.
+    exceeded : array_like, shape (n,)
+        1 where the limit state was exceeded, 0 where not; NaN is left out.
+    records : sequence of str
+        Record of each run: runs of one record are resampled together.
+    name, unit : str
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure, so that the curve is compared with its like alone.
+    resamples : int
+        Resamples of the records for the band.
+    seed : int
+        Seed of the resampling.
+
+    Returns
+    -------
+    Fragility
+        The curve; its covariance is robust, of records as clusters.
+
+    Raises
+    ------
+    FragilityError
+        If the runs do not determine a curve.
+    ImportError
+        If the package `pyFragility` is not installed.
+
+    Notes
+    -----
+    Source: Baker (2015), Earthquake Spectra 31:579-599; the same as a regression of probits.
+    """
+    at, over = checked_runs(im, exceeded, records)
+    known = ~np.isnan(over)
+    at, over = at[known], over[known]
+    labels = np.array(records, dtype=object)[known]
+    names, of = np.unique(labels.astype(str), return_inverse=True)
+    fitted = binomial(at, over, np.ones(len(at)), "probit", clusters=of)
+    if fitted is None:
+        raise FragilityError(no_fit(at, over))
+    start = fitted.parameters
+    levels, level = np.unique(at, return_inverse=True)
+
+    def again(weights: FloatArray) -> FloatArray | None:
+        own = weights[of]
+        total = np.bincount(level, own, len(levels))
+        count = np.bincount(level, own * over, len(levels))
+        some = total > 0.0
+        found = binomial(
+            levels[some],
+            count[some].astype(np.float64),
+            total[some].astype(np.float64),
+            "probit",
+            start=start,
+        )
+        return None if found is None else _lognormal(found.parameters)
+
+    median, dispersion = _lognormal(start)
+    b0, b1 = start
+    jacobian = np.array([[-1.0 / b1, b0 / b1**2], [0.0, -1.0 / b1**2]])
+    data = pd.DataFrame({
+        "im": levels, "exceeded": np.bincount(level, over), "total": np.bincount(level),
+    })  # fmt: skip
+    return Fragility(
+        name=name, unit=unit_of(unit, intensity), intensity=intensity,
+        method="maximum likelihood (Baker 2015)", records=tuple(names),
+        seed=seed, parameters=resampled(len(names), again, 2, resamples, seed), data=data,
+        median=float(median), dispersion=float(dispersion),
+        covariance=jacobian @ fitted.covariance @ jacobian.T,
+    )  # fmt: skip
+
+
+def fit_capacities(
+    capacity: npt.ArrayLike,
+    records: Sequence[str],
+    *,
+    censored: npt.ArrayLike | None = None,
+    method: Literal["moments", "likelihood"] | None = None,
+    name: str = "",
+    unit: str | None = None,
+    intensity: Intensity | None = None,
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility:
+    """Fit a lognormal curve to the intensities at which records reach a limit state.
+
+    Parameters
+    ----------
+    capacity : array_like, shape (n,)
+        Intensity of each record, once a record.
+    records : sequence of str
+        The records.
+    censored : array_like of bool, shape (n,), optional
+        Where the limit state was not reached up to `capacity`.
+    method : {"moments", "likelihood"}, optional
+        Mean and standard deviation of the logarithms (of n - 1), or maximum likelihood, which
+        takes censored ones; by default the one that the data need.
+    name, unit : str
+        The limit state, and the unit of the intensity: "m/s2", or that of the measure.
+    intensity : Intensity, optional
+        The measure, so that the curve is compared with its like alone.
+    resamples, seed : int
+        Resamples of the records, and their seed.
+
+    Returns
+    -------
+    Fragility
+        The curve.
+
+    Raises
+    ------
+    FragilityError
+        If there are fewer than three capacities, or they are the same or not positive.
+    ImportError
+        If capacities are censored and the package `pyFragility` is not installed.
+
+    Notes
+    -----
+    Source: Ibarra and Krawinkler (2005), PEER 2005/06; Baker (2015), Earthquake Spectra 31:579.
+
+    Examples
+    --------
+    >>> curve = fit_capacities([1.0, 2.0, 4.0], ["a", "b", "c"])
+    >>> round(curve.median, 3), round(curve.dispersion, 3)
+    (2.0, 0.693)
+    """
+    at, _ = checked_runs(capacity, np.ones(np.shape(capacity)), records)
+    open_ = np.zeros(len(at), dtype=bool) if censored is None else np.asarray(censored, dtype=bool)
+    if open_.shape != at.shape or len(set(records)) != len(at):
+        msg = "capacity, censored and records must be lists of one length, a record once"
+        raise FragilityError(msg)
+    chosen = method or ("likelihood" if open_.any() else "moments")
+    require_choice("method", chosen, ("moments", "likelihood"), error=FragilityError)
+    if chosen == "moments" and open_.any():
+        msg = f"{open_.sum()} capacities are censored: take method='likelihood', or run them higher"
+        raise FragilityError(msg)
+    order = np.argsort(np.array(records, dtype=str), kind="stable")  # as the resamples go
+    at, open_ = at[order], open_[order]
+    if (~open_).sum() < 3 or not np.ptp(at[~open_]) > 0.0:
+        msg = f"{(~open_).sum()} capacities, of which not all are equal: 3 at least are needed"
+        raise FragilityError(msg)
+    logs = np.log(at)
+
+    def moments(weights: FloatArray) -> FloatArray | None:
+        mean = np.average(logs, weights=weights)
+        square = (weights * (logs - mean) ** 2).sum() / (weights.sum() - 1.0)
+        return np.array([math.exp(mean), math.sqrt(square)]) if square > 1e-12 else None
+
+    def likely(weights: FloatArray) -> FloatArray | None:
+        own = np.repeat(np.arange(len(at)), weights.astype(np.int64))
+        found = censored_lognormal(at[own], open_[own])
+        return None if found is None else found.parameters
+
+    if chosen == "moments":
+        whole, fit = moments(np.ones(len(at))), moments
+        beta = math.nan if whole is None else float(whole[1])
+        covariance = beta**2 * np.diag([1.0 / len(at), 0.5 / (len(at) - 1.0)])
+    else:
+        found, fit = censored_lognormal(at, open_), likely
+        whole = None if found is None else found.parameters
+        covariance = np.zeros((2, 2)) if found is None else _of_log(found)
+    if whole is None:
+        msg = f"capacities {at.tolist()} determine no curve: run more records, or higher"
+        raise FragilityError(msg)
+    return Fragility(
+        name=name, unit=unit_of(unit, intensity), intensity=intensity,
+        method=f"IDA, {chosen} (Baker 2015)",
+        records=tuple(sorted(map(str, records))), seed=seed,
+        parameters=resampled(len(at), fit, 2, resamples, seed),
+        data=pd.DataFrame({"capacity": at, "censored": open_}),
+        median=float(whole[0]), dispersion=float(whole[1]), covariance=covariance,
+    )  # fmt: skip
+
+
+def _lognormal(parameters: FloatArray) -> FloatArray:
+    # Median and dispersion of a line of probits over logarithms.
+    b0, b1 = parameters
+    return np.array([math.exp(-b0 / b1), 1.0 / b1])
+
+
+def _of_log(found: Likely) -> FloatArray:
+    # Covariance of ln median and dispersion, from that of both themselves.
+    change = np.diag([1.0 / found.parameters[0], 1.0])
+    return np.asarray(change @ found.covariance @ change)

@@ -1,0 +1,245 @@
+"""What an incremental dynamic analysis found: curves, capacities, fractiles."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.hunt_fill import HuntFill
+from frames.risk.fragility.limit_state import LimitState
+from frames.risk.fragility.notebook import Shown
+from frames.risk.fragility.plans import GIVEN, HUNT, plans_of
+from frames.risk.fragility.runs import IntensityRuns
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from frames._types import BoolArray, FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IDA(Shown):
+    """An incremental dynamic analysis: runs of each motion from low intensities to the limit.
+
+    Parameters
+    ----------
+    runs : IntensityRuns
+        All runs.
+    limit : LimitState
+        What was hunted.
+    rules : HuntFill
+        How intensities were chosen.
+
+    Notes
+    -----
+    Between runs demands are linear in the intensity, from zero at zero.
+    """
+
+    runs: IntensityRuns
+    limit: LimitState
+    rules: HuntFill
+
+    def __post_init__(self) -> None:
+        # that the rules chose the intensities goes with the runs, whatever is made of them
+        plans = plans_of(self.runs.table)
+        if GIVEN in plans:
+            table = self.runs.table.assign(plan=[HUNT if p == GIVEN else p for p in plans])
+            object.__setattr__(self, "runs", replace(self.runs, table=table))
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [("limit state", self.limit.name), *self.runs._rows()]
+
+    def curve(self, motion: str, quantity: str) -> pd.DataFrame:
+        """Return the curve of a motion.
+
+        Parameters
+        ----------
+        motion : str
+            The motion.
+        quantity : str
+            A quantity of `frames.peaks`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Rising intensities "im" and demands "demand": infinite where a bearing failed; runs
+            that failed numerically are left out.
+
+        Raises
+        ------
+        FragilityError
+            If motion or quantity are not known.
+        """
+        if motion not in self.runs.motions:
+            msg = f"motion = {motion!r}: choose one of {', '.join(self.runs.motions)}"
+            raise FragilityError(msg)
+        own = self.runs.table["motion"].to_numpy() == motion
+        found = pd.DataFrame({
+            "im": self.runs.table["im"].to_numpy()[own], "demand": self.runs.demand(quantity)[own],
+        })  # fmt: skip
+        return found.dropna().sort_values("im", ignore_index=True)
+
+    def capacities(self, limit: LimitState | None = None) -> pd.DataFrame:
+        """Return the intensity at which each motion first reaches a limit state.
+
+        Parameters
+        ----------
+        limit : LimitState, optional
+            The limit state; that of the hunt if None.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row a motion: "capacity" where the demand reaches the limit, on the line between two
+            runs, or their geometric mean where a bearing failed at the upper one (the same where
+            the limit is zero; half of the upper one where no run holds); "lower" and "upper" runs;
+            "censored" where no run exceeds it, the capacity then being that of the highest run;
+            "resurrects" where a run above one that exceeds does not; "failed" runs.
+
+        Raises
+        ------
+        FragilityError
+            If the structure does not have the limit's quantity, or no run of a motion succeeded.
+        """
+        return capacities_of(self.runs, self.limit if limit is None else limit)
+
+    def demands_at(self, im: npt.ArrayLike, quantity: str) -> FloatArray:
+        """Return the demand of each motion at intensities.
+
+        Parameters
+        ----------
+        im : array_like, shape (m,)
+            Intensities.
+        quantity : str
+            A quantity of `frames.peaks`.
+
+        Returns
+        -------
+        ndarray, shape (motions, m)
+            Demands [SI]: infinite from the capacity against failure of a bearing on, NaN above the
+            highest run.
+
+        Raises
+        ------
+        FragilityError
+            If the quantity is not known.
+        """
+        at = np.atleast_1d(np.asarray(im, dtype=np.float64))
+        ends = self.capacities(LimitState.bearing_failure())
+        found = np.empty((len(ends), len(at)))
+        for row, (motion, end) in zip(found, ends.iterrows(), strict=True):
+            curve = self.curve(str(motion), quantity)
+            curve = curve[(curve["demand"] < np.inf) & (curve["im"] <= end["capacity"])]
+            levels, values = ([0.0, *curve[name]] for name in ("im", "demand"))
+            row[:] = np.interp(at, levels, values)
+            row[at > end["capacity"]] = np.nan if end["censored"] else np.inf
+        return found
+
+    def fractiles(
+        self,
+        quantity: str,
+        im: npt.ArrayLike | None = None,
+        percent: Sequence[float] = (16.0, 50.0, 84.0),
+    ) -> pd.DataFrame:
+        """Return fractiles of the demand over all motions, at each intensity.
+
+        Parameters
+        ----------
+        quantity : str
+            A quantity of `frames.peaks`.
+        im : array_like, optional
+            Intensities; 60 up to the highest run if None.
+        percent : sequence of float
+            Which fractiles [%]; by default those of plus and minus a standard deviation.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row an intensity, a column a fractile: infinite where that part of the motions fails
+            a bearing, NaN where a motion was not run as high. No value is interpolated between
+            motions of which one fails.
+
+        Raises
+        ------
+        FragilityError
+            If the quantity is not known.
+        """
+        highest = float(self.runs.table["im"].max())
+        at = np.linspace(0.0, highest, 61)[1:] if im is None else np.atleast_1d(im)
+        table = np.sort(self.demands_at(at, quantity), axis=0)
+        columns = {}
+        for each in percent:
+            place = (len(table) - 1) * each / 100.0
+            low, high = table[math.floor(place)], table[math.ceil(place)]
+            share, known = place - math.floor(place), np.isfinite(high)
+            mixed = high.copy()
+            mixed[known] = low[known] + share * (high[known] - low[known])
+            columns[f"{each:g} %"] = np.where(np.isnan(table).any(axis=0), np.nan, mixed)
+        return pd.DataFrame(columns, index=pd.Index(at, name=f"im [{self.runs.intensity.unit}]"))
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return all runs, in the order in which they were made."""
+        return self.runs.to_dataframe()
+
+
+def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
+    """Return the intensity at which each motion first reaches a limit state: `IDA.capacities`.
+
+    Parameters
+    ----------
+    runs : IntensityRuns
+        Runs of each motion up to the limit.
+    limit : LimitState
+        The limit state.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a motion.
+
+    Raises
+    ------
+    FragilityError
+        If the structure does not have the limit's quantity, or no run of a motion succeeded.
+    """
+    over, table = runs.exceeded(limit), runs.table
+    demand = None if limit.quantity is None else runs.demand(limit.quantity)
+    rows = []
+    for motion in runs.motions:
+        own = np.flatnonzero(table["motion"].to_numpy() == motion)
+        own = own[np.argsort(table["im"].to_numpy()[own], kind="stable")]
+        known = own[~np.isnan(over[own])]
+        if not len(known):
+            msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
+            raise FragilityError(msg)
+        im, exceeds = table["im"].to_numpy()[known], over[known] > 0.5
+        values = None if demand is None else demand[known]
+        found = _first_crossing(im, exceeds, values, limit.limit)
+        rows.append({**found, "failed": len(own) - len(known)})
+    return pd.DataFrame(rows, index=pd.Index(runs.motions, name="motion"))
+
+
+def _first_crossing(
+    im: FloatArray, exceeds: BoolArray, values: FloatArray | None, limit: float | None
+) -> dict[str, float | bool]:
+    # Of the runs of one motion in rising order.
+    if not exceeds.any():
+        top = float(im[-1])
+        return {"capacity": top, "lower": top, "upper": math.nan, "censored": True,
+                "resurrects": False}  # fmt: skip
+    k = int(np.argmax(exceeds))
+    lower, upper = (float(im[k - 1]) if k else 0.0), float(im[k])
+    before = 0.0 if k == 0 or values is None else float(values[k - 1])
+    if values is not None and limit and math.isfinite(values[k]):
+        capacity = lower + (upper - lower) * (limit - before) / (float(values[k]) - before)
+    else:
+        capacity = math.sqrt(lower * upper) if lower > 0.0 else 0.5 * upper
+    return {"capacity": capacity, "lower": lower, "upper": upper, "censored": False,
+            "resurrects": bool((~exceeds[k:]).any())}  # fmt: skip

@@ -1,0 +1,203 @@
+"""Intensity measures of ground motions: what fragility is a function of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, Protocol
+
+import numpy as np
+
+from frames.design.hazard.pair_spectra import MEASURES, pair_spectrum
+from frames.motion.baseline import integrated
+from frames.risk._errors import FragilityError
+from lir_element.argument_checks import (
+    require_between,
+    require_choice,
+    require_positive,
+    require_type,
+)
+
+if TYPE_CHECKING:
+    from frames.motion.ground_motion import GroundMotion
+
+UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "scale": "-"}
+"""Kinds of intensity measures, and their units."""
+
+
+class Measured(Protocol):
+    """What is a function of an intensity."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of the intensity."""
+        ...
+
+    @property
+    def intensity(self) -> Intensity | None:
+        """Its measure, None where it was not stated."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intensity:
+    """An intensity measure that grows in proportion to the factor on a motion.
+
+    Parameters
+    ----------
+    kind : {"Sa", "PGA", "PGV", "scale"}
+        Spectral pseudo-acceleration, peak acceleration or velocity of the ground, or the factor on
+        the motion itself.
+    period : float, optional
+        Natural period of Sa [s]; of the isolated structure, as a rule.
+    damping : float
+        Damping of Sa [-].
+    measure : str
+        What is taken of both horizontal components (`pair_spectrum`): "RotD50", "RotD100",
+        "geometric mean", "SRSS", "arithmetic mean", "x" or "y". The hazard must be of the same.
+
+    Raises
+    ------
+    FragilityError
+        If an argument is out of its bounds.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion
+    >>> motion = GroundMotion(x=[0.0, 2.0, -3.0, 0.0], dt=0.1)
+    >>> Intensity(kind="PGA", measure="x").of(motion)
+    3.0
+    """
+
+    kind: Literal["Sa", "PGA", "PGV", "scale"] = "Sa"
+    period: float | None = None
+    damping: float = 0.05
+    measure: str = "RotD50"
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises
+        ------
+        FragilityError
+            If an argument is out of its bounds.
+        """
+        require_choice("kind", self.kind, tuple(UNITS), error=FragilityError)
+        require_choice("measure", self.measure, tuple(MEASURES), error=FragilityError)
+        require_between("damping", self.damping, 0.0, 1.0, "-", error=FragilityError)
+        if self.kind == "Sa":
+            if self.period is None:
+                msg = 'period = None: give the period of Sa in s, or take kind="PGA" or "PGV"'
+                raise FragilityError(msg)
+            require_positive("period", self.period, "s", error=FragilityError)
+        elif self.period is not None:
+            msg = f'period = {self.period:g} s: only kind="Sa" has one, leave it out'
+            raise FragilityError(msg)
+
+    @property
+    def unit(self) -> str:
+        """Unit of its values."""
+        return UNITS[self.kind]
+
+    @property
+    def label(self) -> str:
+        """What it is, in a few words."""
+        if self.kind == "scale":
+            return "factor on the motion"
+        at = f"({self.period:g} s, {100.0 * self.damping:g} %)" if self.kind == "Sa" else ""
+        return f"{self.kind}{at}, {self.measure}"
+
+    def of(self, motion: GroundMotion) -> float:
+        """Return the intensity of a motion.
+
+        Parameters
+        ----------
+        motion : GroundMotion
+            The motion, with the horizontal components that the measure needs.
+
+        Returns
+        -------
+        float
+            Its intensity, in `unit`.
+
+        Raises
+        ------
+        FragilityError
+            If the motion has none.
+        MotionError
+            If a component is missing.
+        """
+        if self.kind == "scale":
+            return 1.0
+        if self.period is not None:  # of Sa
+            found = float(pair_spectrum(motion, [self.period], self.damping, self.measure)[0])
+        elif self.kind == "PGA":
+            found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])
+        else:
+            pair = [np.zeros(motion.n_steps) if a is None else a for a in (motion.x, motion.y)]
+            pair_spectrum(motion, [0.0], 0.0, self.measure)  # the components are there
+            found = MEASURES[self.measure](*(integrated(a, motion.dt)[0] for a in pair))
+        if not found > 0.0:
+            msg = f"{motion.name or 'motion'} has no {self.label}: leave it out"
+            raise FragilityError(msg)
+        return found
+
+
+def unit_of(unit: str | None, intensity: Intensity | None) -> str:
+    """Return the unit of intensities, where it is told by their measure, too.
+
+    Parameters
+    ----------
+    unit : str or None
+        Unit that is stated.
+    intensity : Intensity or None
+        Their measure.
+
+    Returns
+    -------
+    str
+        The one of both; "m/s2" if neither is stated.
+
+    Raises
+    ------
+    FragilityError
+        If both are stated and differ.
+    """
+    if intensity is not None:
+        require_type("intensity", intensity, Intensity, "an Intensity")
+        if unit not in {None, intensity.unit}:
+            msg = f"unit = {unit!r}: {intensity.label} is in {intensity.unit}: convert the numbers"
+            raise FragilityError(msg)
+        return intensity.unit
+    return "m/s2" if unit is None else unit
+
+
+def require_one_measure(
+    first: Measured, second: Measured, names: tuple[str, str] = ("the first", "the second")
+) -> None:
+    """Refuse two things that are of unlike intensities.
+
+    Parameters
+    ----------
+    first, second : Measured
+        Curves, hazards, rates: what has a `unit` and an `intensity`, which is None where it was
+        not stated and is then not compared.
+    names : tuple of str
+        What they are called.
+
+    Raises
+    ------
+    FragilityError
+        If units or measures differ; the message names both.
+    """
+    told = [
+        each.unit if each.intensity is None else f"{each.intensity.label} [{each.unit}]"
+        for each in (first, second)
+    ]
+    stated = first.intensity is not None and second.intensity is not None
+    if first.unit != second.unit or (stated and first.intensity != second.intensity):
+        msg = (
+            f"{names[0]} is over {told[0]}, {names[1]} over {told[1]}: bring them to one unit of "
+            "one intensity measure"
+        )
+        raise FragilityError(msg)

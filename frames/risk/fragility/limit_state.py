@@ -1,0 +1,136 @@
+"""Limit states: what of a run counts as exceeding them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from frames.risk._errors import FragilityError
+from lir_element.argument_checks import require_non_negative, require_positive, require_type
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from lir_element import LIRBearing
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """What is exceeded when a demand is above its limit, or a bearing fails.
+
+    Failure of a bearing (a status of `lir_element.RunStatus` with `is_bearing_failure`) exceeds
+    every limit state: it is collapse of the isolation. A run that ended otherwise before its end
+    exceeds and keeps nothing: it is not known.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    quantity : str, optional
+        A quantity of `frames.peaks`; None: failure of a bearing alone.
+    limit : float, optional
+        What the demand must not be above, in the quantity's SI unit.
+
+    Raises
+    ------
+    FragilityError
+        If a limit is missing or negative.
+
+    Examples
+    --------
+    >>> LimitState.drift(0.01)
+    LimitState(name='storey drift 1 %', quantity='storey drift, mean', limit=0.01)
+    """
+
+    name: str
+    quantity: str | None = None
+    limit: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises
+        ------
+        FragilityError
+            If quantity and limit do not belong together.
+        """
+        require_type("name", self.name, str, "a string")
+        if (self.quantity is None) != (self.limit is None):
+            msg = f"{self.name}: give a quantity of frames.peaks and its limit, or neither"
+            raise FragilityError(msg)
+        if self.limit is not None:
+            require_non_negative(f"{self.name}: limit", self.limit, error=FragilityError)
+
+    @staticmethod
+    def bearing_failure() -> LimitState:
+        """Return failure of a bearing: overlap or rim exceeded, or slip that does not hold."""
+        return LimitState("failure of a bearing")
+
+    @staticmethod
+    def rim_contact() -> LimitState:
+        """Return contact with a rim: a force of any rim."""
+        return LimitState("rim contact", "rim force", 0.0)
+
+    @staticmethod
+    def interface_slip(bearing: LIRBearing) -> LimitState:
+        """Return slip of the interface beyond the one that it holds, s* (`slip_stability`).
+
+        Parameters
+        ----------
+        bearing : LIRBearing
+            The bearing, or the one with the least s* where they differ.
+
+        Returns
+        -------
+        LimitState
+            Its limit is s* [m].
+
+        Raises
+        ------
+        FragilityError
+            If the interface cannot slip, or holds no slip.
+        """
+        holds = bearing.slip_stability
+        if not 0.0 < holds < math.inf:
+            msg = f"s* = {holds:g} m of this bearing is no limit: take bearing_failure()"
+            raise FragilityError(msg)
+        return LimitState("interface slip beyond s*", "interface slip", holds)
+
+    @staticmethod
+    def displacement(limit: float) -> LimitState:
+        """Return a bearing displacement in plan above `limit` [m]."""
+        return LimitState(
+            f"bearing displacement {1e3 * limit:g} mm", "bearing displacement", _above_0(limit)
+        )
+
+    @staticmethod
+    def residual_displacement(limit: float) -> LimitState:
+        """Return a bearing displacement left at the end above `limit` [m]."""
+        name = f"residual displacement {1e3 * limit:g} mm"
+        return LimitState(name, "bearing displacement left", _above_0(limit))
+
+    @staticmethod
+    def drift(limit: float) -> LimitState:
+        """Return a storey drift ratio above `limit` [-]: mean of the storey, size in plan."""
+        return LimitState(f"storey drift {100 * limit:g} %", "storey drift, mean", _above_0(limit))
+
+    @staticmethod
+    def floor_acceleration(limit: float) -> LimitState:
+        """Return a floor acceleration above `limit` [m/s2]: mean of the level, size in plan."""
+        name = f"floor acceleration {limit / STANDARD_GRAVITY:.3g} g"
+        return LimitState(name, "floor acceleration in plan, mean", _above_0(limit))
+
+    @staticmethod
+    def ductility(limit: float) -> LimitState:
+        """Return a ductility of links (storeys that yield) above `limit` [-]."""
+        return LimitState(f"ductility {limit:g}", "link ductility", _above_0(limit))
+
+    @staticmethod
+    def plastic_rotation(limit: float) -> LimitState:
+        """Return a plastic rotation of hinges above `limit` [rad]."""
+        name = f"plastic rotation {limit:g} rad"
+        return LimitState(name, "plastic rotation of hinges", _above_0(limit))
+
+
+def _above_0(limit: float) -> float:
+    return require_positive("limit", limit, error=FragilityError)

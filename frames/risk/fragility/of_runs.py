@@ -1,0 +1,95 @@
+"""Fragility of runs: the fit that belongs to how they were made."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.cloud_fit import fit_cloud
+from frames.risk.fragility.fitting import fit_capacities, fit_stripes
+from frames.risk.fragility.incremental import IDA, capacities_of
+from frames.risk.fragility.limit_state import LimitState
+from frames.risk.fragility.plans import CLOUD, HUNT, plans_of, require_beforehand
+from frames.risk.fragility.resampling import RESAMPLES
+from frames.risk.fragility.runs import IntensityRuns
+from lir_element.argument_checks import require_choice, require_type
+
+if TYPE_CHECKING:
+    from frames.risk.fragility.curve import CollapseFragility, Fragility
+
+
+def fragility_of(
+    runs: IDA | IntensityRuns,
+    limit: LimitState,
+    *,
+    method: Literal["capacities", "stripes", "cloud"] | None = None,
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> Fragility | CollapseFragility:
+    """Return the fragility of a structure against a limit state.
+
+    Parameters
+    ----------
+    runs : IDA or IntensityRuns
+        Of `ida`, `multiple_stripes`, `cloud_analysis`, or read from `time_histories`.
+    limit : LimitState
+        The limit state.
+    method : {"capacities", "stripes", "cloud"}, optional
+        `fit_capacities` (by default of an IDA and of its runs), `fit_cloud` (by default of
+        `cloud_analysis`, where the limit state has a demand: a regression, which takes few runs but
+        trusts in its line), or `fit_stripes` (by default of other runs: whether each exceeds the
+        limit). Runs of an IDA have capacities alone: their intensities were chosen by their
+        outcome, which biases both other fits.
+    resamples, seed : int
+        Resamples of the records for the bands, and their seed.
+
+    Returns
+    -------
+    Fragility or CollapseFragility
+        The curve; of five parameters for a cloud with failures of bearings.
+
+    Raises
+    ------
+    FragilityError
+        If the runs do not determine a curve, or do not suit the method: what of them was chosen by
+        their outcome is told by the column "plan" of their table.
+    ImportError
+        If the method needs the package `pyFragility` (extra "fragility") and it is not installed.
+    """
+    require_type("runs", runs, (IDA, IntensityRuns), "an IDA or IntensityRuns")
+    require_type("limit", limit, LimitState, "a LimitState")
+    is_ida, each = isinstance(runs, IDA), runs.runs if isinstance(runs, IDA) else runs
+    plans = {HUNT} if is_ida else {*plans_of(each.table)}
+    chosen = method or _usual(plans, limit)
+    require_choice("method", chosen, ("capacities", "stripes", "cloud"), error=FragilityError)
+    records = [str(name) for name in each.table["motion"]]
+    im, name, measure = each.table["im"].to_numpy(), limit.name, each.intensity
+    if chosen == "capacities":
+        if HUNT not in plans:
+            msg = "capacities are of an IDA: run frames.ida, or take method='stripes'"
+            raise FragilityError(msg)
+        found = capacities_of(each, limit)
+        return fit_capacities(
+            found["capacity"].to_numpy(), list(found.index), censored=found["censored"].to_numpy(),
+            name=name, intensity=measure, resamples=resamples, seed=seed,
+        )  # fmt: skip
+    require_beforehand(each.table.assign(plan=HUNT) if is_ida else each.table, chosen)
+    if chosen == "stripes":
+        return fit_stripes(
+            im, each.exceeded(limit), records,
+            name=name, intensity=measure, resamples=resamples, seed=seed,
+        )  # fmt: skip
+    if limit.quantity is None or limit.limit is None:
+        msg = f"{limit.name} has no demand to regress: take method='stripes'"
+        raise FragilityError(msg)
+    return fit_cloud(
+        im, each.demand(limit.quantity), limit.limit, records,
+        name=name, intensity=measure, resamples=resamples, seed=seed,
+    )  # fmt: skip
+
+
+def _usual(plans: set[str], limit: LimitState) -> Literal["capacities", "stripes", "cloud"]:
+    # The fit that belongs to a plan.
+    if HUNT in plans:
+        return "capacities"
+    return "cloud" if plans == {CLOUD} and limit.quantity is not None else "stripes"

@@ -1,0 +1,359 @@
+"""Runs at known intensities: their outcome and demands, whatever they are made into."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from frames._errors import ModelWarning
+from frames.batch.cases import NOT_BUILT, named_models
+from frames.batch.time_histories import time_histories
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.limit_state import LimitState
+from frames.risk.fragility.notebook import Shown
+from frames.risk.fragility.plans import GIVEN, PLAN, plans_of
+from frames.risk.fragility.reading import Sets, motions_of, rows_of
+from lir_element.argument_checks import require_choice, require_type
+from lir_element.errors import AnalysisWarning, RunStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.model.frame_data import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+
+COMPLETE, FAILURE, UNKNOWN = "complete", "bearing failure", "numerical failure"
+"""Outcomes: the run is complete; a bearing failed (`RunStatus.is_bearing_failure`), which is
+collapse; the analysis failed, which says nothing of the structure."""
+
+FIXED = ("motion", "scale", "im", "outcome", "status", "message")
+"""Columns of the table before those of the demands."""
+
+
+def outcome_of(status: str) -> str:
+    """Return what a status of `time_histories` means for a limit state.
+
+    Parameters
+    ----------
+    status : str
+        Such as "ok", "inaccurate" or "slip_exceeded".
+
+    Returns
+    -------
+    str
+        `COMPLETE` for "ok" and "inaccurate" (which went to its end), `FAILURE` where the bearing
+        failed, otherwise `UNKNOWN`, also for "not_built" of a campaign. A structure that is beyond
+        what it carries ends in Newton's failure, as other things do: state a drift or a rotation
+        as the limit.
+
+    Raises
+    ------
+    FragilityError
+        If it is no status.
+    """
+    if status == NOT_BUILT:
+        return UNKNOWN
+    require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
+    found = RunStatus[status.upper()]
+    if found in {RunStatus.OK, RunStatus.INACCURATE}:
+        return COMPLETE
+    return FAILURE if found.is_bearing_failure else UNKNOWN
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IntensityRuns(Shown):
+    """Runs of one structure under motions of known intensity.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        A row a run: "motion", "scale" [-], "im" (in `intensity.unit`), "outcome", "status",
+        "message", a column a quantity of `frames.peaks` (SI); and "plan", how the intensity was
+        chosen: "stripes", "cloud", "hunt" (by the outcome of runs before) or "given", which is also
+        what holds without the column.
+    intensity : Intensity
+        What "im" is.
+    units : mapping of str to str
+        Units of the quantities.
+
+    Raises
+    ------
+    FragilityError
+        If a column is missing, there is no run, or an intensity is not positive.
+    """
+
+    table: pd.DataFrame
+    intensity: Intensity
+    units: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises
+        ------
+        FragilityError
+            If the table cannot be used.
+        """
+        require_type("table", self.table, pd.DataFrame, "a pandas DataFrame")
+        require_type("intensity", self.intensity, Intensity, "an Intensity")
+        missing = [name for name in FIXED if name not in self.table.columns]
+        if missing or self.table.empty:
+            msg = f"table has no column {missing[0]!r}" if missing else "table has no run"
+            raise FragilityError(f"{msg}: take IntensityRuns.from_dataset")  # noqa: EM102
+        im = self.table["im"].to_numpy(dtype=np.float64)
+        if not (np.isfinite(im) & (im > 0.0)).all():
+            msg = f"im = {im.min():g} {self.intensity.unit} must be positive: scale upwards from 0"
+            raise FragilityError(msg)
+        plans_of(self.table)
+
+    def _rows(self) -> list[tuple[str, str]]:
+        counts = Counter(self.table["outcome"]).most_common()
+        return [
+            ("runs", str(len(self.table))), ("motions", str(len(self.motions))),
+            ("intensity", self.intensity.label),
+            ("outcomes", "; ".join(f"{count} {name}" for name, count in counts)),
+            ("intensities chosen by", "; ".join(dict.fromkeys(plans_of(self.table)))),
+        ]  # fmt: skip
+
+    @classmethod
+    def from_dataset(
+        cls,
+        data: xr.Dataset,
+        motions: object,
+        intensity: Intensity,
+        model: str | None = None,
+        *,
+        parameters: Sets = None,
+        plan: str = GIVEN,
+    ) -> IntensityRuns:
+        """Read the runs of one structure from what `time_histories` or a campaign handed back.
+
+        Parameters
+        ----------
+        data : xarray.Dataset
+            Of `time_histories` or of a campaign; runs that are not done are left out.
+        motions : GroundMotion, or a sequence or mapping of them
+            The motions that were run, before the scales of `data`, by the names of `data`. Their
+            digests must be those of the coordinate "motion_digest".
+        intensity : Intensity
+            The measure.
+        model : str, optional
+            Which structure; needed where there are several.
+        parameters : int, mapping of str to float, or "all", optional
+            Which set of parameters of a campaign, by its number or its values; needed where there
+            are several. "all" pools them: what they scatter is part of the dispersion then.
+        plan : {"given", "stripes", "cloud", "hunt"}
+            How the intensities were chosen: "hunt" where they followed from outcomes of runs
+            before.
+
+        Returns
+        -------
+        IntensityRuns
+            The runs, in the order of `data`.
+
+        Raises
+        ------
+        FragilityError
+            If there are several structures or sets of parameters, a motion is missing or not the
+            one that was run, or no run is done.
+
+        Warns
+        -----
+        AnalysisWarning
+            If runs of a campaign are not done.
+        """
+        require_type("intensity", intensity, Intensity, "an Intensity")
+        own = rows_of(data, model, parameters)
+        grounds = motions_of(own, motions)
+        used = [str(name) for name in own["motion"].to_numpy()]
+        each = {name: intensity.of(motion) for name, motion in grounds.items()}
+        scale = own["scale"].to_numpy()
+        status = [str(s) for s in own["status"].to_numpy()]
+        quantities = [str(q) for q in own["quantity"].to_numpy()]
+        table = pd.DataFrame({
+            "motion": used,
+            "scale": scale,
+            "im": [_round(abs(s) * each[name]) for s, name in zip(scale, used, strict=True)],
+            "outcome": [outcome_of(s) for s in status],
+            "status": status,
+            "message": [str(m) for m in own["message"].to_numpy()],
+            PLAN: plan,
+        } | {q: own["peak"].sel(quantity=q).to_numpy() for q in quantities})  # fmt: skip
+        units = dict(zip(quantities, (str(u) for u in own["unit"].to_numpy()), strict=True))
+        return cls(table, intensity, units)
+
+    @property
+    def motions(self) -> tuple[str, ...]:
+        """Names of the motions, in the order of their first runs."""
+        return tuple(dict.fromkeys(self.table["motion"]))
+
+    @property
+    def failed(self) -> pd.DataFrame:
+        """Runs that failed numerically: nothing is known of them."""
+        return self.table[self.table["outcome"] == UNKNOWN].loc[:, list(FIXED)]
+
+    def demand(self, quantity: str) -> FloatArray:
+        """Return the demand of each run.
+
+        Parameters
+        ----------
+        quantity : str
+            A quantity of `frames.peaks`.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            Demands [SI]; infinite where a bearing failed, NaN where the analysis failed.
+
+        Raises
+        ------
+        FragilityError
+            If the structure has no such quantity.
+        """
+        require_choice("quantity", quantity, tuple(self.units), error=FragilityError)
+        found = self.table[quantity].to_numpy(dtype=np.float64)
+        outcome = self.table["outcome"].to_numpy()
+        return np.where(outcome == COMPLETE, found, np.where(outcome == FAILURE, np.inf, np.nan))
+
+    def exceeded(self, limit: LimitState) -> FloatArray:
+        """Return whether each run exceeds a limit state.
+
+        Parameters
+        ----------
+        limit : LimitState
+            The limit state.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            1 or 0, NaN where the analysis failed.
+
+        Raises
+        ------
+        FragilityError
+            If the structure does not have its quantity, or a complete run has no value of it.
+        """
+        require_type("limit", limit, LimitState, "a LimitState")
+        outcome = self.table["outcome"].to_numpy()
+        if limit.quantity is None or limit.limit is None:
+            found = (outcome == FAILURE).astype(np.float64)
+        else:
+            demand = self.demand(limit.quantity)
+            if np.isnan(demand[outcome == COMPLETE]).any():
+                msg = f"{limit.name}: complete runs have no {limit.quantity!r}: take another limit"
+                raise FragilityError(msg)
+            found = (demand > limit.limit).astype(np.float64)
+        return np.where(outcome == UNKNOWN, np.nan, found)
+
+    def joined(self, other: IntensityRuns) -> IntensityRuns:
+        """Return these runs and others of the same structure and measure.
+
+        Parameters
+        ----------
+        other : IntensityRuns
+            The others.
+
+        Returns
+        -------
+        IntensityRuns
+            All of them.
+
+        Raises
+        ------
+        FragilityError
+            If the measures differ.
+        """
+        if other.intensity != self.intensity:
+            msg = f"{other.intensity.label} is not {self.intensity.label}: take one measure"
+            raise FragilityError(msg)
+        tables = [each.table.assign(plan=plans_of(each.table)) for each in (self, other)]
+        table = pd.concat(tables, ignore_index=True)
+        return IntensityRuns(table, self.intensity, {**self.units, **other.units})
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a copy of the table."""
+        return self.table.copy()
+
+
+def _round(im: float) -> float:
+    # So that runs of one stripe have one intensity.
+    return float(f"{im:.10g}")
+
+
+def run_at(
+    model: FrameContents,
+    motions: Mapping[str, GroundMotion],
+    cases: Sequence[tuple[str, float]],
+    intensity: Intensity,
+    options: Mapping[str, Any],
+    plan: str,
+) -> IntensityRuns:
+    """Run a structure under motions at intensities, all at once.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    motions : mapping of str to GroundMotion
+        Motions, unscaled.
+    cases : sequence of (str, float)
+        Motion and intensity of each run.
+    intensity : Intensity
+        The measure.
+    options : mapping
+        Options of `time_histories`.
+    plan : str
+        How the intensities were chosen.
+
+    Returns
+    -------
+    IntensityRuns
+        The runs. Failures of bearings are outcomes, not warnings.
+
+    Raises
+    ------
+    FragilityError
+        If an option is one that the cases decide.
+
+    Warns
+    -----
+    AnalysisWarning
+        If runs failed numerically.
+    """
+    fixed = {"scales", "cases", "record"} & set(options)
+    if fixed:
+        msg = f"{sorted(fixed)[0]} is decided here: leave it out"
+        raise FragilityError(msg)
+    structures = named_models(model)
+    if len(structures) > 1:
+        msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
+        raise FragilityError(msg)
+    ((name, structure),) = structures.items()
+    each = {motion: intensity.of(motions[motion]) for motion, _ in cases}
+    wanted = [(name, motion, level / each[motion]) for motion, level in cases]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AnalysisWarning)  # what it says is in the table
+        # intensities begin low on purpose
+        warnings.filterwarnings("ignore", ".*the bearings hardly slide", ModelWarning)
+        data = time_histories({name: structure}, motions, cases=wanted, **options)
+    runs = IntensityRuns.from_dataset(data, motions, intensity, plan=plan)
+    failed = runs.failed
+    if len(failed):
+        row = failed.iloc[0]
+        warnings.warn(
+            f"{len(failed)} of {len(runs.table)} runs failed numerically and count as neither; the "
+            f"first, {row['motion']} at {row['im']:.3g} {intensity.unit}: {row['message']}",
+            AnalysisWarning,
+            stacklevel=3,
+        )
+    return runs

@@ -1,0 +1,1 @@
+"""Time history analysis: options, the run, its outcome, the level of each bearing."""

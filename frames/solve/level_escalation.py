@@ -1,0 +1,108 @@
+"""``level="auto"``: run, audit, switch on what mattered, until nothing left out mattered."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from frames.results.assumption_checks import asking_for_contact, audit, is_missing, needed_level
+from lir_element.element import LEVELS
+from lir_element.errors import RunStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import xarray as xr
+
+    from frames.results.assumption_checks import Finding
+    from lir_element import Features
+
+MOST_RUNS = 5
+"""Features and level settle in two or three runs; this bounds what each run may reveal anew."""
+
+
+def settle(analyse: Callable[[Features, str], xr.Dataset], features: Features) -> xr.Dataset:
+    """Run with `features`, and again with what was missing.
+
+    Parameters
+    ----------
+    analyse : callable
+        ``analyse(features, level)`` runs the scene; its Dataset can be audited.
+    features : Features
+        To begin with.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of the last run. Its attribute `auto_runs` has a line for each run: level, features left
+        out, seconds, and what followed from its audit.
+    """
+    level, lines = "pendulum", []
+    for count in range(1, MOST_RUNS + 1):
+        began = perf_counter()
+        data = analyse(features, level)
+        seconds = perf_counter() - began
+        findings = audit(data)
+        wider, higher, reason = _next(findings, features, level)
+        is_last = count == MOST_RUNS or (wider, higher) == (features, level)
+        out = ", ".join(features.left_out) or "nothing"
+        lines.append(f"run {count}: {level}, left out {out}, {seconds:.3f} s: {reason}")
+        if is_last:
+            break
+        features, level = wider, higher
+    data.attrs["auto_runs"] = "\n".join(lines)
+    return data
+
+
+def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
+    """Say in the audit of a result of `settle` that an earlier run ended otherwise.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of the last run; its attributes `audit` and `auto_runs` get a line.
+    ends : sequence of (RunStatus, float)
+        How each run ended, and when [s].
+    """
+    last, time = ends[-1]
+    others = [
+        k for k, (status, _) in enumerate(ends[:-1]) if _completes(status) != _completes(last)
+    ]
+    if not others:
+        return
+    first, earlier = ends[others[-1]]
+    line = (
+        f"ends: run {others[-1] + 1} {_ended(first, earlier)}, run {len(ends)} "
+        f"{_ended(last, time)} (auto_runs): a little more or less decides whether a bearing fails"
+    )
+    data.attrs["audit"] = f"! {line}\n{data.attrs['audit']}"
+    data.attrs["auto_runs"] += f"\n{line}"
+
+
+def _completes(status: RunStatus) -> bool:
+    return status in {RunStatus.OK, RunStatus.INACCURATE}
+
+
+def _ended(status: RunStatus, time: float) -> str:
+    how = "completed" if _completes(status) else f"stopped ({status.name.lower()})"
+    return f"{how} at t = {time:.4g} s"
+
+
+def _next(
+    findings: tuple[Finding, ...], features: Features, level: str
+) -> tuple[Features, str, str]:
+    # Features and level of the next run (the same: settled), and why.
+    names = features.left_out
+    missing = [f for f in findings if is_missing(f) and f.feature in names]
+    if missing:
+        wider = features.including(*(f.feature for f in missing))
+        if wider.rims and not features.rims:  # one piece would break the rims that are met
+            wider = wider.including("interface")
+        return wider, level, "again, for " + "; ".join(f.sentence for f in missing)
+    wanted = needed_level(findings)
+    if wanted == level or level != "pendulum":
+        return features, level, "sufficient"
+    why = "; ".join(f.sentence for f in asking_for_contact(findings))
+    if wanted in LEVELS:
+        return features, wanted, f"again at the level '{wanted}': {why}"
+    return features, level, f"the level '{wanted}' would be needed, and is not there: {why}"

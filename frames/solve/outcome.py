@@ -1,0 +1,194 @@
+"""How an analysis ended, and whether what it computed can be relied on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames.results.assumption_checks import audit_report
+from frames.results.peak_response import largest
+from lir_element.element import about_to_snap, limit_detail
+from lir_element.errors import RunStatus
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames.statics.gravity import GravityState
+
+PROMISE = 1e-3
+"""Largest share of the input by which the ledger of a completed run may be open [-]."""
+
+ASKED_FOR = 1e-2
+"""The same for what the generalised-alpha method takes out, which is what it is chosen for; from
+`PROMISE` on a warning names the share."""
+
+LEAST_INPUT = 1e-6
+"""Input over weight and effective radius below which the ledger is measured against that [-]."""
+
+
+TUMBLED = 0.3
+"""Tilt of a slider beyond the one at its rim from which on it no longer lies but tumbles [rad]."""
+
+
+class Outcome(NamedTuple):
+    """The end of a run."""
+
+    status: RunStatus
+    time: float  # s
+    where: str
+    detail: str
+
+
+def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
+    """Judge a completed run by its ledger of energy, and by its sliders where they are bodies.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of the run, complete but for its status. Gets the attributes `energy_error` and
+        `numerical_share` [-], and a line in its audit where they are too large.
+
+    Returns
+    -------
+    RunStatus, str
+        OK, or INACCURATE with what is wrong. OK with a sentence where numerical damping, which was
+        asked for, took out more than an accurate run leaves over.
+    """
+    gap, numerical, given = (
+        float(largest(data, name).values)
+        for name in ("energy_gap", "energy_numerical", "energy_input")
+    )
+    least = LEAST_INPUT * float(data.variables["weight"]) * float(data.variables["length"].min())
+    scale = max(given, abs(least))
+    gap, numerical = gap / scale, numerical / scale
+    data.attrs |= {"energy_error": gap, "numerical_share": numerical}
+    doubt = _tumbled(data)
+    if doubt:
+        data.attrs["audit"] += f"\n  inaccurate: {doubt}"
+        return RunStatus.INACCURATE, doubt
+    allowed = ASKED_FOR if data.attrs["integrator"] == "generalised-alpha" else PROMISE
+    if gap <= PROMISE and numerical <= allowed:
+        if numerical <= PROMISE:
+            return RunStatus.OK, ""
+        doubt = (
+            f"the generalised-alpha method took out {100.0 * numerical:.3g} % of the energy put in "
+            f"(more than {100.0 * PROMISE:g} %): take a spectral_radius nearer to 1 or a smaller "
+            "dt where that matters"
+        )
+        data.attrs["audit"] += f"\n  numerical damping: {doubt}"
+        return RunStatus.OK, doubt
+    detail = (
+        f"the terms of the energy differ from the input by {100.0 * gap:.3g} % of it (at most "
+        f"{100.0 * PROMISE:g} % is sound), and {100.0 * numerical:.3g} % are the time "
+        f"integration's own (at most {100.0 * allowed:g} %)"
+    )
+    data.attrs["audit"] += f"\n  inaccurate: {detail}"
+    return RunStatus.INACCURATE, detail
+
+
+def _tumbled(data: xr.Dataset) -> str:
+    """Return what is doubtful of a run in which a slider tumbled, or an empty string."""
+    if "body_rotation" not in data and "reached_tilt" not in data:
+        return ""
+    tilt = largest(data, "tilt").values  # NaN without contact points
+    sine = (data["rim_displacement"] / data["radius"]).to_numpy().max(axis=1)
+    lying = np.arcsin(np.minimum(sine, 1.0))
+    beyond = np.nan_to_num(tilt - lying, nan=-np.inf)
+    k = int(beyond.argmax())
+    if beyond[k] <= TUMBLED:
+        return ""
+    worst, degrees, rim = data["bearing"].to_numpy()[k], np.degrees(tilt[k]), np.degrees(lying[k])
+    return (
+        f"the slider of bearing {worst} tilted by {degrees:.0f} degrees (at its rim it lies at "
+        f"{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
+        "compare smaller steps, and take it as a failure of the bearing"
+    )
+
+
+def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
+    """Audit a run and judge it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        What the audit reads of the run. Gets the attribute `audit`, those of `judged`, and, where
+        a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
+        ``exceeded_at`` and ``exceeded_bearing``.
+    state : GravityState
+        The state it left.
+    end : tuple
+        As `ended` has it.
+
+    Returns
+    -------
+    Outcome
+        How it ended, and where it failed if it did.
+    """
+    status, detail = end
+    data.attrs |= _exceeded(state, status)
+    data.attrs["audit"] = audit_report(data)
+    name = state.system.bearings[int(state.run.counts["bearing"][0])][0]
+    where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
+    if status is RunStatus.OK:
+        status, detail = judged(data)
+    return Outcome(status, float(state.run.clock["time"][0]), where, detail)
+
+
+def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
+    # What a bearing reached at the step that its limit ended: that step is in no history.
+    k, run = int(state.run.counts["bearing"][0]), state.run
+    if int(run.new["status"][k]) != status:
+        return {}  # found otherwise, and not by a step in equilibrium
+    values = {
+        RunStatus.SLIP_EXCEEDED: ("slip", np.hypot(*run.new["slip"][k])),
+        RunStatus.RIM_OVERRUN: ("rim_force", run.new["rim_force"][k].max()),
+    }
+    if status not in values:
+        return {}
+    name, value = values[status]
+    return {
+        "exceeded": name, "exceeded_value": float(value),
+        "exceeded_at": float(run.clock["time"][0]), "exceeded_bearing": state.system.bearings[k][0],
+    }  # fmt: skip
+
+
+def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
+    """Return how a run ended that its loop left with `status`, and the number behind it."""
+    run = state.run
+    if status is RunStatus.STEP_TOO_SMALL:
+        cause = RunStatus(int(run.counts["cause"][0]))
+        if cause.is_bearing_failure:
+            return cause, ""
+        near = about_to_snap(state.model.props, run.old)
+        if near is not None:
+            run.counts["bearing"][0] = near[0]
+            return RunStatus.SLIP_UNSTABLE, near[1]
+        return status, f"last cause: {cause.meaning}{_without_inertia(state)}"
+    if status.is_bearing_failure:
+        return status, limit_detail(state.model.props, run.new, int(run.counts["bearing"][0]))
+    return status, ""
+
+
+def _without_inertia(state: GravityState) -> str:
+    # Plates that turn without inertia have to be in equilibrium at every instant; where friction
+    # of a tilted slider and a rim let go, there may be none.
+    labels, inertia = state.system.dof_labels, state.system.mass.diagonal()
+    turning = [
+        labels[place].rsplit(" ", 1)[0]
+        for place in state.basis.bearing_dofs
+        if labels[place].endswith((" rx", " ry")) and not inertia[place] > 0.0
+    ]
+    if not turning:
+        return ""
+    return (
+        f'; node "{turning[0]}" and others turn without inertia, and their rotations may have no '
+        "equilibrium: give the nodes at the bearings some, "
+        "add_mass(node, 0.0, (J, J, 0.0)) with 1 to 100 kg m2"
+    )
+
+
+def culprit(state: GravityState) -> str:
+    """Return the name of the degree of freedom with the largest unbalanced force."""
+    place = int(np.argmax(np.abs(state.run.residual)))
+    return f'degree of freedom "{state.system.dof_labels[state.basis.bearing_dofs[place]]}"'

@@ -1,0 +1,209 @@
+"""The nonlinear equilibrium under permanent loads, also where Newton's method needs a way to it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames.assembly.assemble import node_geometric_stiffness
+from frames.assembly.supports import load_path
+from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
+from frames.kernels.stepping import solve_gravity
+from frames.statics.springs import spring_forces
+from lir_element.element import limit_detail
+from lir_element.errors import AnalysisError, RunStatus
+from lir_element.interruptible import ready
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from frames._types import FloatArray
+    from frames.assembly.assemble import System
+    from frames.assembly.basis import Basis
+    from lir_element.bundles.contact_data import Contacts
+    from lir_element.layout import Records
+
+_FORCE_TOLERANCE = 1e-9  # of the total weight
+_MAX_ITERATIONS = 100
+_SOFTNESSES = (0.1, 1e-2, 1e-3)  # stiffness of the pendulum over that of friction: starts
+_FACTORS = (0.1, 0.3, 0.7)  # by which it is brought down, the next where one fails
+_MOST_STAGES = 60
+_YIELDS = ("yield_displacement", "interface_yield", "torsion_yield")
+
+
+class Equilibrium(NamedTuple):
+    """A frame in equilibrium, as the kernels see it."""
+
+    model: Model
+    run: Run
+    contacts: Contacts | None
+    compiling: float  # s
+
+
+def find_equilibrium(
+    system: System,
+    basis: Basis,
+    linear: FloatArray,
+    levels: Mapping[str, str],
+    static_load: FloatArray | None,
+) -> Equilibrium:
+    """Find the equilibrium of a frame under its permanent loads.
+
+    Newton's method starts from the linear solution. Where it fails, friction is softened: an
+    elastic sliding before slip that leaves it ten times as stiff as the pendulum, and is brought
+    down to the true one stage by stage, each from the equilibria before. The bearings are at rest
+    before each solution, so that the last one is the equilibrium that was asked for.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    basis : Basis
+        The frame in bearing coordinates.
+    linear : ndarray, (n_free,)
+        Displacements of the linear solution.
+    levels : mapping of str to str
+        Levels of the bearings by name.
+    static_load : ndarray or None
+        Constant loads of the bearings without vertical coupling [N].
+
+    Returns
+    -------
+    Equilibrium
+        What the kernels work on, the equilibrium being committed.
+
+    Raises
+    ------
+    AnalysisError
+        If there is no equilibrium, or a bearing carries no compression.
+    """
+    model = model_arrays(system, basis, static_load)
+    chosen = [levels[name] for name, _, _, _ in system.bearings]
+    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    guess = linear[basis.bearing_dofs]
+    empty = run_arrays(model), contacts_of(system, chosen)
+    compiling = ready(solve_gravity, model, *empty, tolerance, _MAX_ITERATIONS)
+
+    def solve(first: FloatArray) -> tuple[RunStatus, Run, Contacts | None]:
+        run, contacts = run_arrays(model), contacts_of(system, chosen)
+        run.b[:] = first
+        status = solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS)
+        return RunStatus(status), run, contacts
+
+    status, run, contacts = solve(guess)
+    if status is not RunStatus.OK:
+        softer = _softened(model, solve, guess)
+        if softer is not None:
+            status, run, contacts = softer
+    _raise_failure(system, run, status, linear)
+    return Equilibrium(model, run, contacts, compiling)
+
+
+def _softened(
+    model: Model, solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]],
+    guess: FloatArray,
+) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
+    # Follow the equilibrium from soft friction to the true one; None if no way leads there.
+    true = {name: model.props[name].copy() for name in _YIELDS}
+    try:
+        for softness in _SOFTNESSES:
+            found = _way_from(softness, model.props, true, solve, guess)
+            if found is not None:
+                return found
+    finally:
+        for name, values in true.items():
+            model.props[name] = values
+    return None
+
+
+def _way_from(
+    softness: float, props: Records, true: Mapping[str, FloatArray],
+    solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]], guess: FloatArray,
+) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
+    # The same from one softness.
+    _soften(props, true, softness)
+    found = solve(guess)
+    before: tuple[float, FloatArray] | None = None
+    for _ in range(_MOST_STAGES):
+        if found[0] is not RunStatus.OK:
+            return None
+        if all(np.array_equal(props[name], values) for name, values in true.items()):
+            return found
+        here = softness, found[1].b.copy()
+        for less, first in _next_guesses(here, before):
+            _soften(props, true, less)
+            found = solve(first)
+            if found[0] is RunStatus.OK:
+                before, softness = here, less
+                break
+    return None
+
+
+def _next_guesses(
+    here: tuple[float, FloatArray], before: tuple[float, FloatArray] | None
+) -> Iterator[tuple[float, FloatArray]]:
+    # Less softness and a first guess: on the line through both equilibria (while nothing slips,
+    # displacements are linear in the softness), then the last one.
+    softness, b = here
+    for factor in _FACTORS:
+        if before is not None:
+            yield (
+                factor * softness,
+                b + (1.0 - factor) * softness * ((b - before[1]) / (before[0] - softness)),
+            )
+        yield factor * softness, b
+
+
+def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> None:
+    # Elastic sliding before slip with which each contact is 1 / softness times as stiff as the
+    # pendulum: mu N / u = N / (softness L), (5.4). The same for all, for where the interface is
+    # softer than the pendulum no slider finds its place.
+    low = np.asarray(props["friction_max"] - props["friction_drop"])
+    slid = softness * props["length"][:, None] * low
+    held = np.where(props["fused"] == 0, props["interface_friction"], 0.0)
+    twisting = props["torsion_lever"] > 0.0
+    twist = np.where(
+        twisting, slid.min(axis=1) / np.where(twisting, props["torsion_lever"], 1.0), 0
+    )
+    soft = {
+        "yield_displacement": slid,
+        "interface_yield": softness * props["length"] * held,
+        "torsion_yield": twist,
+    }
+    for name, values in true.items():
+        props[name] = np.maximum(values, soft[name])
+
+
+def _raise_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
+    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits. What
+    # Newton's last trial lifted where it failed says nothing: the linear solution does.
+    lifted = run.new["axial_force"] <= 0.0
+    beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
+    if status is RunStatus.OK and not (lifted.any() or len(beyond)):
+        return
+    forces = spring_forces(system, linear)
+    if status is not RunStatus.OK:
+        lifted = forces < 0.0
+    place = int(run.counts["bearing"][0])
+    detail = ""
+    if lifted.any():
+        status, place = RunStatus.UPLIFTED, int(np.argmin(np.where(lifted, forces, np.inf)))
+        none = node_geometric_stiffness(system, np.zeros(len(system.members.names)))
+        detail = load_path(system, none, linear, forces).sentence()
+    elif len(beyond):
+        place = int(beyond[0])
+        status = RunStatus(int(run.new["status"][place]))
+        props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
+        detail = limit_detail(props, run.new, place)
+    if status in {RunStatus.NEWTON_FAILED, RunStatus.NO_EQUILIBRIUM, RunStatus.SINGULAR}:
+        status = RunStatus.NO_REST
+    if status is not RunStatus.OK:
+        name = system.bearings[place][0]
+        raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"', detail)
+
+
+def force_tolerance(system: System, relative: float) -> float:
+    """Return a tolerance in N (and N m at 1 m) relative to the weight of the structure."""
+    weight = float(np.abs(system.load).sum())
+    return relative * max(weight, 1e-3 * system.gravity * float(system.node_mass[:, :3].sum()))

@@ -1,0 +1,95 @@
+"""What of a scene, a model and its motion, is known before any run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+
+from frames.assembly.assemble import assemble
+from frames.assembly.basis import bearing_rows
+from frames.assembly.constraints import OUT_OF_PLANE
+from frames.model.components import DOFS
+from frames.statics.springs import guessed_springs
+from lir_element import Features
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.assembly.assemble import System
+    from frames.model.frame_data import FrameContents
+    from frames.motion.ground_motion import GroundMotion
+
+
+def exact_features(frame: FrameContents, motion: GroundMotion) -> Features:
+    """Return what a scene needs as far as that is certain before the run.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    motion : GroundMotion
+        The ground motion.
+
+    Returns
+    -------
+    Features
+        Only what takes no part at all is left out: the second direction where the motion has none
+        and the model does not couple the x-z plane with the rest; velocity dependence where no
+        friction depends on speed; rims and interface where no bearing has them.
+    """
+    system = assemble(frame)
+    bearings = [bearing for _, _, _, bearing in system.bearings]
+    lacking = []
+    if bearings and all(b.is_dcfp for b in bearings):
+        lacking.append("interface")
+    if all(np.isinf(b.rim_displacement).all() for b in bearings):
+        lacking.append("rims")
+    if all(law.f_max == law.f_min for b in bearings for law in b.frictions):
+        lacking.append("velocity_dependence")
+    if not motion.components[:, 1].any() and is_plane(system):
+        lacking.append("second_direction")
+    return Features.all().without(*lacking)
+
+
+def is_plane(system: System) -> bool:
+    """Return whether nothing couples the x-z plane of a frame with what moves out of it."""
+    outside = np.array([label.rsplit(" ", 1)[1] in OUT_OF_PLANE for label in system.dof_labels])
+    across = np.array([dof in OUT_OF_PLANE for dof in DOFS] * len(system.node_names))
+    parts = (
+        system.stiffness[~outside][:, outside],
+        system.mass[~outside][:, outside],
+        system.damping[~outside][:, outside],
+        system.transform[~across][:, outside],
+        system.transform[across][:, ~outside],
+    )
+    rows = abs(system.part_rows)
+    crossing = [np.asarray(rows[:, chosen].sum(axis=1)) > 0.0 for chosen in (outside, ~outside)]
+    if (crossing[0] & crossing[1]).any():
+        return False
+    if any(abs(part).max() > 0.0 for part in parts if part.shape[0] and part.shape[1]):
+        return False
+    return not (system.load[outside].any() or system.inertia_load[outside][:, [0, 2]].any())
+
+
+def plane_coupling(frame: FrameContents) -> float:
+    """Return how far a frame moves along y when it is pushed along x.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model, with at least one bearing.
+
+    Returns
+    -------
+    float
+        Largest displacement of a bearing along y over that along x under a uniform acceleration
+        along x, bearings as linear springs [-].
+    """
+    system = assemble(frame)
+    stiffness = sparse.csc_array(system.stiffness + guessed_springs(system))
+    moves: FloatArray = spsolve(stiffness, system.inertia_load[:, 0])
+    u = np.asarray(bearing_rows(system) @ moves).reshape(-1, 12)
+    relative = np.abs(u[:, 6:8] - u[:, :2]).max(axis=0)
+    return float(relative[1] / relative[0]) if relative[0] > 0.0 else np.inf

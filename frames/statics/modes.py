@@ -1,0 +1,112 @@
+"""Natural modes of a frame on its bearings: the periods that an engineer checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.model.components import bearing_axial_stiffness
+from frames.statics.blas_threads import blas_threads_for
+from frames.statics.gravity import GravityState, gravity
+from frames.statics.springs import spring_matrix
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, SparseMatrix
+    from frames.model.frame_data import FrameContents
+
+
+BearingStiffness = Literal["sliding", "sticking", "fixed"]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Natural modes of a frame on its bearings.
+
+    Attributes
+    ----------
+    periods : ndarray, (n,)
+        Periods, longest first [s].
+    shapes : ndarray, (n_nodes, 6, n)
+        Nodal displacements of each mode, scaled to a modal mass of 1 kg.
+    mass_ratios : ndarray, (n, 3)
+        Share of the total mass that takes part along x, y, z; 0 where there is none.
+    """
+
+    periods: FloatArray
+    shapes: FloatArray
+    mass_ratios: FloatArray
+
+
+def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+    """Return the first natural modes under gravity.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    count : int
+        Number of modes, at least 1; at most those that have mass.
+    bearings : {"sliding", "sticking", "fixed"}
+        How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
+        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together).
+
+    Returns
+    -------
+    Modes
+        Periods, shapes and participating masses (dense; frames/assembly/natural_modes.py).
+
+    Raises
+    ------
+    ModelError
+        If `count` or `bearings` is out of bounds, or a mode has no positive stiffness.
+    """
+    if count < 1:
+        message = f"count = {count} must be at least 1"
+        raise ModelError(message)
+    require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
+    state = gravity(frame)
+    system = state.system
+    k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
+    m = system.mass.toarray()
+    try:
+        with blas_threads_for(frame):
+            found = natural_modes(k, m, count)
+    except UnstableError as error:
+        label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
+        message = (
+            f'the first mode has no positive stiffness, at "{label}": with '
+            f'bearings="{bearings}" the frame is unstable under its permanent loads'
+        )
+        raise ModelError(message) from error
+    omega2, q = found.omega2, found.shapes
+    shapes = np.asarray(system.transform @ q).reshape(-1, 6, len(omega2))
+    shares = (system.inertia_load.T @ q) ** 2
+    total = system.node_mass[:, :3].sum(axis=0)
+    total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
+    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
+
+
+def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
+    devices = [bearing for _, _, _, bearing in state.system.bearings]
+    values = np.zeros((len(devices), 6))
+    values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
+    if bearings == "sliding":
+        length = np.array([bearing.effective_radius for bearing in devices])
+        values[:, :2] = (state.axial_forces / length)[:, None]
+    elif bearings == "sticking":
+        # the slider turns by 1/L a metre and slides R/L on both surfaces: exact at rest
+        per_load = [
+            sum(f.f_min * r * r for f, r in zip(b.frictions, b.radii, strict=True))
+            / (b.yield_displacement * b.effective_radius**2)
+            + 1.0 / b.effective_radius
+            for b in devices
+        ]
+        values[:, :2] = (state.axial_forces * np.array(per_load))[:, None]
+    else:
+        values[:, :3] = 1e3 * values[:, 2:3]
+    return spring_matrix(state.system, values)

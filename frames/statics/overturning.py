@@ -1,0 +1,165 @@
+"""Whether the bearings' axial forces follow overturning, and where the mass above them stands."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from frames.assembly.assemble import assemble
+from frames.assembly.basis import bearing_rows
+from frames.assembly.sparse_solver import Factors
+from frames.assembly.supports import above_bearings
+from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.statics.springs import spring_matrix
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.assembly.system import System
+    from frames.model.frame_data import FrameContents
+
+FOLLOWS = 0.9
+"""Share of an overturning moment from which on axial forces count as following it [-]."""
+
+_NOTHING = 1e-6
+
+
+class Overturning(NamedTuple):
+    """What the bearings carry of an overturning moment, by the direction of the motion.
+
+    Attributes
+    ----------
+    x, y : float
+        Share that their axial forces carry [-]; 1 where there is no moment to carry.
+    bearings : int
+        How many bearings there are.
+    """
+
+    x: float
+    y: float
+    bearings: int
+
+    @property
+    def follows(self) -> bool:
+        """Whether the axial forces follow overturning in both directions."""
+        return min(self.x, self.y) >= FOLLOWS
+
+    def sentence(self) -> str:
+        """Return why axial forces are not known; empty where they are."""
+        if self.follows:
+            return ""
+        if self.bearings == 1:
+            return (
+                "one bearing carries the whole model, whose tilt is held: its axial force knows no "
+                "overturning; model the bearings where they stand, shear_building(..., plan=...)"
+            )
+        least, axis = min((self.x, "x"), (self.y, "y"))
+        return (
+            f"the bearings' axial forces carry {100.0 * least:.3g} % of an overturning moment of "
+            f"motion along {axis}: supports of the model hold its tilt; free rx and ry of base and "
+            "floors, or shear_building(..., overturning=True)"
+        )
+
+
+def overturning_share(system: System) -> Overturning:
+    """Return the share of an overturning moment that the bearings' axial forces carry.
+
+    Two static loads along each direction, bearings as linear springs: every mass above the
+    bearings pushed sideways, whose moment about the tops of the bearings is the sum of m (z - z_t),
+    and vertical forces on the tops of the bearings that rise linearly over the plan. What the
+    bearings do not carry of either moment goes to supports that hold the structure's tilt.
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+
+    Returns
+    -------
+    Overturning
+        The smaller share of the two, for motion along x and along y.
+    """
+    tops = np.array([j for _, _, j, _ in system.bearings])
+    mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    axial = np.array([bearing_axial_stiffness(b) for _, _, _, b in system.bearings])
+    rocking = np.array([bearing_rocking_stiffness(b) for _, _, _, b in system.bearings])
+    springs = np.column_stack([axial, axial, axial, rocking, rocking, rocking])
+    stiffness = sparse.csr_array(system.stiffness + spring_matrix(system, springs))
+    factors = Factors(stiffness)
+    rows = bearing_rows(system)
+
+    def carried(force: FloatArray, axis: int) -> float:
+        # Moment of the bearings under nodal forces (n_nodes, 6).
+        load = np.asarray(system.transform.T @ force.ravel())
+        moved = factors.solve(load)
+        moved = moved + factors.solve(load - np.asarray(stiffness @ moved))  # round-off
+        ends = np.asarray(rows @ moved).reshape(-1, 2, 6)
+        apart = ends[:, 1] - ends[:, 0]
+        turn = apart[:, 4] if axis == 0 else -apart[:, 3]
+        levers = system.coordinates[tops, axis]
+        return float((-axial * apart[:, 2] * levers + rocking * turn).sum())
+
+    shares = []
+    for axis in (0, 1):
+        sideways = np.zeros((len(mass), 6))
+        sideways[:, axis] = mass
+        if not np.asarray(system.transform.T @ sideways.ravel()).any():
+            shares.append(1.0)  # no motion that way
+            continue
+        upright = np.zeros((len(mass), 6))
+        lever = system.coordinates[tops, axis] - system.coordinates[tops, axis].mean()
+        np.add.at(upright[:, 2], tops, -lever)
+        height = system.coordinates[:, 2] - system.coordinates[tops, 2].mean()
+        size = float(np.linalg.norm(np.ptp(system.coordinates, axis=0)))
+        least = _NOTHING * size * float(mass.sum())
+        moments = [(sideways, float(mass @ height), least)]
+        moments.append((upright, float(lever @ lever), _NOTHING * size**2))
+        found = [
+            carried(force, axis) / moment for force, moment, bound in moments if moment > bound
+        ]
+        shares.append(min((share for share in found if math.isfinite(share)), default=1.0))
+    return Overturning(shares[0], shares[1], len(tops))
+
+
+def unknown_axial_forces(frame: FrameContents) -> str:
+    """Return why the axial forces of a frame's bearings are not known; empty where they are.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+
+    Returns
+    -------
+    str
+        The sentence of its `Overturning`.
+
+    Raises
+    ------
+    ModelError
+        If the model cannot work.
+    """
+    return overturning_share(assemble(frame, None, tuple(frame.bearings))).sentence()
+
+
+def mass_centre(system: System) -> tuple[float, float]:
+    """Return x and y of the centre of the masses above the bearings [m].
+
+    Parameters
+    ----------
+    system : System
+        The assembled frame.
+
+    Returns
+    -------
+    tuple of two floats
+        In the frame's coordinates; NaN without mass.
+    """
+    mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    total = float(mass.sum())
+    if total <= 0.0:
+        return math.nan, math.nan
+    x, y = mass @ system.coordinates[:, :2] / total
+    return float(x), float(y)

@@ -1,0 +1,291 @@
+"""Whether a frame under its permanent loads, and a motion, can be what was meant: doubts by name.
+
+What is judged here needs the equilibrium under gravity: pressures, settlements, periods. The
+bounds are wide; a sentence comes where a number was probably given in another unit.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames._errors import ModelError, ModelWarning
+from frames.model.frame_data import FrameContents
+from frames.motion.ground_motion import GroundMotion
+from lir_element.device.sanity_checks import (
+    LARGEST_PRESSURE,
+    STRANGE_SHORTENING,
+    USUAL_PRESSURE,
+    pressure_remedy,
+)
+from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.assembly.system import System
+    from lir_element import LIRBearing
+
+USUAL_LOAD_RATIO = (0.15, 6.0)
+"""Load of all bearings over their design loads, where those are given [-]."""
+
+DENSEST, LIGHTEST = 3000.0, 5.0
+"""Mass above the bearings over the space that it fills [kg/m3]: that of solid concrete, and a
+tenth of the lightest steel hall's. Asked of structures of more than `LEAST_SPAN` each way."""
+
+LEAST_SPAN = 2.0
+
+STRONG_GROUND, FEEBLE = 50.0, 1e-3
+"""Peak ground acceleration above all that was recorded; one below which nothing is said [m/s2]."""
+
+
+class BearingLoad(NamedTuple):
+    """A bearing under permanent loads.
+
+    Attributes
+    ----------
+    name : str
+        Of the bearing.
+    axial_force : float
+        Compression positive [N].
+    pressure : float
+        On the slider's area [Pa].
+    settlement : float
+        Closure of its axial contact [m].
+    period : float
+        Of its pendulum [s].
+    slip_stability : float
+        Slip of the interface that holds without rims [m]; infinite with the slider in one piece.
+    slip_capacity : float
+        Slip at which the sliders' overlap ends [m].
+    """
+
+    name: str
+    axial_force: float
+    pressure: float
+    settlement: float
+    period: float
+    slip_stability: float
+    slip_capacity: float
+
+
+def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad, ...]:
+    """Return what each bearing carries under permanent loads (n_bearings,)."""
+    return tuple(
+        BearingLoad(
+            name=name,
+            axial_force=float(force),
+            pressure=float(force) / (math.pi * bearing.slider_radius**2),
+            settlement=float(force) / bearing.resolved()["axial_stiffness"],
+            period=bearing.period,
+            slip_stability=bearing.slip_stability,
+            slip_capacity=bearing.resolved()["slip_capacity"],
+        )
+        for (name, _, _, bearing), force in zip(system.bearings, axial_forces, strict=True)
+    )
+
+
+def isolated_period(system: System, axial_forces: FloatArray) -> float:
+    """Return the period of the mass that the bearings carry as one pendulum [s]."""
+    lengths = np.array([bearing.effective_radius for _, _, _, bearing in system.bearings])
+    if system.gravity <= 0.0 or not axial_forces.sum() > 0.0:
+        return math.inf
+    stiffness = float((axial_forces / lengths).sum())
+    return 2.0 * math.pi * math.sqrt(axial_forces.sum() / system.gravity / stiffness)
+
+
+def held_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
+    """Return the periods of the structure with its bearings and plates held, longest first [s].
+
+    Parameters
+    ----------
+    omega2, mass : ndarray, (n_e,)
+        Squared circular frequencies and masses of the fixed-interface modes.
+
+    Returns
+    -------
+    tuple of float
+        Of the modes with mass.
+    """
+    modes = np.sort(omega2[(mass > 0.0) & (omega2 > 0.0)])
+    return tuple((2.0 * math.pi / np.sqrt(modes)).tolist())
+
+
+def doubts(system: System, axial_forces: FloatArray, periods: tuple[float, ...]) -> tuple[str, ...]:
+    """Return what is strange about a frame in equilibrium, a sentence each.
+
+    Parameters
+    ----------
+    system : System
+        The frame.
+    axial_forces : ndarray, (n_bearings,)
+        Under permanent loads, compression positive [N].
+    periods : tuple of float
+        With the bearings held, longest first [s].
+
+    Returns
+    -------
+    tuple of str
+        Each names the value, what is usual, and the unit to suspect.
+
+    Raises
+    ------
+    ModelError
+        If a slider is pressed as no material can be.
+    """
+    loads = bearing_loads(system, axial_forces)
+    devices = {name: bearing for name, _, _, bearing in system.bearings}
+    return (
+        *_of_pressure(loads),
+        *_of_settlement(loads, devices),
+        *_of_design_loads(loads, devices),
+        *_of_density(system, axial_forces),
+        *_of_periods(periods, isolated_period(system, axial_forces)),
+    )
+
+
+def _of_pressure(loads: tuple[BearingLoad, ...]) -> list[str]:
+    most = max(loads, key=lambda load: load.pressure)
+    if most.pressure > LARGEST_PRESSURE:
+        message = (
+            f'bearing "{most.name}" carries {most.axial_force:.4g} N, {1e-6 * most.pressure:.3g} '
+            f"MPa on its slider, more than any material: {pressure_remedy(most.pressure)}"
+        )
+        raise ModelError(message)
+    middle = float(np.median([load.pressure for load in loads]))
+    if USUAL_PRESSURE[0] <= middle <= USUAL_PRESSURE[1]:
+        return []
+    return [
+        f"the sliders carry {1e-6 * middle:.3g} MPa under permanent loads (5 to 60 MPa is usual; "
+        f'"{most.name}": {most.axial_force:.4g} N): {pressure_remedy(middle)}'
+    ]
+
+
+def _of_settlement(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBearing]) -> list[str]:
+    def part(load: BearingLoad) -> float:
+        return load.settlement / devices[load.name].slider_height
+
+    most = max(loads, key=part)
+    if part(most) <= STRANGE_SHORTENING:
+        return []
+    stiffness = devices[most.name].resolved()["axial_stiffness"]
+    return [
+        f'bearing "{most.name}" settles by {1e3 * most.settlement:.3g} mm under '
+        f"{most.axial_force:.4g} N, {100.0 * part(most):.3g} % of its slider's height: look at "
+        f"the units of axial_stiffness = {stiffness:.4g} N/m (kN/mm?) and of the loads"
+    ]
+
+
+def _of_design_loads(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBearing]) -> list[str]:
+    given = [load for load in loads if devices[load.name].design_load is not None]
+    design = sum(devices[load.name].resolved()["design_load"] for load in given)
+    if not given:
+        return []
+    ratio = sum(load.axial_force for load in given) / design
+    if USUAL_LOAD_RATIO[0] <= ratio <= USUAL_LOAD_RATIO[1]:
+        return []
+    return [
+        f"the bearings carry {ratio:.3g} times their design_load ({design:.4g} N in all): look at "
+        "the units of loads and masses (t or N for kg, kN for N) and of design_load [N]"
+    ]
+
+
+def _of_density(system: System, axial_forces: FloatArray) -> list[str]:
+    spans = np.ptp(system.coordinates, axis=0)
+    if spans.min() < LEAST_SPAN or system.gravity <= 0.0:
+        return []
+    mass = float(axial_forces.sum()) / system.gravity
+    density = mass / float(spans.prod())
+    if LIGHTEST <= density <= DENSEST:
+        return []
+    what = "a weight in N for a mass in kg?" if density > DENSEST else "t for kg, kN for N?"
+    return [
+        f"the bearings carry {mass:.4g} kg on {spans[0]:.3g} x {spans[1]:.3g} x {spans[2]:.3g} m, "
+        f"{density:.3g} kg/m3 (buildings have 100 to 600): look at the units of the masses ({what})"
+    ]
+
+
+def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
+    if not periods or periods[0] <= max(isolated, 1.0):
+        return []
+    return [
+        f"the structure with its bearings held has a period of {periods[0]:.3g} s, the isolation "
+        f"{isolated:.3g} s: look at the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) and "
+        "mass (N for kg)"
+    ]
+
+
+def motion_doubts(frame: FrameContents, motion: GroundMotion) -> tuple[str, ...]:
+    """Return what is strange about a motion under a frame, a sentence each.
+
+    Parameters
+    ----------
+    frame : Frame
+        The model.
+    motion : GroundMotion
+        The motion.
+
+    Returns
+    -------
+    tuple of str
+        Whether it is stronger than any ground, or too weak for the bearings to slide.
+    """
+    peak = float(np.hypot(*motion.components[:, :2].T).max())
+    if peak > STRONG_GROUND:
+        return (
+            f"the motion's horizontal peak is {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, "
+            f"above all that was recorded: {meant(peak, 'm/s2', ACCELERATIONS, 0.2, 20.0)}",
+        )
+    least = min(
+        (
+            sum(law.f_min * r for law, r in zip(b.frictions, b.radii, strict=True))
+            / b.effective_radius
+            for b in (link.bearing for link in frame.bearings.values())
+        ),
+        default=0.0,
+    )
+    if FEEBLE < peak < 0.5 * least * frame.gravity:
+        return (
+            f"the motion's horizontal peak is {peak:.3g} m/s2 = {peak / STANDARD_GRAVITY:.2g} g, "
+            f"less than half of what friction holds ({least:.3g} g): the bearings hardly slide; "
+            f"a motion is given in m/s2 ({peak:.3g} g would be "
+            f"{peak * STANDARD_GRAVITY:.3g} m/s2)",
+        )
+    return ()
+
+
+def check_analysis(model: object, motion: object) -> None:
+    """Refuse what cannot be analysed, and warn of what was probably not meant.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    motion : GroundMotion
+        The motion.
+
+    Raises
+    ------
+    TypeError
+        If model and motion are not what they should be, or swapped.
+
+    Warns
+    -----
+    ModelWarning
+        On a motion that is stronger or weaker than what was probably meant.
+    """
+    if isinstance(model, GroundMotion) and isinstance(motion, FrameContents):
+        msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
+        raise TypeError(msg)
+    if not isinstance(model, FrameContents):
+        msg = f"model = {model!r} must be a Frame: time_history(model, motion)"
+        raise TypeError(msg)
+    if not isinstance(motion, GroundMotion):
+        shape = getattr(motion, "shape", None)
+        given = repr(motion) if shape is None else f"an array of shape {shape}"
+        msg = f"motion = {given} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
+        raise TypeError(msg)
+    for doubt in motion_doubts(model, motion):
+        warnings.warn(doubt, ModelWarning, stacklevel=3)

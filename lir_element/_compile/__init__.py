@@ -1,0 +1,1 @@
+"""Compiled kernels: their decorator, the cache on disk, linking, progress."""

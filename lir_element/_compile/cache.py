@@ -1,0 +1,305 @@
+"""Compiled kernels kept on disk: never a stale one, and no failure of the disk ends a run.
+
+numba's own cache does not notice an edit in a *callee* of another file, and where its folder cannot
+be written it takes another one, which the hash of the sources does not name. Here a kernel is kept
+under the hash of all sources that it may depend on (`_sources`), by its types with the names of
+their fields, behind a checksum. Whatever goes wrong (no folder, no space, a damaged file, sources
+edited since) means compiling in memory, with one warning. What is not kept there may have come with
+the wheel (`shipped`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import pickle  # noqa: S403  # what this program has written, behind a checksum
+import sys
+import uuid
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import llvmlite
+import numba
+from numba.core.caching import NullCache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+from numba.core.types.containers import BaseNamedTuple, BaseTuple
+
+from lir_element._compile import shipped
+from lir_element._compile.sources import compiled_sources
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
+"""What else the code depends on, beside the processor."""
+
+_DIGEST = hashlib.sha256().digest_size
+_UNREADABLE = (pickle.PickleError, AttributeError, EOFError, ImportError, LookupError, TypeError,
+               ValueError)  # fmt: skip
+_said: set[str] = set()
+
+taken: set[Path] = set()
+"""Files that this process took kernels from."""
+
+_parts: dict[Path, Any] = {}  # that this process took from files, so that each is there once
+
+
+def cache_folder() -> Path | None:
+    """Return the folder of all caches: LIR_CACHE_DIR, or one at home; None without a home."""
+    try:
+        chosen = os.environ.get("LIR_CACHE_DIR")
+        base = Path(chosen).expanduser() if chosen else Path.home() / ".cache" / "lir-dcfp"
+        return base.absolute()
+    except (OSError, RuntimeError):  # no home, or a working directory that is gone
+        return None
+
+
+def fields_of(signature: Any) -> tuple[tuple[str, ...], ...]:
+    """Return the names of the fields of all bundles in a signature, in the order of their places.
+
+    numba tells bundles apart by the name of their class and the types in it. A kernel has the
+    places of the fields in its code, and so is stale once two of one type change places. (Of a
+    record numba names fields and places itself.)
+
+    Parameters
+    ----------
+    signature : tuple of types, or Signature
+        Of a kernel.
+
+    Returns
+    -------
+    tuple of tuple of str
+        Names by bundle, those in bundles included.
+    """
+    found: list[tuple[str, ...]] = []
+    new = list(getattr(signature, "args", signature))[::-1]
+    while new:
+        kind = new.pop()
+        if isinstance(kind, BaseNamedTuple):
+            found.append((kind.instance_class.__qualname__, *kind.instance_class._fields))
+        if isinstance(kind, BaseTuple):
+            new += list(kind)[::-1]
+    return tuple(found)
+
+
+class Sources:
+    """The sources that the kernels of some packages depend on, as this process found them.
+
+    Parameters
+    ----------
+    *folders : Path
+        The packages.
+    """
+
+    def __init__(self, *folders: Path) -> None:
+        self.paths = compiled_sources(*folders)
+        self._stamps = self._look()
+        self.hash = self._digest()
+        self._same = True
+
+    def _look(self) -> list[tuple[int, int]]:
+        stats = [path.stat() for _, path in self.paths]
+        return [(stat.st_mtime_ns, stat.st_size) for stat in stats]
+
+    def _digest(self) -> str:
+        digest = hashlib.sha256()
+        for folder, path in self.paths:
+            digest.update(path.relative_to(folder).as_posix().encode())
+            digest.update(path.read_bytes())
+        return digest.hexdigest()[:16]
+
+    def unchanged(self) -> bool:
+        """Return whether the files on disk are still those of the hash."""
+        try:
+            stamps = self._look()
+            if stamps != self._stamps:
+                self._stamps, self._same = stamps, self._digest() == self.hash
+        except OSError:
+            self._same = False
+        return self._same
+
+    def folder(self) -> Path | None:
+        """Return the folder that holds what belongs to these sources; None without a home."""
+        base = cache_folder()
+        return None if base is None else base / self.hash
+
+
+def keep(path: Path | None, content: bytes) -> bool:
+    """Write a file of the cache: all of it or nothing.
+
+    Parameters
+    ----------
+    path : Path or None
+        The file; None where there is no folder for it.
+    content : bytes
+        What it shall hold.
+
+    Returns
+    -------
+    bool
+        Whether it is kept. If not, the first time a warning says why and names the remedy.
+    """
+    if path is None:
+        _warn("cannot be kept: this user has no home folder", again=True)
+        return False
+    partial = path.with_name(f"{path.name}.{uuid.uuid4().hex[:12]}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial.write_bytes(content)
+        partial.replace(path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            partial.unlink()
+        _warn(f"cannot be kept in {path.parent} ({error.strerror or error})", again=True)
+        return False
+    return True
+
+
+def _content(path: Path) -> bytes | None:
+    # What a file of the cache holds; None if there is none, or (with a warning) none to be read.
+    try:
+        return path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
+        return None
+
+
+def _warn(what: str, again: bool) -> None:
+    # Once a process and kind of trouble: a run may compile a hundred kernels.
+    kind = "again" if again else what
+    if kind in _said:
+        return
+    _said.add(kind)
+    cost = ", so that every start compiles them again" if again else ""
+    warnings.warn(
+        f"compiled kernels {what}{cost}. Set LIR_CACHE_DIR to a folder that can be written and has "
+        "some 200 MB free.",
+        RuntimeWarning,
+        stacklevel=2,
+    )
+
+
+def _opened(key: tuple[Any, ...] | None, content: bytes) -> Any:
+    # What is kept, or None if the file is damaged or another kernel's (None: any kernel's).
+    if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
+        return None
+    try:
+        known, reduced = pickle.loads(content[_DIGEST:])  # noqa: S301  # written here
+    except _UNREADABLE:
+        return None
+    return reduced if key in {None, known} else None
+
+
+def _part_in(
+    path: Path, context: Any, rebuilt: Any, key: tuple[Any, ...] | None = None, digest: Any = None
+) -> Any:
+    # The part that a file holds, and all below; None if that is not there. The digest tells that
+    # it is what its caller was compiled with: names in the code differ from process to process.
+    part = _parts.get(path)
+    if part is None:
+        content = _content(path)
+        if content is None or digest not in {None, content[:_DIGEST]}:
+            return None
+        reduced = _opened(key, content)
+        if reduced is None:
+            _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
+            return None
+
+        def below(name: str, of: bytes) -> Any:
+            return _part_in(path.parent.parent / name, context, rebuilt, None, of)
+
+        part = rebuilt(context, reduced, below)
+        if part is None:
+            return None
+        part.library.kept = (f"{path.parent.name}/{path.name}", content[:_DIGEST])
+        _parts[path] = part
+    return part if digest in {None, part.library.kept[1]} else None
+
+
+class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
+    """Where one kernel is looked for before it is compiled, and kept afterwards.
+
+    Parameters
+    ----------
+    function : callable
+        The kernel as Python.
+    sources : Sources
+        What it may depend on.
+    rebuilt : callable, optional
+        Makes a part (`_parts`) of what was kept of it.
+    """
+
+    def __init__(self, function: Any, sources: Sources, rebuilt: Any = None) -> None:
+        self._name = f"{function.__module__}.{function.__qualname__}"
+        self._sources = sources
+        self._rebuilt = rebuilt
+        self.as_part = False  # whether it is the part that is looked for
+
+    @property
+    def cache_path(self) -> str | None:
+        """The folder of the kernel's file; None without a home."""
+        folder = self._sources.folder()
+        return None if folder is None else str(folder)
+
+    def _key(self, signature: Any, processor: Any) -> tuple[Any, ...]:
+        key = (self._name, signature, fields_of(signature), processor, VERSIONS)
+        return (*key, "part") if self.as_part else key
+
+    def _path(self, key: tuple[Any, ...], folder: Path | None) -> Path | None:
+        code = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
+        return None if folder is None else folder / f"{self._name}-{code}.kernel"
+
+    def _places(self, signature: Any, codegen: Any) -> Iterator[tuple[tuple[Any, ...], Path]]:
+        # Keys and files that may hold the kernel, the best first.
+        processor = codegen.magic_tuple()
+        for target, folder in (
+            (processor, self._sources.folder()),
+            (shipped.shipped_for(processor), shipped.FOLDER / self._sources.hash),
+        ):
+            key = self._key(signature, target)
+            path = None if target is None else self._path(key, folder)
+            if path is not None:
+                yield key, path
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the compiled kernel for a signature, or None if it has to be compiled."""
+        target_context.refresh()  # 0.2 s, once: C's calling convention needs it
+        if not self._sources.unchanged():
+            return None
+        if self.as_part:
+            return self._load_part(sig, target_context)
+        for key, path in self._places(sig, target_context.codegen()):
+            content = _content(path)
+            if content is None:
+                continue
+            reduced = _opened(key, content)
+            if reduced is not None:
+                taken.add(path)
+                return CompileResult._rebuild(target_context, *reduced)
+            _warn(f"in {path.parent}: damaged files, compiled anew", again=False)
+        return None
+
+    def _load_part(self, sig: Any, context: Any) -> Any:
+        key = self._key(sig, context.codegen().magic_tuple())
+        path = self._path(key, self._sources.folder())
+        return None if path is None else _part_in(path, context, self._rebuilt, key=key)
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a compiled kernel, if it may be kept and there is room for it."""
+        lasting = not data.library.has_dynamic_globals and not data.lifted
+        if "again" in _said or not lasting or not self._sources.unchanged():
+            return
+        reduced = data.library.reduced(data) if self.as_part else data._reduce()
+        if reduced is None:
+            return
+        key = self._key(sig, data.codegen.magic_tuple())
+        path = self._path(key, self._sources.folder())
+        content = dumps((key, reduced))
+        digest = hashlib.sha256(content).digest()
+        if keep(path, digest + content) and path and self.as_part:
+            data.library.kept = (f"{path.parent.name}/{path.name}", digest)

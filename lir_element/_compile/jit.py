@@ -1,0 +1,131 @@
+"""The one decorator for compiled kernels: typed, no fastmath, cached under the sources' hash.
+
+Kernels allocate nothing, so they count no references to their arrays either (`_nrt=False`): whoever
+calls them holds these. The counting, atomic, took half of a step of the time loop.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+
+import numba
+from numba.core import config, event, sigutils
+from numba.core.ccallback import CFunc
+
+from lir_element._compile.cache import KernelCache, Sources, cache_folder
+from lir_element._compile.progress import Progress
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+F = TypeVar("F", bound="Callable[..., object]")
+
+OWN = Sources(Path(__file__).parents[1])
+"""What the kernels of this package depend on."""
+
+
+WITH_PARTS = numba.__version__.startswith("0.68.")
+"""Whether this numba is one whose inside is known: else kernels take twice as long to compile."""
+
+if WITH_PARTS:
+    from lir_element._compile.linking import KernelDispatcher, rebuilt_part
+
+
+class KernelDecorator(Protocol):
+    """A decorator that keeps the signature of what it compiles."""
+
+    def __call__(self, function: F) -> F:
+        """Return the compiled `function`."""
+        ...
+
+
+def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> KernelDecorator:
+    """Make a decorator that compiles the kernels of some packages.
+
+    Parameters
+    ----------
+    sources : Sources
+        What the kernels depend on, by which they are kept on disk.
+    inline : bool
+        Whether a kernel becomes part of those that call it: for kernels that pass bundles of many
+        arrays on, whose every call would otherwise cost as much as a small kernel's work.
+    counts : bool
+        Whether a kernel counts references: for those that make arrays of addresses (`carray`).
+
+    Returns
+    -------
+    KernelDecorator
+        The decorator.
+    """
+
+    def decorate(function: F) -> F:
+        if config.DISABLE_JIT:
+            return function
+        options = {"error_model": "numpy", "nogil": True, "forceinline": inline, "_nrt": counts,
+                   "no_cfunc_wrapper": True}  # fmt: skip  # Python calls by the other wrapper
+        if WITH_PARTS:
+            options |= {"nopython": True, "boundscheck": None}  # as `njit` has it
+            compiled: Any = KernelDispatcher(function, targetoptions=options)
+            compiled._cache = KernelCache(function, sources, rebuilt_part)
+        else:
+            compiled = numba.njit(**options)(function)
+            compiled._cache = KernelCache(function, sources)
+        return cast("F", compiled)
+
+    return decorate
+
+
+def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Make a decorator that compiles a function with the calling convention of C.
+
+    Parameters
+    ----------
+    signature : str
+        Types of the result and of the arguments, such as "int32(int64)".
+
+    Returns
+    -------
+    callable
+        The decorator; what it returns has the function's `address`. It compiles at once (or takes
+        the code from the cache).
+    """
+    types = sigutils.normalize_signature(signature)
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        compiled: Any = CFunc(function, types, locals={}, options={"error_model": "numpy"})
+        compiled._cache = KernelCache(function, OWN)
+        compiled.compile()
+        return compiled
+
+    return decorate
+
+
+kernel = kernels_of(OWN)
+"""The kernel decorator of this package."""
+
+counting = kernels_of(OWN, counts=True)
+"""The same for kernels that make arrays of addresses (see `kernels_of`)."""
+
+inlined = kernels_of(OWN, inline=True)
+"""The same for kernels that become part of their callers (see `kernels_of`)."""
+
+expanded: KernelDecorator = numba.njit(inline="always")
+"""For kernels that are part of one other, or stand for an expression: put there before typing.
+
+Nothing is compiled for themselves: a chain of `inlined` ones is optimised and made machine code at
+each of its links, all that is below included. They may give back what compiled functions cannot
+return: a bundle of records.
+"""
+
+
+def _ours(dispatcher: Any) -> bool:
+    return isinstance(getattr(dispatcher, "_cache", None), KernelCache)
+
+
+def _where() -> str:
+    folder = cache_folder()
+    return f"they are kept in {folder}" if folder else "there is no home to keep them in"
+
+
+event.register("numba:compile", Progress(_ours, _where))

@@ -1,0 +1,303 @@
+"""Kernels that other kernels call: kept as code to be linked, machine code only of what is called.
+
+numba optimises each function and makes it machine code, and does so again inside of each that calls
+it. Here a kernel that a kernel calls stays a part: as it was lowered, with no wrapper and no
+address, until one that Python or C calls takes it in and is optimised as one piece. No optimisation
+changes the order of sums, so that bits are the same. This goes by numba's inside: it is imported
+only with a version that is known to have it (`jit.py`).
+"""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import llvmlite.binding as llvm
+from numba.core import compiler, sigutils
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
+from numba.core.registry import CPUDispatcher
+from numba.core.runtime import rtsys
+from numba.core.types.misc import unliteral
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+
+class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
+    """The code of one kernel as it was lowered, and the libraries of what it calls."""
+
+    kept: tuple[str, bytes] | None = None
+    """Name and digest of the file that it is kept in."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        """Take code in as it is."""
+        ll_module.data_layout = self._codegen._data_layout
+        self._final_module.link_in(ll_module)
+
+    def finalize(self) -> None:
+        """Close the library: nothing is optimised, nothing made machine code."""
+        self._finalize_dynamic_globals()
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == llvm.Linkage.external:
+                function.linkage = "linkonce_odr"  # taken in by whoever calls it, once
+        self._finalized = True
+
+    def _finalize_dynamic_globals(self) -> None:
+        # Addresses that only this process knows; those of kernels are named and never read.
+        super()._finalize_dynamic_globals()
+        names: list[str] = self._dynamic_globals  # type: ignore[has-type]
+        self._dynamic_globals = [n for n in names if int(n.split(".")[3], 16) not in _kernels]
+
+    def below(self) -> list[Any]:
+        """Return the libraries that it calls."""
+        return list(dict.fromkeys(self._linking_libraries))
+
+    def reduced(self, result: Any) -> tuple[Any, ...] | None:
+        """Return the part in a form that can be kept; None if something below is not kept.
+
+        Parameters
+        ----------
+        result : CompileResult
+            Of the part.
+
+        Returns
+        -------
+        tuple or None
+            Its code, what it calls (parts by their files, anything else by its code), and the rest.
+        """
+        below: list[tuple[Any, ...]] = []
+        for callee in self.below():
+            if isinstance(callee, PartLibrary):
+                if callee.kept is None:
+                    return None
+                below.append(callee.kept)
+            elif callee is not rtsys.library:
+                below.append((callee.name, None, callee._get_module_for_linking().as_bitcode()))
+        fndesc = result.fndesc
+        fndesc.typemap = fndesc.calltypes = None  # as numba does: they may not be pickled
+        code = self._final_module.as_bitcode()
+        return self.name, code, below, fndesc, result.environment, result.signature
+
+    def _get_module_for_linking(self) -> Any:
+        # With all below, callers first: a function that nobody has called yet is not taken in.
+        module = self._final_module.clone()
+        for library in _callers_first(self)[1:]:
+            part = isinstance(library, PartLibrary)
+            code = library._final_module if part else library._get_module_for_linking()
+            module.link_in(code, preserve=True)
+            self._reload_init.update(library._reload_init)
+        return module
+
+
+_kernels: weakref.WeakValueDictionary[int, Any] = weakref.WeakValueDictionary()
+
+
+def _callers_first(top: PartLibrary) -> list[Any]:
+    seen: set[Any] = set()
+    order: list[Any] = []
+
+    def visit(library: Any) -> None:
+        seen.add(library)
+        if isinstance(library, PartLibrary):
+            for callee in library.below():
+                if callee not in seen:
+                    visit(callee)
+        order.append(library)
+
+    visit(top)
+    return order[::-1]
+
+
+class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
+    """The code of a kernel that Python calls: optimised once, with all parts in place."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+        self._final_module.link_in(ll_module)
+
+    def _optimize_final_module(self) -> None:
+        # Once: numba's first round finds pairs of counted references, of which kernels have none.
+        passes, builder = self._codegen._module_pass_manager()
+        passes.run(self._final_module, builder)
+
+
+class _Flags(compiler.Flags):  # type: ignore[misc]  # numba has no types
+    """Flags that are compared as fast as the dictionaries they are: typing does so all the time."""
+
+    __slots__ = ()
+
+    def __hash__(self) -> int:
+        return _FLAGS
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Flags) and self._values == other._values
+
+
+_FLAGS = hash("flags of kernels")
+
+
+class _Address:
+    """What stands for the address of a part, which has none."""
+
+
+class _KernelCompiler(_FunctionCompiler):  # type: ignore[misc]  # numba has no types
+    """Compiles one kernel: whole, or as a part."""
+
+    as_part = False
+
+    def _compile_core(self, args: Any, return_type: Any) -> Any:
+        flags = _Flags()
+        self.targetdescr.options.parse_as_flags(flags, self.targetoptions)
+        flags = self._customize_flags(flags)
+        context = self.targetdescr.target_context
+        kind = PartLibrary if self.as_part else _WholeLibrary
+        library = kind(context.codegen(), self.py_func.__qualname__)
+        if self.as_part:
+            flags.no_compile = flags.no_cpython_wrapper = flags.no_cfunc_wrapper = True
+        else:
+            library.enable_object_caching()
+        result = compiler.compile_extra(
+            self.targetdescr.typing_context,
+            context,
+            self._get_implementation(args, {}),
+            args=args,
+            return_type=return_type,
+            flags=flags,
+            locals=self.locals,
+            library=library,
+            pipeline_class=self.pipeline_class,
+        )
+        if self.as_part:
+            library.finalize()
+            result = result._replace(entry_point=_Address())
+            context.insert_user_function(result.entry_point, result.fndesc, [library])
+        else:
+            for environment in result._find_referenced_environments():
+                library.codegen.set_env(environment.env_name, environment)
+        return result
+
+
+class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no types
+    """A kernel: whole where Python calls it, a part where kernels do."""
+
+    _asked_by_kernel = False
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        _kernels[id(self)] = self
+        usual: Any = self._compiler  # type: ignore[has-type]
+        self._compiler = _KernelCompiler(
+            usual.py_func,
+            usual.targetdescr,
+            usual.targetoptions,
+            usual.locals,
+            usual.pipeline_class,
+        )
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return the signature for a kernel that calls this one; its constants are numbers."""
+        _, args = self._compiler.fold_argument_types(args, kws)
+        self._asked_by_kernel = True  # compiling holds a lock
+        try:
+            return super().get_call_template(tuple(unliteral(a) for a in args), {})
+        finally:
+            self._asked_by_kernel = False
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for a signature, unless that was done."""
+        with global_compiler_lock:
+            as_part, self._asked_by_kernel = self._asked_by_kernel, False
+            arguments = tuple(sigutils.normalize_signature(sig)[0])
+            existing = self.overloads.get(arguments)
+            if not as_part and existing and isinstance(existing.library, PartLibrary):
+                del self.overloads[arguments]  # Python calls it as well
+            before = self._compiler.as_part
+            self._compiler.as_part = self._cache.as_part = as_part
+            try:
+                with _without_collection():
+                    return super().compile(sig)
+            finally:
+                self._compiler.as_part = self._cache.as_part = before
+
+    def add_overload(self, cres: Any) -> None:
+        """Take note of what was compiled; Python sees it only if it is whole."""
+        if isinstance(cres.library, PartLibrary):
+            self.overloads[tuple(cres.signature.args)] = cres
+        else:
+            super().add_overload(cres)
+
+
+@contextmanager
+def _without_collection() -> Generator[None]:
+    """Keep Python from looking for garbage in what the compiler still needs: an eighth of its time.
+
+    Yields
+    ------
+    None
+        While it does not look.
+    """
+    looks = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if looks:
+            gc.enable()
+
+
+def rebuilt_part(
+    context: Any, reduced: tuple[Any, ...], part_of: Callable[[str, bytes], Any]
+) -> Any:
+    """Return a part from what was kept of it.
+
+    Parameters
+    ----------
+    context : object
+        numba's target context.
+    reduced : tuple
+        From `PartLibrary.reduced`.
+    part_of : callable
+        From name and digest of a file to the compiled part that is kept there, or None.
+
+    Returns
+    -------
+    CompileResult or None
+        The part; None if one below is not there any more.
+    """
+    name, code, below, fndesc, environment, signature = reduced
+    library = _library(context, name, code)
+    for known_by, digest, *rest in below:
+        if digest is None:
+            callee = _library(context, known_by, *rest)
+        else:
+            part = part_of(known_by, digest)
+            if part is None:
+                return None
+            callee = part.library
+        library.add_linking_library(callee)
+    library.add_linking_library(rtsys.library)
+    return compiler.compile_result(
+        typing_context=context.typing_context,
+        target_context=context,
+        library=library,
+        environment=environment,
+        entry_point=_Address(),
+        fndesc=fndesc,
+        type_annotation="",
+        signature=signature,
+        objectmode=False,
+        lifted=(),
+        reload_init=[],
+        referenced_envs=[],
+    )
+
+
+def _library(context: Any, name: str, code: bytes) -> PartLibrary:
+    library = PartLibrary(context.codegen(), name)
+    library._final_module = llvm.parse_bitcode(code)
+    library.finalize()
+    return library

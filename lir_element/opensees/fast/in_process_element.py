@@ -1,0 +1,125 @@
+"""The fast route: a host element whose states are determined in the model's own process."""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lir_element.layout import STATE, STATE_FIELDS
+from lir_element.opensees.block.layout import MOST_DOFS, offset_of
+from lir_element.opensees.block.responses import host_responses
+from lir_element.opensees.fast.vtable_patch import Graft, address_of, common_functions
+
+if TYPE_CHECKING:
+    import socket
+
+    from lir_element.opensees.element_memory import Hosted
+
+_HOST_RESPONSES = {"force"}
+"""Names that the host element answers by itself, from our resisting force."""
+
+
+class Grafted:
+    """A bearing in the place of a host element of the current model.
+
+    Parameters
+    ----------
+    hosted : Hosted
+        The bearing.
+    farewell : socket
+        The host element's connection, which its destructor writes to.
+
+    Raises
+    ------
+    NotPossibleError
+        If the element is not what it was in the self-test.
+    """
+
+    route = "fast"
+
+    def __init__(self, hosted: Hosted, farewell: socket.socket) -> None:
+        self.hosted = hosted
+        self.device = hosted.bearing
+        self.level = hosted.level
+        self.placement = hosted.placement
+        self._farewell = farewell
+        self._graft = Graft(hosted.tag, hosted.placement, hosted.block, hosted.messages)
+        self._set_objects()
+        self._graft.set_responses(host_responses(hosted.placement), _state_words())
+        self._graft.set_printed(
+            name=hosted.tag, type="LIRBearing", nodes=[int(n) for n in hosted.placement.nodes],
+            level=hosted.level, route=self.route,
+        )  # fmt: skip
+        self._graft.replace(_callbacks(hosted.level))
+
+    @property
+    def alive(self) -> bool:
+        """Whether OpenSees still has the element."""
+        return self._graft.alive
+
+    def response(self, name: str) -> Any:
+        """Return a response of the committed state by name."""
+        return self.hosted.response(name)
+
+    def start_recording(self, every: int) -> None:
+        """Record every so many commits from now on; 0: none."""
+        self.hosted.start_recording(every)
+
+    def recorded(self) -> tuple[Any, ...]:
+        """Return what `Hosted.recorded` does."""
+        return self.hosted.recorded()
+
+    def outcome(self) -> tuple[int, bool, float]:
+        """Return what `Hosted.outcome` does."""
+        return self.hosted.outcome()
+
+    def detach(self) -> None:
+        """Give the element its own functions back: ours end with Python, before OpenSees does."""
+        if self.alive:
+            self._graft.undo()
+            self._farewell.detach()  # stays open: to a closed end the destructor writes for ever
+
+    def release(self) -> None:
+        """Give up the connection, once the element is gone."""
+        self._farewell.close()
+
+    def _set_objects(self) -> None:
+        block, count, graft = self.hosted.block, self.hosted.placement.dofs, self._graft
+        zeros = graft.keep(np.zeros(MOST_DOFS * MOST_DOFS))
+        block["force_vector"] = graft.vector(address_of(block, "force"), count)
+        block["tangent_matrix"] = graft.matrix(address_of(block, "tangent"), count)
+        block["initial_matrix"] = graft.matrix(address_of(block, "initial"), count)
+        block["zero_matrix"] = graft.matrix(zeros.ctypes.data, count)
+
+
+def _state_words() -> list[tuple[str, int, int, bool]]:
+    rows = []
+    for field in STATE_FIELDS:
+        size = int(np.prod(field.shape, dtype=int))
+        if field.name not in _HOST_RESPONSES and size <= MOST_DOFS:
+            rows.append((field.name, offset_of(STATE, field.name) // 8, size, field.kind == "i8"))
+    return rows
+
+
+@functools.cache
+def _callbacks(level: str) -> dict[str, int]:
+    # Addresses of what stands in for each function; compiled on first use.
+    from lir_element.opensees.element_memory import entries_of
+    from lir_element.opensees.kernels import callbacks
+
+    entries = entries_of(level)
+    functions = {
+        "update": entries.update,
+        "commit_state": entries.commit_state,
+        "tangent_stiff": entries.tangent_stiff,
+        "initial_stiff": callbacks.initial_stiff,
+        "resisting_force": callbacks.resisting_force,
+        "resisting_force_with_inertia": callbacks.resisting_force,
+        "damping": callbacks.zero_matrix,
+        "mass": callbacks.zero_matrix,
+        "revert_to_last_commit": callbacks.revert_to_last_commit,
+        "revert_to_start": callbacks.revert_to_start,
+    }
+    return {name: each.address for name, each in functions.items()} | common_functions()
