@@ -192,8 +192,12 @@ def variables(history: xr.Dataset, rig: xr.Dataset) -> list[str]:
     first, others = [], []
     for name in history.data_vars:
         variable = history[name]
-        row = [code(name), ", ".join(map(str, variable.dims)) or "-",
-               str(variable.attrs["units"]), str(variable.attrs["long_name"])]  # fmt: skip
+        row = [
+            code(name),
+            ", ".join(map(str, variable.dims)) or "-",
+            str(variable.attrs["units"]),
+            str(variable.attrs["long_name"]),
+        ]
         (first if name in rig else others).append(row)
     own = [name for name in rig.data_vars if name not in history]
     if any(str(name) != "time" for name in own):
@@ -264,21 +268,37 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
     for recover in (member_forces, storey_forces, support_reactions):
         calls[f"{recover.__name__}(model, data)"] = recover(model, history)
     rows = [
-        [code(call), ", ".join(map(str, values.dims)), str(values.attrs["units"]),
-         str(values.attrs["long_name"])]
+        [
+            code(call),
+            ", ".join(map(str, values.dims)),
+            str(values.attrs["units"]),
+            str(values.attrs["long_name"]),
+        ]
         for call, values in calls.items()
-    ]  # fmt: skip
+    ]
     rows += [
-        [code("energy_error(data)"), "-", "1",
-         "largest gap of the energy ledger over the largest input"],
+        [
+            code("energy_error(data)"),
+            "-",
+            "1",
+            "largest gap of the energy ledger over the largest input",
+        ],
         [code("envelope(values)"), "without time", "-", "extremes of a history, and their times"],
-        [code("envelope(data, variable)"), "without time", "-",
-         "the same of a variable, over all steps where the recording kept extremes"],
-        [code("force_tables(model, data)"), "tables", "N, N m",
-         "envelopes of member forces, storey forces and reactions; `write_tables` writes them"],
+        [
+            code("envelope(data, variable)"),
+            "without time",
+            "-",
+            "the same of a variable, over all steps where the recording kept extremes",
+        ],
+        [
+            code("force_tables(model, data)"),
+            "tables",
+            "N, N m",
+            "envelopes of member forces, storey forces and reactions; `write_tables` writes them",
+        ],
         [code("peaks(data)"), "table", "-", "what was reached, when and where"],
         [code("summary({name: data})"), "table", "-", "peaks of several results side by side"],
-    ]  # fmt: skip
+    ]
     head = ("function of `frames`", "dimensions", "unit", "meaning")
     return ["### Read off a time history", "", *table(head, rows)]
 
@@ -294,8 +314,10 @@ def reached() -> list[str]:
         rows.append([code(f"{REACHED}{name}_left"), ", ".join(dims), unit, f"{meaning}, left"])
     for name, (dims, unit, meaning, _) in TOTALS.items():
         rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, meaning])
-    rows += [[code(f"{REACHED}until"), "-", "s", "time of the last base step"],
-             [code(f"{REACHED}line_storey"), "line", "-", "storey of a line of nodes"]]  # fmt: skip
+    rows += [
+        [code(f"{REACHED}until"), "-", "s", "time of the last base step"],
+        [code(f"{REACHED}line_storey"), "line", "-", "storey of a line of nodes"],
+    ]
     head = ("variable", "dimensions", "unit", "meaning")
     return [
         "### Kept of all base steps by a recording that leaves something out",
@@ -335,10 +357,15 @@ def _failed(status: RunStatus) -> str:
 def responses() -> list[str]:
     """Return the table of the responses of an element."""
     rows = [
-        [code(f.name), str(f.shape) if f.shape else "-", f.unit, code(f.symbol) if f.symbol else "",
-         f.meaning]
+        [
+            code(f.name),
+            str(f.shape) if f.shape else "-",
+            f.unit,
+            code(f.symbol) if f.symbol else "",
+            f.meaning,
+        ]
         for f in STATE_FIELDS
-    ]  # fmt: skip
+    ]
     head = ("response", "shape", "unit", "symbol", "meaning")
     return ["## Responses of an `Element`", "", *table(head, rows)]
 
@@ -347,10 +374,16 @@ def generated() -> str:
     """Return the generated part of the page."""
     model, history, rig, failed = runs()
     parts = (
-        ["## Datasets"], variables(history, rig), coordinates(history), energies(history),
-        derived(model, history), reached(), attributes(history, rig, failed), statuses(),
+        ["## Datasets"],
+        variables(history, rig),
+        coordinates(history),
+        energies(history),
+        derived(model, history),
+        reached(),
+        attributes(history, rig, failed),
+        statuses(),
         responses(),
-    )  # fmt: skip
+    )
     return "\n\n".join("\n".join(part) for part in parts)
 
 

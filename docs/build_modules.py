@@ -47,8 +47,11 @@ def section(folder: Path, rooms: list[Path]) -> list[str]:
         name = room.relative_to(ROOT).as_posix()
         if room != folder:
             used = sorted(set().union(*(imports(file) for file in files)) - {name})
-            lines += ["", f"**`{name}/`**: {job(room / '__init__.py')}. "
-                      f"Imports from {', '.join(f'`{other}`' for other in used)}."]  # fmt: skip
+            lines += [
+                "",
+                f"**`{name}/`**: {job(room / '__init__.py')}. "
+                f"Imports from {', '.join(f'`{other}`' for other in used)}.",
+            ]
         lines += ["", "| module | job |", "|---|---|"]
         lines += [f"| `{file.stem}` | {job(file)} |" for file in files]
     return lines

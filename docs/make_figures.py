@@ -74,13 +74,20 @@ def hysteresis() -> Figure:
         panels[1].axhline(sign * limit, color=RED, linewidth=0.8, linestyle="--")
     panels[1].text(-190.0, limit + 0.012, FORCE_LIMIT, color=RED, fontsize=8.5, va="bottom")
     panels[1].set_ylim(-0.31, 0.31)
-    notes = (("1st slip: +175 mm", (175.0, 0.205), (60.0, 0.225), "right"),
-             ("2nd slip: −165 mm", (-165.0, -0.205), (-60.0, -0.225), "left"))  # fmt: skip
+    notes = (
+        ("1st slip: +175 mm", (175.0, 0.205), (60.0, 0.225), "right"),
+        ("2nd slip: −165 mm", (-165.0, -0.205), (-60.0, -0.225), "left"),
+    )
     for text, point, place, side in notes:
         panels[1].annotate(
-            text, point, place, fontsize=8.5, ha=side, va="center",
+            text,
+            point,
+            place,
+            fontsize=8.5,
+            ha=side,
+            va="center",
             arrowprops={"arrowstyle": "->", "linewidth": 0.7, "shrinkB": 3.0},
-        )  # fmt: skip
+        )
     return figure
 
 
@@ -90,38 +97,77 @@ class Drawing:
     def __init__(self, ax: Axes) -> None:
         self.ax = ax
 
-    def arrow(self, start: NDArray[Any], end: NDArray[Any], colour: str, width: float = 1.6,
-              style: str = "-|>") -> None:  # fmt: skip
+    def arrow(
+        self,
+        start: NDArray[Any],
+        end: NDArray[Any],
+        colour: str,
+        width: float = 1.6,
+        style: str = "-|>",
+    ) -> None:
         """Draw an arrow between two points."""
-        shape = {"arrowstyle": style, "color": colour, "linewidth": width, "shrinkA": 0.0,
-                 "shrinkB": 0.0, "mutation_scale": 11.0}  # fmt: skip
+        shape = {
+            "arrowstyle": style,
+            "color": colour,
+            "linewidth": width,
+            "shrinkA": 0.0,
+            "shrinkB": 0.0,
+            "mutation_scale": 11.0,
+        }
         self.ax.annotate("", end, start, arrowprops=shape, zorder=6)
 
-    def line(self, start: NDArray[Any], end: NDArray[Any], colour: str, style: Any = "-",
-             width: float = 0.9) -> None:  # fmt: skip
+    def line(
+        self,
+        start: NDArray[Any],
+        end: NDArray[Any],
+        colour: str,
+        style: Any = "-",
+        width: float = 0.9,
+    ) -> None:
         """Draw a line between two points."""
-        self.ax.plot([start[0], end[0]], [start[1], end[1]], color=colour, linestyle=style,
-                     linewidth=width, zorder=4)  # fmt: skip
+        self.ax.plot(
+            [start[0], end[0]],
+            [start[1], end[1]],
+            color=colour,
+            linestyle=style,
+            linewidth=width,
+            zorder=4,
+        )
 
     def dot(self, point: NDArray[Any], colour: str = "black", size: float = 5.0) -> None:
         """Mark a point."""
         self.ax.plot(*point, "o", color=colour, markersize=size, zorder=7)
 
-    def text(self, x: float, z: float, words: str, colour: str = "black", *, side: str = "left",
-             size: float = SIZE, back: bool = False) -> None:  # fmt: skip
+    def text(
+        self,
+        x: float,
+        z: float,
+        words: str,
+        colour: str = "black",
+        *,
+        side: str = "left",
+        size: float = SIZE,
+        back: bool = False,
+    ) -> None:
         """Write a label; with a white ground where lines pass behind it."""
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0} if back else None
-        self.ax.text(x, z, words, color=colour, fontsize=size, ha=side, va="center", bbox=box,
-                     zorder=8)  # fmt: skip
+        self.ax.text(
+            x, z, words, color=colour, fontsize=size, ha=side, va="center", bbox=box, zorder=8
+        )
 
 
 def drawn_bearing() -> tuple[LIRBearing, Posture]:
     """Return a bearing with visible proportions, its slider on the bottom rim, and its posture."""
     height, radius, rim = 0.14, 0.36, 0.095
     bearing = LIRBearing(
-        radius=radius, slider_height=height, slider_radius=0.07, rims=(rim, 0.13),
-        friction=CoulombFriction(0.05), interface_friction=0.12, plate_thickness=0.35 * height,
-    )  # fmt: skip
+        radius=radius,
+        slider_height=height,
+        slider_radius=0.07,
+        rims=(rim, 0.13),
+        friction=CoulombFriction(0.05),
+        interface_friction=0.12,
+        plate_thickness=0.35 * height,
+    )
     sine, tilt = rim / radius, np.deg2rad(4.0)
     return bearing, Posture(
         axis=np.array([-sine, np.sqrt(1.0 - sine**2)]),

@@ -15,13 +15,25 @@ import scipy
 from lir_element.results.dataset import package_version
 
 NUMERICAL = (
-    "lir_element/*.py", "lir_element/bundles/**/*.py", "lir_element/device/**/*.py",
-    "lir_element/kernels/**/*.py", "lir_element/results/**/*.py", "frames/*.py",
-    "frames/assembly/**/*.py", "frames/batch/**/*.py", "frames/kernels/**/*.py",
-    "frames/library/**/*.py", "frames/model/**/*.py", "frames/motion/**/*.py",
-    "frames/recording/**/*.py", "frames/results/**/*.py", "frames/solve/**/*.py",
-    "frames/statics/**/*.py", "frames/risk/campaign/batches.py", "frames/risk/campaign/designs.py",
-)  # fmt: skip
+    "lir_element/*.py",
+    "lir_element/bundles/**/*.py",
+    "lir_element/device/**/*.py",
+    "lir_element/kernels/**/*.py",
+    "lir_element/results/**/*.py",
+    "frames/*.py",
+    "frames/assembly/**/*.py",
+    "frames/batch/**/*.py",
+    "frames/kernels/**/*.py",
+    "frames/library/**/*.py",
+    "frames/model/**/*.py",
+    "frames/motion/**/*.py",
+    "frames/recording/**/*.py",
+    "frames/results/**/*.py",
+    "frames/solve/**/*.py",
+    "frames/statics/**/*.py",
+    "frames/risk/campaign/batches.py",
+    "frames/risk/campaign/designs.py",
+)
 """Patterns of the sources that the numbers of a time history depend on."""
 
 CITATION = "The lir-dcfp developers: lir-dcfp, seismic isolation with the LIR-DCFP bearing"

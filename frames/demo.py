@@ -187,8 +187,10 @@ def run(output: Path, scale: float, *, quick: bool = False) -> dict[str, xr.Data
     motion = pacoima(scale)
     output.mkdir(parents=True, exist_ok=True)
     _introduce(console, motion, scale)
-    console.say("preparing the bearings; the first run compiles the kernels (20 to 60 s, kept "
-                "for later runs)")  # fmt: skip
+    console.say(
+        "preparing the bearings; the first run compiles the kernels (20 to 60 s, kept "
+        "for later runs)"
+    )
     bearings = design()
     variants = systems_of(bearings)
     models = {name: moment_frame(bearing=b, name=name) for name, b in variants.items()}
@@ -237,8 +239,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _introduce(console: Console, motion: GroundMotion, scale: float) -> None:
     peaks = ", ".join(f"{axis} {p / STANDARD_GRAVITY:.2f} g" for axis, p in motion.peak.items())
     console.say(f"{motion.name}, San Fernando earthquake: {motion.duration:.1f} s, times {scale:g}")
-    console.say(f"peak ground acceleration {peaks}; the channel DWN is positive downwards: its "
-                "sign is turned, that of y with it")  # fmt: skip
+    console.say(
+        f"peak ground acceleration {peaks}; the channel DWN is positive downwards: its "
+        "sign is turned, that of y with it"
+    )
     if scale == DEFAULT_SCALE:
         console.say(
             "scale 0.8: up to 0.7 the rims are hardly met; at 0.9 the LIR-DCFP slips off its "
@@ -254,8 +258,10 @@ def _describe(console: Console, bearings: Mapping[Place, LIRBearing]) -> None:
             f"{label} bearing: {load / 1e3:.0f} kN on a slider of {1e3 * bearing.slider_radius:.0f}"
             f" mm radius, rims at {1e3 * bearing.lateral_capacity:.0f} mm"
         )
-    console.say(f"mass {sum(b.resolved()['design_load'] for b in bearings.values()) / 9806.65:.0f}"
-                " t, 3 storeys, 2 x 2 bays, 2 % modal damping")  # fmt: skip
+    console.say(
+        f"mass {sum(b.resolved()['design_load'] for b in bearings.values()) / 9806.65:.0f}"
+        " t, 3 storeys, 2 x 2 bays, 2 % modal damping"
+    )
 
 
 def _strong_part(data: xr.Dataset) -> float:

@@ -78,7 +78,7 @@ COUNTS = dtype_of(COUNT_FIELDS)
 LEDGER = dtype_of(tuple(Field(term, "J", "", "term of the energy") for term in ENERGY_TERMS))
 
 
-class Model(NamedTuple):
+class ReducedModel(NamedTuple):
     """The frame in bearing coordinates, and its bearings."""
 
     mass_b: Array
@@ -102,7 +102,7 @@ class Model(NamedTuple):
     values: Array
 
 
-class Run(NamedTuple):
+class IntegrationState(NamedTuple):
     """The state of a run, committed (0) and trial (1), and scratch; changed in place."""
 
     b: Array  # (n_b,) committed displacement, velocity, acceleration
@@ -173,7 +173,7 @@ class Ground(NamedTuple):
     dt: float  # between samples [s]; linear between, zero after the last
 
 
-class Setup(NamedTuple):
+class IntegratorSettings(NamedTuple):
     """Constants of the time integration."""
 
     dt: float
@@ -197,7 +197,7 @@ class Setup(NamedTuple):
     first: int  # base step that the first row of the output holds
 
 
-def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> Model:
+def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> ReducedModel:
     """Return the frame as the time loop reads it; `static_load` as in `features.apply`."""
     rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
     rows.sort_indices()
@@ -210,7 +210,7 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
     def plain(array: Array) -> Array:
         return np.ascontiguousarray(array, dtype=np.float64)
 
-    return Model(
+    return ReducedModel(
         mass_b=plain(basis.mass_b),
         mass_be=plain(basis.mass_be),
         mass_eb=plain(basis.mass_be.T),
@@ -238,7 +238,7 @@ def device_records(system: System) -> Array:
     return np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings])
 
 
-def run_arrays(model: Model) -> Run:
+def run_arrays(model: ReducedModel) -> IntegrationState:
     """Return a run at rest, bearings undeformed and unloaded."""
     n_b, n_e, count = len(model.load_b), len(model.load_e), len(model.props)
     old, new = initial_state(model.props), initial_state(model.props)
@@ -253,26 +253,67 @@ def run_arrays(model: Model) -> Run:
     sizes = MOST_HALVINGS + 1
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
-    return Run(
-        b=b(), v_b=b(), a_b=b(), mean_v_b=b(), mean_v_before=b(), e=e(), v_e=e(), a_e=e(),
-        old=old, new=new, old_words=as_rows(old), new_words=as_rows(new),
-        work=np.zeros(count, dtype=WORK), heat=heat_parts(model.props), store_at_rest=np.zeros(1),
-        push=np.zeros((count, 3)), moved=np.zeros((count, 6)),
-        own=np.zeros((count, 2)), swing=np.zeros(4), carried=np.ones(count),
-        force_old=b(), force=b(), force_before=np.zeros((2, n_b)),
-        balanced=np.zeros(1, np.int64), balance=np.zeros((n_b, n_b)),
-        tangent=np.zeros((n_b, n_b)), order=np.zeros(n_b, np.int64),
-        reduced=np.zeros((sizes, n_b, n_b)), has_reduced=np.zeros(sizes, np.int64),
+    return IntegrationState(
+        b=b(),
+        v_b=b(),
+        a_b=b(),
+        mean_v_b=b(),
+        mean_v_before=b(),
+        e=e(),
+        v_e=e(),
+        a_e=e(),
+        old=old,
+        new=new,
+        old_words=as_rows(old),
+        new_words=as_rows(new),
+        work=np.zeros(count, dtype=WORK),
+        heat=heat_parts(model.props),
+        store_at_rest=np.zeros(1),
+        push=np.zeros((count, 3)),
+        moved=np.zeros((count, 6)),
+        own=np.zeros((count, 2)),
+        swing=np.zeros(4),
+        carried=np.ones(count),
+        force_old=b(),
+        force=b(),
+        force_before=np.zeros((2, n_b)),
+        balanced=np.zeros(1, np.int64),
+        balance=np.zeros((n_b, n_b)),
+        tangent=np.zeros((n_b, n_b)),
+        order=np.zeros(n_b, np.int64),
+        reduced=np.zeros((sizes, n_b, n_b)),
+        has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),
-        follow_e=np.zeros((sizes, n_full, n_b)), lead_e=np.zeros((sizes, n_b, n_full)),
-        held=b(), flow_v=e(), flow_a=e(), flow_v_new=e(), flow_a_new=e(),
-        b_new=b(), v_b_new=b(), a_b_new=b(), e_new=e(), v_e_new=e(), a_e_new=e(),
-        rhs_b=b(), rhs_e=e(), residual=b(), step=b(), trial_b=b(),
-        h_b=b(), h_e=e(), g_b=b(), g_e=e(),
-        element_k=np.zeros((count, 12, 12)), u=np.zeros(12), v=np.zeros(12),
-        energy=energy, energy_row=energy.view(np.float64),
-        clock=np.zeros(1, dtype=CLOCK), counts=np.zeros(1, dtype=COUNTS),
-    )  # fmt: skip
+        follow_e=np.zeros((sizes, n_full, n_b)),
+        lead_e=np.zeros((sizes, n_b, n_full)),
+        held=b(),
+        flow_v=e(),
+        flow_a=e(),
+        flow_v_new=e(),
+        flow_a_new=e(),
+        b_new=b(),
+        v_b_new=b(),
+        a_b_new=b(),
+        e_new=e(),
+        v_e_new=e(),
+        a_e_new=e(),
+        rhs_b=b(),
+        rhs_e=e(),
+        residual=b(),
+        step=b(),
+        trial_b=b(),
+        h_b=b(),
+        h_e=e(),
+        g_b=b(),
+        g_e=e(),
+        element_k=np.zeros((count, 12, 12)),
+        u=np.zeros(12),
+        v=np.zeros(12),
+        energy=energy,
+        energy_row=energy.view(np.float64),
+        clock=np.zeros(1, dtype=CLOCK),
+        counts=np.zeros(1, dtype=COUNTS),
+    )
 
 
 class Output(NamedTuple):
@@ -293,13 +334,16 @@ class Output(NamedTuple):
 
 
 def output_arrays(
-    model: Model, contacts: Contacts | None, count: int, parts: tuple[int, int, int] = (0, 0, 0)
+    model: ReducedModel,
+    contacts: Contacts | None,
+    count: int,
+    parts: tuple[int, int, int] = (0, 0, 0),
 ) -> tuple[Output, Array, Array]:
     """Return arrays for `count` output steps, the bearing states and the bodies as records.
 
     Parameters
     ----------
-    model, contacts : Model, Contacts or None
+    model, contacts : ReducedModel, Contacts or None
         What is recorded.
     count : int
         Output steps.

@@ -168,9 +168,16 @@ class Element:
         """
         u, v = _twelve("displacement", displacement), _twelve("velocity", velocity)
         code = levels.bearing_trial(
-            self._props, self._committed, self._trial, self._work, self._contacts, 0, u, v,
+            self._props,
+            self._committed,
+            self._trial,
+            self._work,
+            self._contacts,
+            0,
+            u,
+            v,
             float(time),
-        )  # fmt: skip
+        )
         self._has_tangent = False
         self._pending = True
         if has_no_state(code):

@@ -23,7 +23,7 @@ MARKS = 50
 """How often progress is reported."""
 
 
-def in_pieces(
+def interruptible(
     advance: Callable[[int, int], int],
     done: Callable[[], int],
     total: int,

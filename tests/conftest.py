@@ -19,10 +19,22 @@ settings.load_profile("ci")
 
 
 PLAIN = {
-    "test_assembly", "test_axis_search", "test_bearing", "test_contact", "test_door",
-    "test_features", "test_library", "test_members", "test_model", "test_model_check",
-    "test_rotation", "test_shaking", "test_sliders", "test_slip", "test_superelement",
-}  # fmt: skip
+    "test_assembly",
+    "test_axis_search",
+    "test_bearing",
+    "test_contact",
+    "test_door",
+    "test_features",
+    "test_library",
+    "test_members",
+    "test_model",
+    "test_model_check",
+    "test_rotation",
+    "test_shaking",
+    "test_sliders",
+    "test_slip",
+    "test_superelement",
+}
 """Modules of tests/unit that are soon done with the kernels as plain Python, too."""
 
 

@@ -153,9 +153,13 @@ def _python(
     if not alone:
         environment["PYTHONPATH"] = str(HERE)
     return subprocess.run(  # noqa: S603  (this Python, our own files)
-        [sys.executable, *command], cwd=folder, env=environment, capture_output=True, text=True,
+        [sys.executable, *command],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
         check=False,
-    )  # fmt: skip
+    )
 
 
 def table(reviews: dict[str, Review]) -> str:

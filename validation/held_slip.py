@@ -26,20 +26,28 @@ SHARES = (0.95, 1.05)
 LEVELS = ("pendulum", "contact", "rigid_body")
 SPEED = 0.02  # m/s
 _PLAIN: dict[str, Any] = {
-    "radius": 1.0, "slider_height": 0.07, "slider_radius": 0.1, "capacity": 0.2,
-    "friction": CoulombFriction(0.07), "interface_friction": 0.08, "design_load": 3e5,
-}  # fmt: skip
+    "radius": 1.0,
+    "slider_height": 0.07,
+    "slider_radius": 0.1,
+    "capacity": 0.2,
+    "friction": CoulombFriction(0.07),
+    "interface_friction": 0.08,
+    "design_load": 3e5,
+}
 _CHANGES: dict[str, dict[str, Any]] = {
     "mu_h = 0.08, mu_e = 0.07": {},
     "unequal radii": {"radius": (0.8, 1.2)},
     "unequal frictions": {"friction": (CoulombFriction(0.06), CoulombFriction(0.075))},
     "friction by speed": {"friction": VelocityFriction(0.07, 0.04, 500.0)},
     "wide slider": {
-        "radius": 2.0, "slider_height": 0.15, "slider_radius": 0.25, "capacity": 0.45,
+        "radius": 2.0,
+        "slider_height": 0.15,
+        "slider_radius": 0.25,
+        "capacity": 0.45,
         "friction": CoulombFriction(0.06),
     },
     "high slider": {"slider_height": 0.12, "interface_friction": 0.09},
-}  # fmt: skip
+}
 
 
 def bearings() -> dict[str, LIRBearing]:
@@ -82,6 +90,8 @@ def rows() -> list[tuple[str, ...]]:
 
 
 HEAD = (
-    "bearing", "slip that holds [mm]", "overlap [mm]",
+    "bearing",
+    "slip that holds [mm]",
+    "overlap [mm]",
     *(part for share in SHARES for part in (f"{share:g} of it [mm]", "ends")),
-)  # fmt: skip
+)

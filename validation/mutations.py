@@ -104,9 +104,13 @@ def noticed(mutation: Mutation, copy: Path) -> str:
         for tests in mutation.tests:
             call = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", tests]
             ran = subprocess.run(  # noqa: S603
-                call, cwd=copy, capture_output=True, text=True, check=False,
+                call,
+                cwd=copy,
+                capture_output=True,
+                text=True,
+                check=False,
                 env={**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1"},
-            )  # fmt: skip
+            )
             if ran.returncode == _CAUGHT:
                 named = re.search(r"^(?:FAILED|ERROR) (\S+)", ran.stdout, re.MULTILINE)
                 return named[1] if named else tests

@@ -152,8 +152,9 @@ def above(what: str, source: str, limit: float, got: float, unit: str) -> Check:
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a table in Markdown."""
     lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |"
-                     for line in lines)  # fmt: skip
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
 
 
 def figure(claim: Claim, name: str, caption: str, suffix: str = "png") -> str:
@@ -219,44 +220,49 @@ def index(folder: Path = FOLDER) -> str:
         summary = text.split(head + "\n")[1].splitlines()[0]
         statement, rest = summary.removeprefix("| ").split(" | ", 1)
         rows.append(f"| [{statement}]({name}.md) | {rest}")
-    return "\n\n".join([
-        "# Validation: one script a claim",
-        "Written by `python -m validation`, which runs all of them; each runs alone, too "
-        "(`python -m validation.claims.static_test`). Claims that need a recorded ground motion "
-        "are "
-        "skipped where `LIR_RECORDS` names no folder that holds it: the record is not part of "
-        "this repository.",
-        head + "\n" + "\n".join(rows),
-        "Besides: [benchmark.md](benchmark.md), cost for the same accuracy, beside OpenSees "
-        "(`python -m validation.measurements.benchmark`), "
-        "[speed_error.md](speed_error.md), error over cost of every level and step in "
-        "nine scenes (`python -m validation.measurements.speed_error`), "
-        "[hard_cases.md](hard_cases.md), "
-        "what is hard to compute (`python -m validation.measurements.hard_cases`), "
-        "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
-        "(`python -m validation.measurements.opensees_hard_cases`), "
-        "[opensees_cost.md](opensees_cost.md), "
-        "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
-        "[opensees_public_models.md](opensees_public_models.md), public models on bearings in "
-        "both programs (`python -m validation.measurements.opensees_public_models`), "
-        "[slip.md](slip.md), the slip of the interface where rims are met "
-        "(`python -m validation.measurements.slip`), "
-        "[random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
-        "(`python -m validation.random_scenes`), "
-        "[yielding.md](yielding.md), random buildings that yield, each at two steps "
-        "(`python -m validation.measurements.yielding`), "
-        "[worked_building.md](worked_building.md), the design guide's building under three codes "
-        "(`python -m validation.measurements.worked_building`), "
-        "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
-        "systems (`python -m validation.measurements.yielding_comparison`), "
-        "and [study.md](study.md), the records of FEMA P695 on four devices "
-        "(`python -m validation.measurements.study`).",
-        "\"Paper\" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). "
-        "It prints its results as figures; no data of them is published, so the claims check what "
-        "its text states, and closed forms. What the tests demand besides is listed in the "
-        "[verification.md](../verification.md); speed in "
-        "[performance.md](../performance.md).",
-    ]) + "\n"  # fmt: skip
+    return (
+        "\n\n".join(
+            [
+                "# Validation: one script a claim",
+                "Written by `python -m validation`, which runs all of them; each runs alone, too "
+                "(`python -m validation.claims.static_test`). Claims that need a recorded ground motion "
+                "are "
+                "skipped where `LIR_RECORDS` names no folder that holds it: the record is not part of "
+                "this repository.",
+                head + "\n" + "\n".join(rows),
+                "Besides: [benchmark.md](benchmark.md), cost for the same accuracy, beside OpenSees "
+                "(`python -m validation.measurements.benchmark`), "
+                "[speed_error.md](speed_error.md), error over cost of every level and step in "
+                "nine scenes (`python -m validation.measurements.speed_error`), "
+                "[hard_cases.md](hard_cases.md), "
+                "what is hard to compute (`python -m validation.measurements.hard_cases`), "
+                "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
+                "(`python -m validation.measurements.opensees_hard_cases`), "
+                "[opensees_cost.md](opensees_cost.md), "
+                "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
+                "[opensees_public_models.md](opensees_public_models.md), public models on bearings in "
+                "both programs (`python -m validation.measurements.opensees_public_models`), "
+                "[slip.md](slip.md), the slip of the interface where rims are met "
+                "(`python -m validation.measurements.slip`), "
+                "[random_scenes.md](random_scenes.md), scenes by the thousand with everything unequal "
+                "(`python -m validation.random_scenes`), "
+                "[yielding.md](yielding.md), random buildings that yield, each at two steps "
+                "(`python -m validation.measurements.yielding`), "
+                "[worked_building.md](worked_building.md), the design guide's building under three codes "
+                "(`python -m validation.measurements.worked_building`), "
+                "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
+                "systems (`python -m validation.measurements.yielding_comparison`), "
+                "and [study.md](study.md), the records of FEMA P695 on four devices "
+                "(`python -m validation.measurements.study`).",
+                '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
+                "It prints its results as figures; no data of them is published, so the claims check what "
+                "its text states, and closed forms. What the tests demand besides is listed in the "
+                "[verification.md](../verification.md); speed in "
+                "[performance.md](../performance.md).",
+            ]
+        )
+        + "\n"
+    )
 
 
 def _of(unit: str) -> str:

@@ -68,8 +68,15 @@ class Outcome(NamedTuple):
 
 
 FINDINGS = (
-    "traceback", "exit code", "no remedy", "not a number", "disagrees", "hang", "crash", "strange",
-)  # fmt: skip
+    "traceback",
+    "exit code",
+    "no remedy",
+    "not a number",
+    "disagrees",
+    "hang",
+    "crash",
+    "strange",
+)
 """Outcomes that are defects."""
 
 
@@ -95,11 +102,15 @@ def sound(rng: np.random.Generator) -> Document:
         "storey_height": f"{rng.uniform(3.0, 4.0):.2f} m",
     }
     if frame:
-        structure |= {"storeys": int(rng.integers(1, 3)),
-                      "floor_load": f"{rng.uniform(600.0, 1200.0):.0f} kg/m2"}  # fmt: skip
+        structure |= {
+            "storeys": int(rng.integers(1, 3)),
+            "floor_load": f"{rng.uniform(600.0, 1200.0):.0f} kg/m2",
+        }
     else:
-        structure |= {"storey_mass": ["120 t", "110 t"],
-                      "storey_stiffness": ["400 kN/mm", "300 kN/mm"]}  # fmt: skip
+        structure |= {
+            "storey_mass": ["120 t", "110 t"],
+            "storey_stiffness": ["400 kN/mm", "300 kN/mm"],
+        }
     if rng.random() < 0.5:
         structure["eccentricity"] = [0.05, round(float(rng.uniform(0.0, 0.1)), 3)]
     radius, height = round(float(rng.uniform(1.2, 2.4)), 2), round(float(rng.uniform(160, 240)))
@@ -115,15 +126,22 @@ def sound(rng: np.random.Generator) -> Document:
         }[code],
         "motions": {"folder": "motions", "scale": round(float(rng.uniform(0.5, 1.5)), 2)},
         "bearing": {
-            "radius": f"{radius:g} m", "slider_height": f"{height} mm", "slider_radius": "150 mm",
-            "capacity": f"{rng.uniform(180.0, 260.0):.0f} mm", "friction": friction,
+            "radius": f"{radius:g} m",
+            "slider_height": f"{height} mm",
+            "slider_radius": "150 mm",
+            "capacity": f"{rng.uniform(180.0, 260.0):.0f} mm",
+            "friction": friction,
             "interface_friction": round(2.0 * friction + 0.04, 3),
         },
         "bounds": {"friction": [0.8, 1.25], "interface": [0.9, 1.1]},
         "limits": {"rim_strength": "3 MN", "interface_pressure": "80 MPa"},
-        "analysis": {"level": "pendulum", "histories": "all", "uplift_allowed": True,
-                     "bounds": ["lower", "upper"]},
-    }  # fmt: skip
+        "analysis": {
+            "level": "pendulum",
+            "histories": "all",
+            "uplift_allowed": True,
+            "bounds": ["lower", "upper"],
+        },
+    }
     if rng.random() < 0.3:
         found["bearing"]["friction"] = {"f_max": friction, "f_min": 0.02, "rate": "80 s/m"}
     return found
@@ -293,10 +311,23 @@ def bad_motion(document: Document, rng: np.random.Generator) -> str:
 
 
 MUTATIONS: tuple[Callable[[Document, np.random.Generator], str], ...] = (
-    another_unit, no_unit, thousandfold, thousandfold, thousandfold, not_finite, missing_key,
-    missing_section, misspelled, doubled, swapped, turned_bounds, another_kind, another_order,
-    another_code, bad_motion,
-)  # fmt: skip
+    another_unit,
+    no_unit,
+    thousandfold,
+    thousandfold,
+    thousandfold,
+    not_finite,
+    missing_key,
+    missing_section,
+    misspelled,
+    doubled,
+    swapped,
+    turned_bounds,
+    another_kind,
+    another_order,
+    another_code,
+    bad_motion,
+)
 """What can be put wrong; what stands several times is chosen as often."""
 
 

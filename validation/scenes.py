@@ -132,19 +132,29 @@ def recorded_scenes(folder: Path | None) -> list[Scene]:
     if folder is None:
         return scenes
     if (folder / NEWHALL).is_file():
-        scenes.append(Scene(
-            "Newhall", "the paper's example, one component of the record of 1994",
-            example_bearing(), GroundMotion.from_at2(x=folder / NEWHALL), 20.0, explicit=6.0,
-        ))  # fmt: skip
+        scenes.append(
+            Scene(
+                "Newhall",
+                "the paper's example, one component of the record of 1994",
+                example_bearing(),
+                GroundMotion.from_at2(x=folder / NEWHALL),
+                20.0,
+                explicit=6.0,
+            )
+        )
     if all((folder / file).is_file() for file in TCU065):
         x, y, z = (folder / file for file in TCU065)
         motion = GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
         motion = motion.trimmed(5.0, 25.0)
-        scenes.append(Scene(
-            "three components",
-            "Chi-Chi 1999, TCU065 times 0.62, its vertical component times 2.4",
-            example_bearing(), motion.scaled((0.62, 0.62, 2.4)), 20.0,
-        ))  # fmt: skip
+        scenes.append(
+            Scene(
+                "three components",
+                "Chi-Chi 1999, TCU065 times 0.62, its vertical component times 2.4",
+                example_bearing(),
+                motion.scaled((0.62, 0.62, 2.4)),
+                20.0,
+            )
+        )
     return scenes
 
 

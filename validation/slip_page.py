@@ -24,9 +24,11 @@ SHOWN = 12
 BOUNDS = (3.0, 5.0, 10.0)
 SPREAD = ("median", "90 % below", "worst", *(f"within {bound:g} %" for bound in BOUNDS))
 NAMES = {
-    "slip": "largest slip", "left": "slip left, over the largest",
-    "displacement": "peak displacement", "force": "force (99.9 %)",
-}  # fmt: skip
+    "slip": "largest slip",
+    "left": "slip left, over the largest",
+    "displacement": "peak displacement",
+    "force": "force (99.9 %)",
+}
 
 
 def ends_well(entry: Entry, level: str) -> bool:
@@ -52,9 +54,14 @@ def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
             e = 100.0 * np.array([one[name] for one in each])
             if len(e) == 0:
                 continue
-            rows.append((
-                f"{title} ({len(fit)})", f"`{level}`", words, *_spread(e),
-            ))  # fmt: skip
+            rows.append(
+                (
+                    f"{title} ({len(fit)})",
+                    f"`{level}`",
+                    words,
+                    *_spread(e),
+                )
+            )
     return rows
 
 
@@ -62,13 +69,14 @@ def promise(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
     """Return the scenes that are called sufficient at 'pendulum', and those that miss it."""
     sufficient = [e for e in entries if e["sufficient"]]
     missed = [
-        e for e in sufficient
+        e
+        for e in sufficient
         if ends_well(e, "pendulum") != ends_well(e, "rigid_body")
         or (
             ends_well(e, "rigid_body")
             and any(errors(e, "pendulum")[name] > most for name, most in ALLOWED.items())
         )
-    ]  # fmt: skip
+    ]
     return sufficient, missed
 
 
@@ -89,28 +97,40 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
     if not kept:
         return []
     alike = [
-        e for e in now
-        if e["number"] in kept and not e["unequal"] and not e["rigid_body"]["lifts"]
-        and ends_well(e, "rigid_body") and ends_well(e, "pendulum")
-    ]  # fmt: skip
+        e
+        for e in now
+        if e["number"] in kept
+        and not e["unequal"]
+        and not e["rigid_body"]["lifts"]
+        and ends_well(e, "rigid_body")
+        and ends_well(e, "pendulum")
+    ]
     were = [entry | {"pendulum": kept[entry["number"]]} for entry in alike]
     rows = []
     for name, words in NAMES.items():
         for title, entries in (("before", were), ("now", alike)):
             e = 100.0 * np.array([errors(entry, "pendulum")[name] for entry in entries])
-            rows.append((
-                words, title, *_spread(e),
-            ))  # fmt: skip
+            rows.append(
+                (
+                    words,
+                    title,
+                    *_spread(e),
+                )
+            )
     past = [entry for entry in now if entry["number"] in kept]
     past = [entry | {"pendulum": kept[entry["number"]]} for entry in past]
     return [
-        "## Before the sliders could spin", "",
+        "## Before the sliders could spin",
+        "",
         f"The level `pendulum` without spin, in the same {len(alike)} scenes with equal rims and "
-        "without uplift, against the same rigid bodies.", "",
-        table(("of", "", *SPREAD), rows), "",
+        "without uplift, against the same rigid bodies.",
+        "",
+        table(("of", "", *SPREAD), rows),
+        "",
         f"Another end than the rigid bodies' had then {len(unlike(past, 'pendulum'))} of "
-        f"{len(past)} scenes, now {len(unlike(now, 'pendulum'))}.", "",
-    ]  # fmt: skip
+        f"{len(past)} scenes, now {len(unlike(now, 'pendulum'))}.",
+        "",
+    ]
 
 
 def by_step(met: Sequence[Entry]) -> list[str]:
@@ -128,8 +148,9 @@ def by_step(met: Sequence[Entry]) -> list[str]:
     return [
         f"At steps of 5 and 1 ms the level `pendulum` ends otherwise than at the step that it "
         f"chooses in {len(other)} of {len(asked)} scenes"
-        + (f": {', '.join(other)}." if other else "."), "",
-    ]  # fmt: skip
+        + (f": {', '.join(other)}." if other else "."),
+        "",
+    ]
 
 
 def on_rig(rows: Sequence[tuple[str, ...]], head: tuple[str, ...]) -> list[str]:
@@ -137,18 +158,25 @@ def on_rig(rows: Sequence[tuple[str, ...]], head: tuple[str, ...]) -> list[str]:
     if not rows:
         return []
     return [
-        "## The slip that holds, on the rig", "",
+        "## The slip that holds, on the rig",
+        "",
         "A slip beyond `slip_stability` runs off the overlap as soon as the motion turns again in "
         "its direction, whatever the level (`validation/held_slip.py`). In each cell: "
-        "`pendulum`, `contact`, `rigid_body`.", "",
-        table(head, rows), "",
-    ]  # fmt: skip
+        "`pendulum`, `contact`, `rigid_body`.",
+        "",
+        table(head, rows),
+        "",
+    ]
 
 
 def page(
-    found: Sequence[Entry], lost: Sequence[str], call: str, before: Sequence[Entry] = (),
-    rig: Sequence[tuple[str, ...]] = (), head: tuple[str, ...] = (),
-) -> str:  # fmt: skip
+    found: Sequence[Entry],
+    lost: Sequence[str],
+    call: str,
+    before: Sequence[Entry] = (),
+    rig: Sequence[tuple[str, ...]] = (),
+    head: tuple[str, ...] = (),
+) -> str:
     """Return the page.
 
     Parameters
@@ -190,41 +218,67 @@ def page(
     )[:SHOWN]
     spun = sum(abs(e["rigid_body"]["spin"]) > 0.05 for e in met)
     share = len(missed) / max(len(sufficient), 1)
-    return "\n".join([
-        "# Slip of the interface, level by level", "",
-        f"Written by `{call}`: {len(found)} random bearings under motions of two or three "
-        f"components, scaled until the slider meets its rims, which {len(met)} do. Levels "
-        "`pendulum` and `contact` against `rigid_body`, whose sliders have a mass; `dt=None`. In "
-        f"{spun} scenes the sliders spin by more than 0.05 rad."
-        + (f" Without a report: scenes {', '.join(lost)}." if lost else ""), "",
-        table(_HEAD, rows), "",
-        f"Errors in per cent; those of a slip below {LEAST:.0%} of the capacity are over that. "
-        "How sliders rock is left out by `pendulum`.", "",
-        "## What `level=\"auto\"` calls sufficient", "",
-        f"At the level `pendulum`: {len(sufficient)} of {len(met)} scenes. Of these {len(missed)} "
-        f"({share:.1%}) are more than 5 % off in displacement or force, more than 10 % in slip, or "
-        "end otherwise." + (" " + _listed(missed) if missed else ""), "",
-        "## Another end", "",
-        table(_ENDS, [_end(entry) for entry in ends]) if ends else "None.", "",
-        "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
-        "of slip decide; an axial force that rings lets go some per cent earlier. The audit marks "
-        "80 % of the one and 90 % of the other.", "",
-        *by_step(met),
-        "## Farthest apart, with equal rims", "",
-        table(_APART, [_apart(entry) for entry in apart]), "",
-        *on_rig(rig, head), *changed(met, before),
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            "# Slip of the interface, level by level",
+            "",
+            f"Written by `{call}`: {len(found)} random bearings under motions of two or three "
+            f"components, scaled until the slider meets its rims, which {len(met)} do. Levels "
+            "`pendulum` and `contact` against `rigid_body`, whose sliders have a mass; `dt=None`. In "
+            f"{spun} scenes the sliders spin by more than 0.05 rad."
+            + (f" Without a report: scenes {', '.join(lost)}." if lost else ""),
+            "",
+            table(_HEAD, rows),
+            "",
+            f"Errors in per cent; those of a slip below {LEAST:.0%} of the capacity are over that. "
+            "How sliders rock is left out by `pendulum`.",
+            "",
+            '## What `level="auto"` calls sufficient',
+            "",
+            f"At the level `pendulum`: {len(sufficient)} of {len(met)} scenes. Of these {len(missed)} "
+            f"({share:.1%}) are more than 5 % off in displacement or force, more than 10 % in slip, or "
+            "end otherwise." + (" " + _listed(missed) if missed else ""),
+            "",
+            "## Another end",
+            "",
+            table(_ENDS, [_end(entry) for entry in ends]) if ends else "None.",
+            "",
+            "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
+            "of slip decide; an axial force that rings lets go some per cent earlier. The audit marks "
+            "80 % of the one and 90 % of the other.",
+            "",
+            *by_step(met),
+            "## Farthest apart, with equal rims",
+            "",
+            table(_APART, [_apart(entry) for entry in apart]),
+            "",
+            *on_rig(rig, head),
+            *changed(met, before),
+        ]
+    )
 
 
 _HEAD = ("scenes", "level", "of", *SPREAD)
 _ENDS = (
-    "scene", "pendulum", "contact", "rigid_body", "largest slip [mm]", "slip that holds [mm]",
-    "overlap [mm]", "rims", "called sufficient",
-)  # fmt: skip
+    "scene",
+    "pendulum",
+    "contact",
+    "rigid_body",
+    "largest slip [mm]",
+    "slip that holds [mm]",
+    "overlap [mm]",
+    "rims",
+    "called sufficient",
+)
 _APART = (
-    "scene", "slider radius [mm]", "slip [mm]", "slip left [mm]", "spin [rad]",
-    "displacement [mm]", "called sufficient",
-)  # fmt: skip
+    "scene",
+    "slider radius [mm]",
+    "slip [mm]",
+    "slip left [mm]",
+    "spin [rad]",
+    "displacement [mm]",
+    "called sufficient",
+)
 _BOTH = ("pendulum", "rigid_body")
 
 
@@ -242,9 +296,11 @@ def _end(entry: Entry) -> tuple[str, ...]:
         str(entry["number"]),
         *(f"`{entry[level]['status']}`" for level in ("pendulum", "contact", "rigid_body")),
         ", ".join(f"{1e3 * entry[level]['slip']:.1f}" for level in _BOTH),
-        f"{1e3 * entry['holds']:.1f}", f"{1e3 * entry['overlap']:.1f}",
-        "unequal" if entry["unequal"] else "equal", "yes" if entry["sufficient"] else "no",
-    )  # fmt: skip
+        f"{1e3 * entry['holds']:.1f}",
+        f"{1e3 * entry['overlap']:.1f}",
+        "unequal" if entry["unequal"] else "equal",
+        "yes" if entry["sufficient"] else "no",
+    )
 
 
 def _apart(entry: Entry) -> tuple[str, ...]:
@@ -252,7 +308,11 @@ def _apart(entry: Entry) -> tuple[str, ...]:
         return ", ".join(f"{factor * entry[level][name]:{form}}" for level in _BOTH)
 
     return (
-        str(entry["number"]), f"{1e3 * entry['slider_radius']:.0f}",
-        both("slip", 1e3, ".1f"), both("left", 1e3, ".1f"), both("spin", 1.0, ".2f"),
-        both("displacement", 1e3, ".1f"), "yes" if entry["sufficient"] else "no",
-    )  # fmt: skip
+        str(entry["number"]),
+        f"{1e3 * entry['slider_radius']:.0f}",
+        both("slip", 1e3, ".1f"),
+        both("left", 1e3, ".1f"),
+        both("spin", 1.0, ".2f"),
+        both("displacement", 1e3, ".1f"),
+        "yes" if entry["sufficient"] else "no",
+    )

@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.model.applied_loads import AppliedLoads
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 
 def assemble(
-    frame: FrameContents,
+    frame: FrameData,
     features: Features | None = None,
     with_points: Collection[str] = (),
 ) -> System:
@@ -257,7 +257,7 @@ def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:
 
 
 def _member_table(
-    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, applied: AppliedLoads
+    frame: FrameData, index: dict[str, int], coordinates: FloatArray, applied: AppliedLoads
 ) -> MemberTable:
     members = tuple(frame.members.values())
     nodes = np.array([(index[m.i], index[m.j]) for m in members], dtype=np.int64).reshape(-1, 2)
@@ -294,7 +294,7 @@ def _member_table(
 
 
 def _node_stiffness(
-    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, members: MemberTable
+    frame: FrameData, index: dict[str, int], coordinates: FloatArray, members: MemberTable
 ) -> SparseMatrix:
     springs = tuple(frame.springs.values())
     ends = np.array([(index[s.i], index[s.j]) for s in springs], dtype=np.int64).reshape(-1, 2)

@@ -18,7 +18,7 @@ from frames.model.laws import elastic_stiffness
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.system import System
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.model.superelement import Superelement
 
 __all__ = ["ModelError", "check_connections", "check_mass", "check_restraint", "free_motions"]
@@ -38,7 +38,7 @@ NAMED = 4
 """How many motions, and how many DOFs of each, a message lists."""
 
 
-def check_connections(frame: FrameContents) -> None:
+def check_connections(frame: FrameData) -> None:
     """Refuse a frame without nodes, with loose nodes or with a part that has no support.
 
     Parameters

@@ -19,7 +19,7 @@ from frames.model.components import DOFS, Diaphragm
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 IN_PLANE = (0, 1, 5)
 """Places of ux, uy and rz, the displacements a diaphragm ties, among a node's six."""
@@ -29,7 +29,7 @@ OUT_OF_PLANE = ("uy", "rx", "rz")
 
 
 def free_dofs(
-    frame: FrameContents, coordinates: FloatArray, node_mass: FloatArray, *, planar: bool = False
+    frame: FrameData, coordinates: FloatArray, node_mass: FloatArray, *, planar: bool = False
 ) -> tuple[SparseMatrix, tuple[str, ...]]:
     """Eliminate supports and diaphragms.
 
@@ -85,7 +85,7 @@ def free_dofs(
     return transform, tuple(labels)
 
 
-def held_dofs(frame: FrameContents, *, planar: bool = False) -> dict[str, frozenset[str]]:
+def held_dofs(frame: FrameData, *, planar: bool = False) -> dict[str, frozenset[str]]:
     """Return the names of the displacements held at each node, all out of the plane if `planar`."""
     more = frozenset(OUT_OF_PLANE if planar else ())
     return {name: frame.fixed_dofs.get(name, frozenset()) | more for name in frame.nodes}

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable
     from frames.model.applied_loads import AppliedLoads
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 
 def lumped_masses(
-    frame: FrameContents, index: Mapping[str, int], members: MemberTable, applied: AppliedLoads
+    frame: FrameData, index: Mapping[str, int], members: MemberTable, applied: AppliedLoads
 ) -> tuple[FloatArray, FloatArray]:
     """Return the masses at the nodes: lumped ones, those of members, and those that loads make.
 
@@ -56,7 +56,7 @@ def lumped_masses(
 
 
 def permanent_loads(
-    frame: FrameContents,
+    frame: FrameData,
     index: Mapping[str, int],
     members: MemberTable,
     weighing: FloatArray,

@@ -41,14 +41,14 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable
     from frames.model.components import Link
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 BASIC = np.array([6, 5, 11, 4, 10])
 """Places among a member's 12 local displacements of its five deformations, the rest being held."""
 
 
 def nonlinear_parts(
-    frame: FrameContents, index: dict[str, int], coordinates: FloatArray, members: MemberTable
+    frame: FrameData, index: dict[str, int], coordinates: FloatArray, members: MemberTable
 ) -> NonlinearParts:
     """Gather the nonlinear parts of a frame.
 
@@ -146,14 +146,24 @@ def _law(law: Law) -> tuple[int, FloatArray]:
     elif isinstance(law, BoucWen):
         kind = BOUC_WEN
         values = (
-            law.stiffness, law.hardening, law.exponent, law.shape, law.strength_loss,
-            law.stiffness_loss, law.yield_deformation,
-        )  # fmt: skip
+            law.stiffness,
+            law.hardening,
+            law.exponent,
+            law.shape,
+            law.strength_loss,
+            law.stiffness_loss,
+            law.yield_deformation,
+        )
         pinch = law.pinching
         if pinch is not None:
             values += (
-                pinch.slip, pinch.rate, pinch.place, pinch.width, pinch.spreading, pinch.severity,
-            )  # fmt: skip
+                pinch.slip,
+                pinch.rate,
+                pinch.place,
+                pinch.width,
+                pinch.spreading,
+                pinch.severity,
+            )
     elif isinstance(law, Tie):
         kind, values = TIE, (law.stiffness, law.yield_force, _modulus(law), law.slack)
     elif isinstance(law, ViscousDamper):
@@ -230,7 +240,14 @@ def _hinges(
         axial = ratio * basic[0, 0] if math.isfinite(hinge.axial) else 0.0
         at = HINGE + STRIDE * end
         constants[at : at + 9] = (
-            1.0 / hinge.axial, 1.0 / hinge.moment_y, 1.0 / hinge.moment_z, hinge.axial_centre,
-            hinge.axial_exponent, axial, ratio * bent[1], ratio * bent[0], 1.0,
-        )  # fmt: skip
+            1.0 / hinge.axial,
+            1.0 / hinge.moment_y,
+            1.0 / hinge.moment_z,
+            hinge.axial_centre,
+            hinge.axial_exponent,
+            axial,
+            ratio * bent[1],
+            ratio * bent[0],
+            1.0,
+        )
     return constants

@@ -43,7 +43,7 @@ class Layout(NamedTuple):
     labels: dict[str, tuple[str, ...]]  # names along each dimension
 
 
-class Row(NamedTuple):
+class RunResult(NamedTuple):
     """What one run gave."""
 
     place: int  # among the cases
@@ -86,12 +86,14 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     return np.concatenate([np.ravel(found[name].to_numpy()) for name in layout.names])
 
 
-def stack(rows: Sequence[Row], cases: Sequence[Case], digests: Mapping[str, str]) -> xr.Dataset:
+def stack(
+    rows: Sequence[RunResult], cases: Sequence[Case], digests: Mapping[str, str]
+) -> xr.Dataset:
     """Put rows together (docs/results.md).
 
     Parameters
     ----------
-    rows : sequence of Row
+    rows : sequence of RunResult
         Of the runs done, in any order.
     cases : sequence of Case
         All of them.
@@ -129,13 +131,15 @@ def _texts(values: Iterable[str]) -> Any:
     return out
 
 
-def _of_runs(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+def _of_runs(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
     # Status, message and numbers of each run.
     found = {
         "status": labelled(("run",), _texts(row.status for row in rows), "", "how the run ended"),
         "message": labelled(("run",), _texts(row.message for row in rows), "", "the same in words"),
         "failed_at": labelled(
-            ("run",), np.array([row.failed_at for row in rows]), "s",
+            ("run",),
+            np.array([row.failed_at for row in rows]),
+            "s",
             "when it stopped; NaN where it is complete",
         ),
         "failed_where": labelled(
@@ -147,7 +151,7 @@ def _of_runs(rows: Sequence[Row]) -> dict[str, xr.Variable]:
         "doubts": labelled(
             ("run",), _texts(row.doubts for row in rows), "", 'lines that the audit marks with "!"'
         ),
-    }  # fmt: skip
+    }
     for name, (unit, meaning) in NUMBERS.items():
         values = np.array([row.numbers.get(name, math.nan) for row in rows])
         found[name] = labelled(("run",), values, unit, meaning)
@@ -158,7 +162,7 @@ def _of_runs(rows: Sequence[Row]) -> dict[str, xr.Variable]:
     return found
 
 
-def _of_peaks(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+def _of_peaks(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
     # The tables of peaks, side by side.
     place = {name: k for k, name in enumerate({p.quantity: 0 for r in rows for p in r.peaks})}
     size = len(rows), len(place)
@@ -176,7 +180,7 @@ def _of_peaks(rows: Sequence[Row]) -> dict[str, xr.Variable]:
     }
 
 
-def _of_reached(rows: Sequence[Row]) -> dict[str, xr.Variable]:
+def _of_reached(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
     # What was reached of each bearing, node, level: NaN where a run's structure has none such.
     kinds = _unlike(rows)
     labels = _union(kind.layout.labels for kind in kinds)
@@ -201,7 +205,7 @@ class _Kind(NamedTuple):
     layout: Layout
 
 
-def _unlike(rows: Sequence[Row]) -> list[_Kind]:
+def _unlike(rows: Sequence[RunResult]) -> list[_Kind]:
     # The layouts of the rows, each once.
     found = {id(row.layout): row.layout for row in rows if row.layout is not None}
     return [_Kind(layout) for layout in found.values()]
@@ -230,7 +234,7 @@ def _labels(data: xr.Dataset, dim: str) -> tuple[str, ...]:
     return tuple(str(name) for name in data[dim].to_numpy())
 
 
-def _of_histories(rows: Sequence[Row]) -> tuple[dict[str, xr.Variable], dict[str, Any]]:
+def _of_histories(rows: Sequence[RunResult]) -> tuple[dict[str, xr.Variable], dict[str, Any]]:
     # Recorded histories: over `time` where all runs share a grid, else over `step`.
     whole = [(n, row.histories) for n, row in enumerate(rows) if row.histories is not None]
     if not whole:

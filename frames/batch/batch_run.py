@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.batch.batch_dataset import NUMBERS, Layout, Row, reached_row
+from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, reached_row
 from frames.batch.workspace import PeakRecorder, Structure, Workspace, set_up
 from frames.kernel_data import ENERGY_TERMS
 from frames.recording.recorder import Recorder
@@ -19,7 +19,7 @@ from frames.results.assumption_checks import doubts_of
 from frames.results.peaks import peaks_of
 from frames.results.recorded import REACHED
 from frames.solve.outcome import concluded, ended
-from frames.solve.time_history import begin, estimated_error, ground_of, march, settings_of
+from frames.solve.time_history import begin, estimated_error, ground_of, integrate, settings_of
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.results.dataset import note_end
 
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.batch.cases import Case
-    from frames.kernel_data import Setup
-    from frames.model.frame_data import FrameContents
+    from frames.kernel_data import IntegratorSettings
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.solve.options import Options
     from frames.statics.gravity import GravityState
@@ -78,7 +78,7 @@ class Runner:
 
     def __init__(
         self,
-        models: Mapping[str, FrameContents],
+        models: Mapping[str, FrameData],
         motions: Mapping[str, GroundMotion],
         options: Mapping[str, Options],
         cases: Sequence[Case],
@@ -149,12 +149,12 @@ class Worker:
         self._workspace: Workspace | None = None
         self._recorder: PeakRecorder | None = None
 
-    def row(self, place: int) -> Row | None:
+    def row(self, place: int) -> RunResult | None:
         """Run a case; None where it was stopped."""
         case = self._runner.cases[place]
         structure = self._runner.structure(case.model)
         if isinstance(structure, AnalysisError):
-            row: Row | None = _without_rest(place, structure)
+            row: RunResult | None = _without_rest(place, structure)
         else:
             run = self._run(case, self._own(structure))
             row = None if run is None else _row_of(place, run, structure.layout)
@@ -183,7 +183,7 @@ class Worker:
             recorder.renew(motion, ground)
             self._recorder = recorder
         begin(state, ground, settings)
-        code, seconds = march(state, settings, ground, recorder, options)
+        code, seconds = integrate(state, settings, ground, recorder, options)
         if code is RunStatus.INTERRUPTED:
             return None
         end = ended(state, code)
@@ -196,16 +196,18 @@ class Worker:
         end: tuple[RunStatus, str],
         structure: Structure,
         options: Options,
-        settings: Setup,
+        settings: IntegratorSettings,
         seconds: float,
     ) -> _Ended:
         # What became of a run, as `time_history` judges it.
         counts, done = state.run.counts[0], int(state.run.clock["done"][0])
         data = recorder.data(done).assign_attrs(
-            structure.template.attrs, integrator=options.integrator, seconds_loop=seconds,
+            structure.template.attrs,
+            integrator=options.integrator,
+            seconds_loop=seconds,
             step_control="error" if math.isfinite(settings.error_tolerance) else "fixed",
             estimated_error=estimated_error(state, settings),
-        )  # fmt: skip
+        )
         energy = recorder.out.energy[done - recorder.first].copy()
         whole, data = data, judgeable_of(data) if "time" in data.dims else data
         outcome = concluded(data, state, end)
@@ -240,10 +242,10 @@ def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
     return recorded[names].drop_attrs(deep=False)
 
 
-def _row_of(place: int, run: _Ended, layout: Layout) -> Row:
+def _row_of(place: int, run: _Ended, layout: Layout) -> RunResult:
     # A run as numbers.
     attrs = run.data.attrs
-    return Row(
+    return RunResult(
         place=place,
         status=attrs["status"],
         message=attrs["message"],
@@ -260,9 +262,9 @@ def _row_of(place: int, run: _Ended, layout: Layout) -> Row:
     )
 
 
-def _without_rest(place: int, failure: AnalysisError) -> Row:
+def _without_rest(place: int, failure: AnalysisError) -> RunResult:
     # A run of a structure that has no equilibrium to start from.
-    return Row(
+    return RunResult(
         place=place,
         status=failure.status.name.lower(),
         message=str(failure),

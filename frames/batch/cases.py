@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from frames.model.frame_data import FrameContents
+from frames.model.frame_data import FrameData
 from frames.motion.ground_motion import GroundMotion
 from lir_element._compile.progress import on_terminal
 from lir_element.argument_checks import require_finite, require_type
@@ -85,7 +85,7 @@ def _clock(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.1f} h"
 
 
-def named_models(models: object) -> dict[str, FrameContents]:
+def named_models(models: object) -> dict[str, FrameData]:
     """Return structures by name.
 
     Parameters
@@ -103,7 +103,7 @@ def named_models(models: object) -> dict[str, FrameContents]:
     TypeError, ValueError
         If it is something else, holds none, or names are not unique.
     """
-    return _named("models", models, FrameContents, "a Frame")
+    return _named("models", models, FrameData, "a Frame")
 
 
 def named_motions(motions: object) -> dict[str, GroundMotion]:

@@ -17,7 +17,7 @@ import xarray as xr
 from frames._errors import ModelWarning
 from frames._fingerprint import fingerprint, motion_digest
 from frames._provenance import sources_hash
-from frames.batch.batch_dataset import Layout, Row
+from frames.batch.batch_dataset import Layout, RunResult
 from frames.results.peaks import Peak
 from frames.results.storage import write_whole
 from lir_element.results.dataset import package_version
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from frames.batch.batch_run import Kept
     from frames.batch.cases import Case
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.solve.options import Options
 
@@ -52,7 +52,7 @@ class KeptRuns:
     def __init__(
         self,
         folder: Path,
-        models: Mapping[str, FrameContents],
+        models: Mapping[str, FrameData],
         motions: Mapping[str, GroundMotion],
         options: Mapping[str, Options],
         asked: object,
@@ -66,7 +66,7 @@ class KeptRuns:
         self._common = fingerprint([asked, tuple(kept), sources_hash(), package_version()])
         self._layouts: dict[str, Layout] = {}
 
-    def rows(self, cases: Sequence[Case]) -> list[Row]:
+    def rows(self, cases: Sequence[Case]) -> list[RunResult]:
         """Return the runs of these cases that are there, each at its place among them.
 
         Parameters
@@ -98,12 +98,12 @@ class KeptRuns:
             warnings.warn(msg, ModelWarning, stacklevel=4)
         return found
 
-    def keep(self, row: Row, case: Case) -> None:
+    def keep(self, row: RunResult, case: Case) -> None:
         """Write a run; not one of a structure without equilibrium, which takes no time.
 
         Parameters
         ----------
-        row : Row
+        row : RunResult
             The run.
         case : Case
             Which it is.
@@ -134,21 +134,27 @@ class KeptRuns:
 
     def _path(self, case: Case) -> Path:
         parts = [
-            tuple(case), self._models[case.model], self._digests[case.motion],
-            self._options[case.motion], self._common,
-        ]  # fmt: skip
+            tuple(case),
+            self._models[case.model],
+            self._digests[case.motion],
+            self._options[case.motion],
+            self._common,
+        ]
         return self._folder / f"{fingerprint(parts)}{_ENDING}"
 
-    def _row(self, place: int, path: Path) -> Row:
+    def _row(self, place: int, path: Path) -> RunResult:
         with np.load(io.BytesIO(path.read_bytes())) as file:  # a cut file leaves none open
             head = json.loads(str(file["head"]))
             arrays = {name: file[name] for name in file.files}
         own = head["row"] | {"place": place}
         own["peaks"] = tuple(Peak(*peak) for peak in own["peaks"])
-        return Row(
-            **own, energy=arrays["energy"], reached=arrays["reached"],
-            layout=self._layout(head["layout"]), histories=_histories(head["histories"], arrays),
-        )  # fmt: skip
+        return RunResult(
+            **own,
+            energy=arrays["energy"],
+            reached=arrays["reached"],
+            layout=self._layout(head["layout"]),
+            histories=_histories(head["histories"], arrays),
+        )
 
     def _layout(self, kept: Mapping[str, Any]) -> Layout:
         # Runs of one structure share theirs.

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Literal
 from frames._errors import AuditWarning, ModelWarning
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
-from frames.batch.batch_dataset import Row, stack
+from frames.batch.batch_dataset import RunResult, stack
 from frames.batch.batch_run import Kept, Runner
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.batch.completed_runs import KeptRuns
@@ -35,14 +35,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.batch.cases import Case
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 _ATTENTIVE = 0.02  # s between two looks whether a run is done
 
 
 def time_histories(
-    models: FrameContents | Sequence[FrameContents] | Mapping[str, FrameContents],
+    models: FrameData | Sequence[FrameData] | Mapping[str, FrameData],
     motions: GroundMotion | Sequence[GroundMotion] | Mapping[str, GroundMotion],
     *,
     scales: float | Sequence[float] | None = None,
@@ -125,18 +125,24 @@ def time_histories(
     kept = _kept(record)
     options = {
         name: options_of(
-            motion, duration, dt, method=method, integrator=integrator,
-            spectral_radius=spectral_radius, tolerance=tolerance,
-            recording=kept.recording, progress=None,
+            motion,
+            duration,
+            dt,
+            method=method,
+            integrator=integrator,
+            spectral_radius=spectral_radius,
+            tolerance=tolerance,
+            recording=kept.recording,
+            progress=None,
         )
         for name, motion in grounds.items()
-    }  # fmt: skip
+    }
     _warn_of_motions(structures, grounds, runs)
     chosen = Features.all() if features is None else features
     count = _processors() if workers is None else whole_steps("workers", workers)
     began = perf_counter()
     with blas_threads_for(*structures.values()):
-        keeper, before = None, list[Row]()
+        keeper, before = None, list[RunResult]()
         if resume is not None:
             asked = (chosen, level)
             keeper = KeptRuns(Path(resume), structures, grounds, options, asked, kept)
@@ -191,13 +197,13 @@ def _all(
     told: Callable[[BatchProgress], None] | None,
     keeper: KeptRuns | None,
     taken: int,
-) -> tuple[list[Row], bool]:
+) -> tuple[list[RunResult], bool]:
     # All rows, and whether they are all: Ctrl-C leaves those that are done.
     if taken and told is not None:
         told(BatchProgress(0, len(runner.cases), 0.0, 0, taken))
     if not runner.cases:
         return [], True
-    results: queue.SimpleQueue[Row | None] = queue.SimpleQueue()  # None: a worker has ended
+    results: queue.SimpleQueue[RunResult | None] = queue.SimpleQueue()  # None: a worker has ended
     todo, lock, stop = iter(range(len(runner.cases))), threading.Lock(), threading.Event()
 
     def next_place() -> int | None:
@@ -217,7 +223,7 @@ def _all(
                 stop.set()
             results.put(None)
 
-    rows: list[Row] = []
+    rows: list[RunResult] = []
     is_whole = True
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work) for _ in range(workers)]
@@ -242,12 +248,12 @@ def _all(
 
 
 def _arriving(
-    results: queue.SimpleQueue[Row | None],
+    results: queue.SimpleQueue[RunResult | None],
     workers: int,
     total: int,
     told: Callable[[BatchProgress], None] | None,
     taken: int,
-) -> Iterator[Row]:
+) -> Iterator[RunResult]:
     # Rows as they are done, until all workers have ended.
     began, done, failed = perf_counter(), 0, 0
     while workers:
@@ -281,7 +287,7 @@ def _processors() -> int:
 
 
 def _warn_of_motions(
-    models: Mapping[str, FrameContents], motions: Mapping[str, GroundMotion], runs: Sequence[Case]
+    models: Mapping[str, FrameData], motions: Mapping[str, GroundMotion], runs: Sequence[Case]
 ) -> None:
     # What is strange about a motion under a structure, once for all of them.
     found = [
@@ -295,7 +301,7 @@ def _warn_of_motions(
         warnings.warn(f"{case}: {doubt}{more}", ModelWarning, stacklevel=3)
 
 
-def _warn_of_runs(rows: Sequence[Row]) -> None:
+def _warn_of_runs(rows: Sequence[RunResult]) -> None:
     # How many runs did not end well, and how many are to be looked at.
     ill = sorted((row for row in rows if row.status != RunStatus.OK.name.lower()), key=_place)
     if ill:
@@ -314,9 +320,10 @@ def _warn_of_runs(rows: Sequence[Row]) -> None:
         warnings.warn(
             f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; the first, "
             f"run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
-            AuditWarning, stacklevel=3,
-        )  # fmt: skip
+            AuditWarning,
+            stacklevel=3,
+        )
 
 
-def _place(row: Row) -> int:
+def _place(row: RunResult) -> int:
     return row.place

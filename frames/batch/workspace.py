@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.batch.batch_dataset import Layout, layout_of
-from frames.kernel_data import Ground, Run, output_arrays, run_arrays
+from frames.kernel_data import Ground, IntegrationState, output_arrays, run_arrays
 from frames.kernels.integration import record
 from frames.nonlinear_data import NonlinearElements, part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.nonlinear_tracking import PartGauge
-from frames.recording.peak_tracking import Gauge, can_gauge, devices_of, places_of, shape_of
+from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
 from frames.recording.reduction import Findings, judgeable_of, reduced, with_other_findings
 from frames.recording.size import bytes_of_step, bytes_over_time
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.peak_data import Devices, Shape
     from frames.recording.recording import Recording
@@ -46,7 +46,7 @@ _REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "po
 class Structure(NamedTuple):
     """A frame in equilibrium under gravity, which many runs start from; none of them changes it."""
 
-    model: FrameContents
+    model: FrameData
     state: GravityState
     template: xr.Dataset
     """What the audit reads of a run, of the state at rest alone."""
@@ -58,7 +58,7 @@ class Structure(NamedTuple):
 
 
 def set_up(
-    model: FrameContents,
+    model: FrameData,
     features: Features,
     level: str | Mapping[str, str],
     recording: Recording | None = None,
@@ -105,7 +105,7 @@ def set_up(
     }
     size = 0.0 if recording is None else bytes_over_time(reduced(first, recording))
     structure = Structure(model, state, template, layout_of(template), size, None)
-    if not can_gauge(state):
+    if not can_track(state):
         return structure
     gauges = devices_of(state), shape_of(state, places_of(template))
     return structure._replace(gauges=gauges)
@@ -133,7 +133,7 @@ class Workspace:
     def reset(self) -> GravityState:
         """Return the state under gravity, in this workspace's arrays."""
         shared = self.structure.state
-        pairs: list[tuple[Run | Contacts | NonlinearElements | None, Any]] = [
+        pairs: list[tuple[IntegrationState | Contacts | NonlinearElements | None, Any]] = [
             (self.state.run, shared.run),
             (self.state.contacts, shared.contacts),
             (self.state.parts, shared.parts),
@@ -174,7 +174,7 @@ class PeakRecorder:
             raise AssertionError(msg)
         self._motion, self._ground = motion, ground
         self.first, self._taken = 0, 0
-        self._gauge = Gauge(*self._structure.gauges)
+        self._gauge = PeakTracker(*self._structure.gauges)
         self._parts = PartGauge(self._structure.state, self._structure.model)
         rest = self._structure.state
         self._whole = Plausibility(rest, rest.resultants)

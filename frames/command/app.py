@@ -16,11 +16,11 @@ from frames.command.console import FAILED_CHECKS, err, out, say, told
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
-from frames.design.project.design_run import ProjectRun, compare_devices, judged_run, run_project
+from frames.design.project.design_run import ProjectRun, compare_devices, evaluate_run, run_project
 from frames.design.project.example import write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
-from frames.design.project.preliminary import CODES, groundwork, inputs_of
+from frames.design.project.preliminary import CODES, inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
 from frames.design.report.files import (
@@ -37,11 +37,14 @@ from lir_element.results.dataset import package_version
 from lir_element.tables import text_table
 
 app = typer.Typer(
-    name="lir", no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+    name="lir",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
     help="Buildings on LIR-DCFP bearings: a project's file, its analyses and design checks. "
     "Exit codes: 0 no check fails, 1 a check fails, 2 the input cannot be used, 3 an analysis "
     "fails, 130 interrupted.",
-)  # fmt: skip
+)
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
 BENCH = Path("bench.csv")
 
@@ -83,7 +86,7 @@ def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     with told():
         parts = _parts(file)
-        ground = groundwork(parts)
+        ground = preliminary(parts)
         say(f"{len(ground.frame.bearings)} bearings")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
@@ -107,10 +110,15 @@ def propose(
         parts = _parts(file)
         frame = parts.provisional_frame()
         found = design(
-            frame, parts.spectrum(), bounds=parts.bounds(), target=parts.target(),
-            superstructure=parts.superstructure(frame), code=CODES[parts.file.project.code](),
-            sizes=sizes, least=least,  # type: ignore[arg-type]  # design checks it
-        )  # fmt: skip
+            frame,
+            parts.spectrum(),
+            bounds=parts.bounds(),
+            target=parts.target(),
+            superstructure=parts.superstructure(frame),
+            code=CODES[parts.file.project.code](),
+            sizes=sizes,
+            least=least,  # type: ignore[arg-type]  # design checks it
+        )
         say(f"{found}\n")
         for text in _sections(found):
             say(text)
@@ -131,8 +139,9 @@ def run(
             kept = write_interrupted(stop.data, results)
             err.print(
                 f"what was complete is in {escape(str(kept))}; the same command goes on from there",
-                highlight=False, soft_wrap=True,
-            )  # fmt: skip
+                highlight=False,
+                soft_wrap=True,
+            )
             if (results / "run.json").is_file():
                 err.print("the other files there are of the run before", highlight=False)
             raise
@@ -148,8 +157,8 @@ def report(
     """Judge a run again and write its report anew, with the limits that the file has now."""
     with told():
         parts = _parts(file)
-        known = groundwork(parts)
-        found = judged_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        known = preliminary(parts)
+        found = evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))
         if (results / "interrupted.nc").is_file():
             text = (
                 f"warning: {results / 'interrupted.nc'} is of a later run that was interrupted: "
@@ -187,7 +196,7 @@ def bench(
     """Run the first motion with several steps: how fast this machine is, and with which error."""
     ways: list[Way] = []
     with told():
-        ground = groundwork(_parts(file))
+        ground = preliminary(_parts(file))
         name, motion = next(iter(ground.motions.items()))
         say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
         say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
@@ -221,10 +230,15 @@ def _line_of(way: Way) -> str:
         for e in (way.displacement, way.base_shear, way.acceleration)
     )
     return _LINE.format(
-        "chosen" if math.isnan(way.dt) else f"{1e3 * way.dt:g} ms", way.level, way.steps,
-        f"{1e6 * way.seconds / max(way.steps, 1):.1f}", f"{way.seconds:.3f}", f"{way.share:.4f}",
-        *errors, way.status,
-    )  # fmt: skip
+        "chosen" if math.isnan(way.dt) else f"{1e3 * way.dt:g} ms",
+        way.level,
+        way.steps,
+        f"{1e6 * way.seconds / max(way.steps, 1):.1f}",
+        f"{way.seconds:.3f}",
+        f"{way.share:.4f}",
+        *errors,
+        way.status,
+    )
 
 
 app.command()(campaign)

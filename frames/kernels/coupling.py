@@ -35,10 +35,20 @@ def invert(matrix: Floats) -> None:
 
 @kernel
 def eliminate_modes(
-    mass_e: Floats, mass_eb: Floats, omega2: Floats, damping_e: Floats, damping_eb: Floats,
-    damping_ee: Floats, c_m: float, c_c: float, c_k: float, inverse: Floats, follow: Floats,
-    lead: Floats, out: Floats,
-) -> None:  # fmt: skip
+    mass_e: Floats,
+    mass_eb: Floats,
+    omega2: Floats,
+    damping_e: Floats,
+    damping_eb: Floats,
+    damping_ee: Floats,
+    c_m: float,
+    c_c: float,
+    c_k: float,
+    inverse: Floats,
+    follow: Floats,
+    lead: Floats,
+    out: Floats,
+) -> None:
     """Take the modes' share from the effective stiffness of b, `out`.
 
     Sets `inverse`, the modes' effective flexibility, and `follow`, how they follow b, with `lead`
@@ -66,9 +76,17 @@ def eliminate_modes(
 
 @kernel
 def coupled_load(
-    damping_be: Floats, damping_eb: Floats, damping_ee: Floats, inverse: Floats, follow: Floats,
-    g_b: Floats, g_e: Floats, rhs_b: Floats, rhs_e: Floats, h_e: Floats,
-) -> None:  # fmt: skip
+    damping_be: Floats,
+    damping_eb: Floats,
+    damping_ee: Floats,
+    inverse: Floats,
+    follow: Floats,
+    g_b: Floats,
+    g_e: Floats,
+    rhs_b: Floats,
+    rhs_e: Floats,
+    h_e: Floats,
+) -> None:
     """Take known damping forces from the right-hand sides, then eliminate the modes from b's.
 
     `g_b` and `g_e` are the known part of the velocities. Sets `h_e` to what the modes do while b
@@ -83,9 +101,16 @@ def coupled_load(
 
 @kernel
 def coupled_work(
-    damping_be: Floats, damping_eb: Floats, damping_ee: Floats, step_b: Floats, step_e: Floats,
-    v_b: Floats, v_e: Floats, flow_b: Floats, flow_e: Floats,
-) -> float:  # fmt: skip
+    damping_be: Floats,
+    damping_eb: Floats,
+    damping_ee: Floats,
+    step_b: Floats,
+    step_e: Floats,
+    v_b: Floats,
+    v_e: Floats,
+    flow_b: Floats,
+    flow_e: Floats,
+) -> float:
     """Return the work of the coupled damping over the step at the mean speeds `v_b` and `v_e`.
 
     `flow_b` (n_b,) and `flow_e` (n_e,) are overwritten.

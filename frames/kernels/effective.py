@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Setup
+    from frames.kernel_data import IntegratorSettings
 
 
 @inlined
-def effective(settings: Setup, dt: float) -> tuple[float, float, float]:
+def effective(settings: IntegratorSettings, dt: float) -> tuple[float, float, float]:
     """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
     c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
     c_c = (1.0 - settings.alpha_f) * settings.gamma / (settings.beta * dt)

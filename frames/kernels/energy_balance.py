@@ -15,13 +15,15 @@ from lir_element.kernels.linear import dot, set_product
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Ground, Model, Run
+    from frames.kernel_data import Ground, IntegrationState, ReducedModel
     from frames.nonlinear_data import NonlinearElements
     from lir_element.layout import Floats
 
 
 @inlined
-def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats) -> float:
+def kinetic_energy(
+    model: ReducedModel, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats
+) -> float:
     """Return the kinetic energy relative to the ground; `flow` (n_e,) is mass_eb v_b.
 
     `momentum` (n_b,) is overwritten.
@@ -34,7 +36,7 @@ def kinetic_energy(model: Model, v_b: Floats, v_e: Floats, flow: Floats, momentu
 
 
 @inlined
-def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
+def elastic_energy(model: ReducedModel, b: Floats, e: Floats, force: Floats) -> float:
     """Return the strain energy of the structure, geometric part included.
 
     `force` (n_b,) becomes that of the structure on b.
@@ -47,7 +49,7 @@ def elastic_energy(model: Model, b: Floats, e: Floats, force: Floats) -> float:
 
 
 @inlined
-def damping_work(model: Model, run: Run) -> float:
+def damping_work(model: ReducedModel, run: IntegrationState) -> float:
     """Return the work of all damping of the structure over the step."""
     total = 0.0
     for k in range(run.e.shape[0]):
@@ -61,14 +63,23 @@ def damping_work(model: Model, run: Run) -> float:
         total += dot(run.step, run.g_b)
     if model.damping_ee.shape[0] > 0:
         total += coupled_work(
-            model.damping_be, model.damping_eb, model.damping_ee, run.step, run.g_e, run.h_b,
-            run.h_e, run.g_b, run.rhs_e,
-        )  # fmt: skip
+            model.damping_be,
+            model.damping_eb,
+            model.damping_ee,
+            run.step,
+            run.g_e,
+            run.h_b,
+            run.h_e,
+            run.g_b,
+            run.rhs_e,
+        )
     return total
 
 
 @inlined
-def add_energy(model: Model, run: Run, parts: NonlinearElements | None, ground: Ground) -> None:
+def add_energy(
+    model: ReducedModel, run: IntegrationState, parts: NonlinearElements | None, ground: Ground
+) -> None:
     """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
 
     Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
@@ -109,7 +120,7 @@ def add_energy(model: Model, run: Run, parts: NonlinearElements | None, ground: 
 
 
 @inlined
-def add_bearing_energy(run: Run) -> None:
+def add_bearing_energy(run: IntegrationState) -> None:
     """Set the bearings' terms of the energy from their accumulated works.
 
     What friction stores counts against the state at rest, where gravity may have left some.
@@ -137,7 +148,7 @@ def part_store(parts: NonlinearElements) -> float:
 
 
 @inlined
-def add_part_energy(run: Run, parts: NonlinearElements) -> None:
+def add_part_energy(run: IntegrationState, parts: NonlinearElements) -> None:
     """Set the nonlinear parts' terms of the energy, and make the elastic one that of the truth."""
     energy = run.energy[0]
     energy.yielding, energy.dampers, energy.stops = parts.work[0], parts.work[1], parts.work[2]

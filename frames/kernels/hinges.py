@@ -249,9 +249,15 @@ def settle_hinges(
 
 @kernel
 def set_slope(
-    par: Floats, old: Floats, p: Floats, lam: Floats, on: Floats, d: Floats, slope: Floats,
+    par: Floats,
+    old: Floats,
+    p: Floats,
+    lam: Floats,
+    on: Floats,
+    d: Floats,
+    slope: Floats,
     w: Floats,
-) -> None:  # fmt: skip
+) -> None:
     """Set the derivatives of the forces beyond the elastic ones by the five deformations."""
     set_system(par, old, p, lam, on, d, w)
     right = w[:8, 9:14]

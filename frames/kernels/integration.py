@@ -22,7 +22,13 @@ from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Ground, Model, Output, Run, Setup
+    from frames.kernel_data import (
+        Ground,
+        IntegrationState,
+        IntegratorSettings,
+        Output,
+        ReducedModel,
+    )
     from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
@@ -37,7 +43,9 @@ _LIMIT_HALVINGS = 4  # of a step before a limit of the bearing counts as exceede
 
 
 @kernel
-def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
+def set_reduced_stiffness(
+    model: ReducedModel, run: IntegrationState, settings: IntegratorSettings
+) -> None:
     """Set the effective stiffness of b with the modes eliminated, for the present step size."""
     at = run.clock[0].halvings
     out = run.reduced[at]
@@ -50,10 +58,20 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
                 out[a, c] += c_c * model.damping_b[a, c]
     if model.damping_ee.shape[0] > 0:
         eliminate_modes(
-            model.mass_e, model.mass_eb, model.omega2, model.damping_e, model.damping_eb,
-            model.damping_ee, c_m, c_c, c_k, run.inverse_e[at], run.follow_e[at],
-            run.lead_e[at], out,
-        )  # fmt: skip
+            model.mass_e,
+            model.mass_eb,
+            model.omega2,
+            model.damping_e,
+            model.damping_eb,
+            model.damping_ee,
+            c_m,
+            c_c,
+            c_k,
+            run.inverse_e[at],
+            run.follow_e[at],
+            run.lead_e[at],
+            out,
+        )
     else:
         for k in range(n_e):
             inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
@@ -65,7 +83,7 @@ def set_reduced_stiffness(model: Model, run: Run, settings: Setup) -> None:
 
 
 @kernel
-def renew_products(model: Model, run: Run) -> None:
+def renew_products(model: ReducedModel, run: IntegrationState) -> None:
     """Set what is carried from step to step from the committed state."""
     set_product(model.stiffness_b, run.b, run.held)
     set_product(model.mass_be, run.v_b, run.flow_v)
@@ -74,7 +92,11 @@ def renew_products(model: Model, run: Run) -> None:
 
 @expanded
 def set_load(
-    model: Model, run: Run, parts: NonlinearElements | None, settings: Setup, ground: Ground
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements | None,
+    settings: IntegratorSettings,
+    ground: Ground,
 ) -> None:
     """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
@@ -120,9 +142,17 @@ def set_load(
         for k in range(run.e.shape[0]):
             run.g_e[k] = damp_v * run.v_e[k] + damp_a * run.a_e[k]
         coupled_load(
-            model.damping_be, model.damping_eb, model.damping_ee, run.inverse_e[at],
-            run.follow_e[at], run.g_b, run.g_e, run.rhs_b, run.rhs_e, run.h_e,
-        )  # fmt: skip
+            model.damping_be,
+            model.damping_eb,
+            model.damping_ee,
+            run.inverse_e[at],
+            run.follow_e[at],
+            run.g_b,
+            run.g_e,
+            run.rhs_b,
+            run.rhs_e,
+            run.h_e,
+        )
         return
     c_m, c_c, c_k = effective(settings, dt)
     for k in range(run.e.shape[0]):
@@ -133,7 +163,12 @@ def set_load(
 
 
 @expanded
-def finish_step(model: Model, run: Run, parts: NonlinearElements | None, settings: Setup) -> None:
+def finish_step(
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements | None,
+    settings: IntegratorSettings,
+) -> None:
     """Set the new displacements, velocities and accelerations from ``run.step``."""
     dt, at = run.clock[0].dt, run.clock[0].halvings
     beta, gamma = settings.beta, settings.gamma
@@ -172,11 +207,11 @@ def finish_step(model: Model, run: Run, parts: NonlinearElements | None, setting
 
 @expanded
 def try_step(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
-    settings: Setup,
+    settings: IntegratorSettings,
     ground: Ground,
 ) -> int:
     """Attempt a step of ``clock.dt``; leaves it in the trial arrays. Returns a status code."""
@@ -195,16 +230,23 @@ def try_step(
     if foreseen:
         predict(run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
     code = newton(
-        model, run, contacts, parts, run.reduced[clock.halvings], 1.0 - settings.alpha_f,
-        settings.force_tolerance, settings.max_iterations, settings.tangent_worth,
-    )  # fmt: skip
+        model,
+        run,
+        contacts,
+        parts,
+        run.reduced[clock.halvings],
+        1.0 - settings.alpha_f,
+        settings.force_tolerance,
+        settings.max_iterations,
+        settings.tangent_worth,
+    )
     if code == _OK:
         finish_step(model, run, parts, settings)
     return code
 
 
 @expanded
-def limits(run: Run) -> int:
+def limits(run: IntegrationState) -> int:
     """Return the status of the bearings' limits in the trial state."""
     for k in range(run.new.shape[0]):
         if run.new[k].status != _OK:
@@ -215,11 +257,11 @@ def limits(run: Run) -> int:
 
 @expanded
 def accept_step(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
-    settings: Setup,
+    settings: IntegratorSettings,
     ground: Ground,
 ) -> None:
     """Commit the step."""
@@ -246,8 +288,8 @@ def accept_step(
 
 @kernel
 def balanced_rates(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     parts: NonlinearElements | None,
     ground: Ground,
     a_b: Floats,
@@ -288,8 +330,8 @@ def balanced_rates(
 
 @inlined
 def record(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
     ground: Ground,
@@ -325,7 +367,7 @@ def record(
 
 
 @expanded
-def halve(run: Run) -> None:
+def halve(run: IntegrationState) -> None:
     """Halve the step that is being tried."""
     run.clock[0].halvings += 1
     run.clock[0].good = 0
@@ -333,12 +375,12 @@ def halve(run: Run) -> None:
 
 
 @expanded
-def attempt(
-    model: Model,
-    run: Run,
+def try_substep(
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
-    settings: Setup,
+    settings: IntegratorSettings,
     ground: Ground,
 ) -> int:
     """Try one step: commit it, or halve it for the next attempt. Returns a status code.
@@ -381,12 +423,12 @@ def attempt(
 
 
 @kernel
-def advance(
-    model: Model,
-    run: Run,
+def integrate_chunk(
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
-    settings: Setup,
+    settings: IntegratorSettings,
     ground: Ground,
     out: Output,
     last: int,
@@ -400,7 +442,7 @@ def advance(
     clock, counts = run.clock[0], run.counts[0]
     most = counts.trials + trials
     while clock.done < last and counts.trials < most:
-        code = attempt(model, run, contacts, parts, settings, ground)
+        code = try_substep(model, run, contacts, parts, settings, ground)
         if code != _OK:
             return code
         if clock.ticks == _TICKS:

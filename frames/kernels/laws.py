@@ -217,9 +217,17 @@ def hertz(
 
 @kernel
 def uniaxial(
-    kind: int, par: Floats, old: Floats, new: Floats,
-    d_old: float, d: float, v_old: float, v: float, rate: float, dt: float,
-) -> tuple[float, float]:  # fmt: skip
+    kind: int,
+    par: Floats,
+    old: Floats,
+    new: Floats,
+    d_old: float,
+    d: float,
+    v_old: float,
+    v: float,
+    rate: float,
+    dt: float,
+) -> tuple[float, float]:
     """Return force and derivative of a law of one deformation, by its kind."""
     for k in range(old.shape[0]):
         new[k] = old[k]

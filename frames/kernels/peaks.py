@@ -23,15 +23,34 @@ AT_ONCE = 4
 """Steps whose displacements are formed together: each column of the maps is read once for them."""
 
 BEARING_COLUMNS = (
-    "displacement", "force", "axial_force", "axial_tension", "vertical_tension", "vertical_change",
-    "lifted", "gap", "sliding", "sliding", "rim_force", "rims_met", "slip", "interface_share",
-    "slipped", "eccentricity", "spin", "centre_shift",
-)  # fmt: skip
+    "displacement",
+    "force",
+    "axial_force",
+    "axial_tension",
+    "vertical_tension",
+    "vertical_change",
+    "lifted",
+    "gap",
+    "sliding",
+    "sliding",
+    "rim_force",
+    "rims_met",
+    "slip",
+    "interface_share",
+    "slipped",
+    "eccentricity",
+    "spin",
+    "centre_shift",
+)
 """Quantities in the columns of `Reached.bearing`; sliding has one for each surface."""
 
 WHOLE_PLACES = (
-    "base_shear", "energy_input", "energy_numerical", "energy_gap", "energy_yielding",
-)  # fmt: skip
+    "base_shear",
+    "energy_input",
+    "energy_numerical",
+    "energy_gap",
+    "energy_yielding",
+)
 """Quantities in `Reached.whole`."""
 
 _PRESSED = 0.05  # frames.results.peak_response.PRESSED and FULL_SLIP
@@ -149,9 +168,13 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
         raise_to(values, times, 12, slip, t)
         raise_to(values, times, 17, math.sqrt(shift_x * shift_x + shift_y * shift_y), t)
         share = eccentricity(
-            state, devices.radius[k], devices.height[k], p.slider_radius, devices.floor[k],
+            state,
+            devices.radius[k],
+            devices.height[k],
+            p.slider_radius,
+            devices.floor[k],
             devices.static[k],
-        )  # fmt: skip
+        )
         raise_to(values, times, 15, share, t)
         peak_contact(p, state, devices.static[k], values, times, t)
         add_totals(p, state, reached, k, t)
@@ -244,9 +267,15 @@ def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float
 
 @inlined
 def peak_shear(
-    devices: Devices, shape: Shape, reached: Reached, states: Records, beyond: Floats, row: int,
-    s: int, t: float,
-) -> None:  # fmt: skip
+    devices: Devices,
+    shape: Shape,
+    reached: Reached,
+    states: Records,
+    beyond: Floats,
+    row: int,
+    s: int,
+    t: float,
+) -> None:
     """Take up the base shear at one step: of bearings on the ground, and of other supports."""
     first, m = 2 * (shape.sizes[2] + shape.sizes[3]), beyond.shape[1]
     square = 0.0
@@ -293,9 +322,15 @@ def peak_of_bearings(
 
 @kernel
 def peak_of_structure(
-    devices: Devices, shape: Shape, reached: Reached, states: Records, out: Output,
-    ground: Ground, first: int, last: int,
-) -> None:  # fmt: skip
+    devices: Devices,
+    shape: Shape,
+    reached: Reached,
+    states: Records,
+    out: Output,
+    ground: Ground,
+    first: int,
+    last: int,
+) -> None:
     """Take up rows first <= k < last of the output: what the structure above does."""
     row = first
     while row < last:

@@ -16,14 +16,14 @@ _MOST_LATE = 2.0  # of the friction force: it has turned round
 _APART = 8  # steps, of which a run with a fixed step looks at the last two: they cost it 1 to 2 %
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Ground, Model, Run, Setup
+    from frames.kernel_data import Ground, IntegrationState, IntegratorSettings, ReducedModel
     from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
 
 @inlined
-def opening(model: Model, k: int, axis: int, b: Floats) -> float:
+def opening(model: ReducedModel, k: int, axis: int, b: Floats) -> float:
     """Return how far `b` takes node j of bearing `k`: to the side, or up from node i."""
     total = 0.0
     for entry in range(model.start[k, 6 + axis], model.start[k, 7 + axis]):
@@ -35,7 +35,7 @@ def opening(model: Model, k: int, axis: int, b: Floats) -> float:
 
 
 @expanded
-def rate(model: Model, run: Run, k: int, axis: int) -> float:
+def rate(model: ReducedModel, run: IntegrationState, k: int, axis: int) -> float:
     """Return the acceleration of bearing `k`'s `opening` along an axis about the step's start.
 
     From displacements, which are free of what rings from step to step.
@@ -46,7 +46,7 @@ def rate(model: Model, run: Run, k: int, axis: int) -> float:
 
 
 @expanded
-def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
+def lifting(model: ReducedModel, run: IntegrationState, ground: Ground, k: int) -> float:
     """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
 
     Total, where node i is fixed, so that it is smooth in free flight.
@@ -58,7 +58,7 @@ def lifting(model: Model, run: Run, ground: Ground, k: int) -> float:
 
 
 @expanded
-def driven(run: Run, ground: Ground, axis: int) -> tuple[float, float]:
+def driven(run: IntegrationState, ground: Ground, axis: int) -> tuple[float, float]:
     """Return the bearings' force over the mass they carry, and the ground's acceleration.
 
     Means of the step and the one before, with the weights that `rate` has.
@@ -81,7 +81,9 @@ def driven(run: Run, ground: Ground, axis: int) -> tuple[float, float]:
 
 
 @kernel
-def ringing(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
+def ringing(
+    model: ReducedModel, run: IntegrationState, settings: IntegratorSettings, ground: Ground
+) -> float:
     """Return 12 times how far what rings at the bearings gets out of phase in a step's length [m].
 
     From accelerations beside the bearings' forces, by which alone a mass without a structure moves;
@@ -109,7 +111,7 @@ def ringing(model: Model, run: Run, settings: Setup, ground: Ground) -> float:
 
 
 @expanded
-def bend(run: Run, k: int, axis: int) -> float:
+def bend(run: IntegrationState, k: int, axis: int) -> float:
     """Return how far the force on node j of bearing `k` is from linear over two steps."""
     clock = run.clock[0]
     ratio = clock.dt / clock.dt_before if clock.dt_before > 0.0 else 0.0
@@ -124,7 +126,7 @@ def turned(a_1: float, a_2: float, b_1: float, b_2: float) -> float:
 
 
 @kernel
-def lagging(model: Model, run: Run, k: int) -> float:
+def lagging(model: ReducedModel, run: IntegrationState, k: int) -> float:
     """Return the force by which the friction of bearing `k` lags behind its law.
 
     Implicit steps are half a step late, an error of first order: half of what the dampers of the
@@ -160,7 +162,11 @@ def lagging(model: Model, run: Run, k: int) -> float:
 
 @kernel
 def estimated_error(
-    model: Model, run: Run, parts: NonlinearElements | None, settings: Setup, ground: Ground
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements | None,
+    settings: IntegratorSettings,
+    ground: Ground,
 ) -> float:
     """Return the error of the bearings' displacements that such steps make [m].
 
@@ -196,11 +202,11 @@ def estimated_error(
 
 @expanded
 def is_rough(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
-    settings: Setup,
+    settings: IntegratorSettings,
     ground: Ground,
 ) -> bool:
     """Return whether the step deserves to be halved, though it converged.
@@ -227,7 +233,9 @@ def is_rough(
 
 
 @expanded
-def keep_motion(model: Model, run: Run, settings: Setup, ground: Ground) -> None:
+def keep_motion(
+    model: ReducedModel, run: IntegrationState, settings: IntegratorSettings, ground: Ground
+) -> None:
     """Keep how the bearings were forced and moved, for the next estimate of the error.
 
     With a fixed step the last of some steps stands for all of them, and needs those before it.

@@ -18,7 +18,7 @@ from lir_element.kernels.linear import add_product, factorise, gather, scatter, 
 from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Model, Run
+    from frames.kernel_data import IntegrationState, ReducedModel
     from frames.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
@@ -35,7 +35,7 @@ _GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
 
 @inlined
 def bearing_forces(
-    model: Model, run: Run, contacts: Contacts | None, b: Floats, v_b: Floats
+    model: ReducedModel, run: IntegrationState, contacts: Contacts | None, b: Floats, v_b: Floats
 ) -> int:
     """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
     n_b = b.shape[0]
@@ -61,7 +61,9 @@ def bearing_forces(
 
 
 @expanded
-def bearing_tangents(model: Model, run: Run, contacts: Contacts | None, factor: float) -> None:
+def bearing_tangents(
+    model: ReducedModel, run: IntegrationState, contacts: Contacts | None, factor: float
+) -> None:
     """Add `factor` times the bearings' tangents at the last trial, transposed, to `run.tangent`."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
@@ -92,8 +94,8 @@ def norm(x: Floats) -> float:
 
 @inlined
 def set_residual(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
     linear: Floats,
@@ -125,7 +127,7 @@ def set_residual(
 
 
 @inlined
-def predict(run: Run, linear: Floats, share: float) -> None:
+def predict(run: IntegrationState, linear: Floats, share: float) -> None:
     """Set a guess of ``run.step`` that takes no state determination.
 
     One iteration with the kept tangent, as if displacements and forces of the bearings went on as
@@ -150,8 +152,8 @@ def predict(run: Run, linear: Floats, share: float) -> None:
 
 @expanded
 def renew_tangent(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
     linear: Floats,
@@ -171,8 +173,8 @@ def renew_tangent(
 
 @inlined
 def newton(
-    model: Model,
-    run: Run,
+    model: ReducedModel,
+    run: IntegrationState,
     contacts: Contacts | None,
     parts: NonlinearElements | None,
     linear: Floats,
@@ -241,7 +243,11 @@ def newton(
 
 @kernel
 def solve_gravity(
-    model: Model, run: Run, contacts: Contacts | None, tolerance: float, max_iterations: int
+    model: ReducedModel,
+    run: IntegrationState,
+    contacts: Contacts | None,
+    tolerance: float,
+    max_iterations: int,
 ) -> int:
     """Bring the frame into equilibrium under its permanent loads; returns a status code.
 
@@ -280,7 +286,7 @@ def solve_gravity(
 
 
 @inlined
-def commit_bearings(model: Model, run: Run, contacts: Contacts | None) -> None:
+def commit_bearings(model: ReducedModel, run: IntegrationState, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):
         bearing_commit(

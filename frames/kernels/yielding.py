@@ -23,7 +23,7 @@ from frames.nonlinear_layout import (
 from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Model, Run, Setup
+    from frames.kernel_data import IntegrationState, IntegratorSettings, ReducedModel
     from frames.nonlinear_data import NonlinearElements
     from lir_element.layout import Floats, Words
 
@@ -37,10 +37,25 @@ _FLAT = 0.2  # of the slope of the potential at the start of a step: then it doe
 
 @kernel
 def part_trial(
-    kind: Words, first: Words, par: Floats, elastic: Floats, old: Floats, new: Floats,
-    d_old: Floats, d: Floats, v_old: Floats, v: Floats, g_old: Floats, g: Floats, change: Floats,
-    slope: Floats, small: Floats, k: int, rate: float, dt: float,
-) -> int:  # fmt: skip
+    kind: Words,
+    first: Words,
+    par: Floats,
+    elastic: Floats,
+    old: Floats,
+    new: Floats,
+    d_old: Floats,
+    d: Floats,
+    v_old: Floats,
+    v: Floats,
+    g_old: Floats,
+    g: Floats,
+    change: Floats,
+    slope: Floats,
+    small: Floats,
+    k: int,
+    rate: float,
+    dt: float,
+) -> int:
     """Set g, its change and its slope of part `k` at `d`.
 
     Returns 0 where g does not change, 1 where it does, -1 where there is no state.
@@ -48,9 +63,7 @@ def part_trial(
     at = first[k]
     if kind[k] == HINGES:
         end = at + WIDEST
-        yields = hinged_member(
-            par[k], old[k], new[k], d[at:end], g[at:end], slope[at:end], small
-        )  # fmt: skip
+        yields = hinged_member(par[k], old[k], new[k], d[at:end], g[at:end], slope[at:end], small)
         for i in range(at, end):
             change[i] = g[i] - g_old[i] if yields else 0.0
         return yields
@@ -80,10 +93,25 @@ def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
             + known_a * parts.a_old[i]
         )
     return part_trial(
-        parts.kind, parts.first, parts.par, parts.elastic, parts.old, parts.new, parts.d_old,
-        parts.d, parts.v_old, parts.v, parts.g_old, parts.g, parts.change, parts.slope, parts.small,
-        k, speed, dt,
-    )  # fmt: skip
+        parts.kind,
+        parts.first,
+        parts.par,
+        parts.elastic,
+        parts.old,
+        parts.new,
+        parts.d_old,
+        parts.d,
+        parts.v_old,
+        parts.v,
+        parts.g_old,
+        parts.g,
+        parts.change,
+        parts.slope,
+        parts.small,
+        k,
+        speed,
+        dt,
+    )
 
 
 @kernel
@@ -110,9 +138,14 @@ def flexibility_row(
 
 @kernel
 def follow_of(
-    to_b: Floats, to_e: Floats, mass_eb: Floats, inverse: Floats, factor: float, full: Floats,
+    to_b: Floats,
+    to_e: Floats,
+    mass_eb: Floats,
+    inverse: Floats,
+    factor: float,
+    full: Floats,
     out: Floats,
-) -> None:  # fmt: skip
+) -> None:
     """Set how deformations follow b with the modes: by `full` damping's, or the diagonal one."""
     m, n_b = to_b.shape
     for i in range(m):
@@ -131,7 +164,7 @@ def follow_of(
 
 @inlined
 def set_mode_flexibility(
-    model: Model, parts: NonlinearElements, c_m: float, c_c: float, c_k: float
+    model: ReducedModel, parts: NonlinearElements, c_m: float, c_c: float, c_k: float
 ) -> None:
     """Set ``parts.modes[0]``, the modes' flexibility at a step where damping is diagonal."""
     for k in range(parts.to_e.shape[1]):
@@ -139,20 +172,30 @@ def set_mode_flexibility(
 
 
 @inlined
-def set_part_follow(model: Model, run: Run, parts: NonlinearElements, settings: Setup) -> None:
+def set_part_follow(
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements,
+    settings: IntegratorSettings,
+) -> None:
     """Set how the deformations follow b at the present step size."""
     at = run.clock[0].halvings
     c_m, c_c, c_k = effective(settings, run.clock[0].dt)
     set_mode_flexibility(model, parts, c_m, c_c, c_k)
     n_full = model.damping_ee.shape[0]
     follow_of(
-        parts.to_b, parts.to_e, model.mass_eb, parts.modes[:1], c_m, run.follow_e[at][:n_full],
+        parts.to_b,
+        parts.to_e,
+        model.mass_eb,
+        parts.modes[:1],
+        c_m,
+        run.follow_e[at][:n_full],
         parts.follow[at],
-    )  # fmt: skip
+    )
 
 
 @inlined
-def row_of(model: Model, run: Run, parts: NonlinearElements, i: int) -> int:
+def row_of(model: ReducedModel, run: IntegrationState, parts: NonlinearElements, i: int) -> int:
     """Return the place in the pool of row `i` of the flexibility at the present step size."""
     at = run.clock[0].halvings
     place = parts.slot[at, i]
@@ -173,7 +216,12 @@ def row_of(model: Model, run: Run, parts: NonlinearElements, i: int) -> int:
 
 
 @inlined
-def begin_parts(model: Model, run: Run, parts: NonlinearElements, settings: Setup) -> None:
+def begin_parts(
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements,
+    settings: IntegratorSettings,
+) -> None:
     """Set the deformations at the end of the step if b rests and no force g changes.
 
     Needs ``run.h_e``, what the modes do then.
@@ -201,7 +249,7 @@ def begin_parts(model: Model, run: Run, parts: NonlinearElements, settings: Setu
 
 
 @inlined
-def loosen(parts: NonlinearElements, k: int) -> None:
+def activate(parts: NonlinearElements, k: int) -> None:
     """Add a part to the loose ones."""
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
@@ -211,7 +259,7 @@ def loosen(parts: NonlinearElements, k: int) -> None:
 
 
 @inlined
-def follow_change(model: Model, run: Run, parts: NonlinearElements) -> None:
+def follow_change(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> None:
     """Set the deformations of what is not loose from those of the step and the changes of g."""
     for i in range(parts.d.shape[0]):
         parts.vector[0, i] = parts.linear[i]
@@ -228,7 +276,7 @@ def follow_change(model: Model, run: Run, parts: NonlinearElements) -> None:
 
 
 @inlined
-def set_part_gap(model: Model, run: Run, parts: NonlinearElements) -> float:
+def set_part_gap(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> float:
     """Set what the frame gives way to by forces that are guessed but not there; its size."""
     size = 0.0
     for n in range(parts.number[0]):
@@ -247,7 +295,7 @@ def set_part_gap(model: Model, run: Run, parts: NonlinearElements) -> float:
 
 
 @inlined
-def try_loose(model: Model, run: Run, parts: NonlinearElements) -> float:
+def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> float:
     """Run the loose parts and return the size of what they lack; infinite without a state."""
     for k in range(parts.kind.shape[0]):
         if parts.loose[k] == 1 and try_part(parts, k, run.clock[0].dt) < 0:
@@ -256,7 +304,7 @@ def try_loose(model: Model, run: Run, parts: NonlinearElements) -> float:
 
 
 @inlined
-def set_part_matrix(model: Model, run: Run, parts: NonlinearElements) -> None:
+def set_part_matrix(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> None:
     """Set ``1 + F slope`` over the loose deformations."""
     count = parts.number[0]
     for n in range(count):
@@ -299,7 +347,7 @@ def ascent(parts: NonlinearElements) -> float:
 
 
 @inlined
-def set_newton_step(model: Model, run: Run, parts: NonlinearElements) -> bool:
+def set_newton_step(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Set Newton's step of the deformations (`right`) and forces (`vector[0]`) of loose parts."""
     count = parts.number[0]
     set_part_matrix(model, run, parts)
@@ -320,7 +368,7 @@ def set_newton_step(model: Model, run: Run, parts: NonlinearElements) -> bool:
 
 
 @inlined
-def newton_loose(model: Model, run: Run, parts: NonlinearElements) -> bool:
+def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Bring the loose parts into equilibrium with the frame; returns whether that succeeded.
 
     With forces q guessed, ``d = linear - F q``; wanted is ``q = g(d) - g_old``. That is where a
@@ -360,7 +408,9 @@ def newton_loose(model: Model, run: Run, parts: NonlinearElements) -> bool:
 
 
 @inlined
-def settle_parts(model: Model, run: Run, parts: NonlinearElements, step: Floats) -> bool:
+def settle_parts(
+    model: ReducedModel, run: IntegrationState, parts: NonlinearElements, step: Floats
+) -> bool:
     """Find the deformations and forces of all parts for a step of b; returns success."""
     follow = parts.follow[run.clock[0].halvings]
     for i in range(parts.d.shape[0]):
@@ -387,7 +437,7 @@ def settle_parts(model: Model, run: Run, parts: NonlinearElements, step: Floats)
                 if found < 0:
                     return False
                 if found > 0:
-                    loosen(parts, k)
+                    activate(parts, k)
                     more = True
         if not more:
             for n in range(parts.number[0]):  # what the frame gives: so no errors add up
@@ -397,7 +447,7 @@ def settle_parts(model: Model, run: Run, parts: NonlinearElements, step: Floats)
 
 
 @inlined
-def add_part_forces(run: Run, parts: NonlinearElements, out: Floats) -> None:
+def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
     for n in range(parts.number[0]):
@@ -409,7 +459,7 @@ def add_part_forces(run: Run, parts: NonlinearElements, out: Floats) -> None:
 
 
 @inlined
-def add_part_tangent(model: Model, run: Run, parts: NonlinearElements) -> bool:
+def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
     count, n_b = parts.number[0], run.step.shape[0]
     if count == 0:

@@ -159,10 +159,13 @@ def shear_building(
     if grid is not None and tilts:
         first = chains[1][0] if not laws else laws[0].stiffness
         add_tilting_base(
-            frame, grid, base_stiffness, base,
+            frame,
+            grid,
+            base_stiffness,
+            base,
             column=first * height**2 / (3.0 * len(grid.nodes)),  # 12 E I / h^3 each of the storey
             floors=[f"floor-{k + 1}" for k in range(len(chains[0]))],
-        )  # fmt: skip
+        )
     frame.set_damping(damping)
     return frame
 
@@ -202,9 +205,11 @@ def _laws(given: StoreyLaws | None, stiffness: list[float]) -> list[Bilinear | B
         raise ModelError(message)
     for k, law in enumerate(laws, start=1):
         require_type(
-            f"shear_building: storey_law of storey {k}", law, (Bilinear, BoucWen),
+            f"shear_building: storey_law of storey {k}",
+            law,
+            (Bilinear, BoucWen),
             "a Bilinear or BoucWen law",
-        )  # fmt: skip
+        )
     return laws
 
 
@@ -254,11 +259,15 @@ def _offset(grid: GridPlan | None, eccentricity: tuple[float, float]) -> tuple[f
     # Of the masses from the middle of a plan [m].
     shares = [
         require_between(
-            "shear_building: eccentricity [-]", share, -0.5, 0.5,
-            remedy="0.05 is a twentieth of the side", error=ModelError,
+            "shear_building: eccentricity [-]",
+            share,
+            -0.5,
+            0.5,
+            remedy="0.05 is a twentieth of the side",
+            error=ModelError,
         )
         for share in eccentricity
-    ]  # fmt: skip
+    ]
     if grid is not None:
         return shares[0] * grid.side[0], shares[1] * grid.side[1]
     if any(shares):

@@ -171,12 +171,14 @@ def _beams(plan: GridPlan, rigidity: tuple[float, float], size: int) -> FloatArr
             turn, sign = ((_RY, -1.0), (_RX, 1.0))[axis]  # slope of uz along the beam
             i, j = place[ix, iy], place[other]
             dofs = np.array([i + _UZ, i + turn, j + _UZ, j + turn])
-            shape = np.array([
-                [12.0, 6.0 * span, -12.0, 6.0 * span],
-                [6.0 * span, 4.0 * span**2, -6.0 * span, 2.0 * span**2],
-                [-12.0, -6.0 * span, 12.0, -6.0 * span],
-                [6.0 * span, 2.0 * span**2, -6.0 * span, 4.0 * span**2],
-            ])  # fmt: skip
+            shape = np.array(
+                [
+                    [12.0, 6.0 * span, -12.0, 6.0 * span],
+                    [6.0 * span, 4.0 * span**2, -6.0 * span, 2.0 * span**2],
+                    [-12.0, -6.0 * span, 12.0, -6.0 * span],
+                    [6.0 * span, 2.0 * span**2, -6.0 * span, 4.0 * span**2],
+                ]
+            )
             signs = np.array([1.0, sign, 1.0, sign])
             own = rigidity[axis] / span**3 * shape * np.outer(signs, signs)
             stiffness[np.ix_(dofs, dofs)] += own

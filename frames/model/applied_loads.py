@@ -15,7 +15,7 @@ from frames.model.geometry_checks import member_ends
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.model.components import Member
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 
 class NodeLoad(NamedTuple):
@@ -49,7 +49,7 @@ class AppliedLoads(NamedTuple):
     spans: list[SpanLoad]
 
 
-def applied_loads(frame: FrameContents) -> AppliedLoads:
+def applied_loads(frame: FrameData) -> AppliedLoads:
     """Return the loads of floor panels and tapered loads.
 
     Parameters
@@ -79,7 +79,7 @@ def applied_loads(frame: FrameContents) -> AppliedLoads:
     return found
 
 
-def load_masses(frame: FrameContents, applied: AppliedLoads) -> dict[str, float]:
+def load_masses(frame: FrameData, applied: AppliedLoads) -> dict[str, float]:
     """Return the masses that permanent loads make, by node.
 
     Parameters
@@ -114,7 +114,7 @@ def load_masses(frame: FrameContents, applied: AppliedLoads) -> dict[str, float]
     return {node: mass for node, mass in found.items() if mass > 0.0}
 
 
-def _at_nodes(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
+def _at_nodes(frame: FrameData, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
     # Downward forces that are mass, of loads on nodes.
     for node, cases in frame.loads_by_case.items():
         for case, forces in cases.items():
@@ -126,7 +126,7 @@ def _at_nodes(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str
             yield node, -share * float(forces[2])
 
 
-def _along_members(frame: FrameContents, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
+def _along_members(frame: FrameData, applied: AppliedLoads) -> Iterator[tuple[str, float]]:
     # The same of loads along members, by the rule of the lever at their ends.
     for name, cases in frame.uniform_loads_by_case.items():
         member = frame.members[name]
@@ -147,6 +147,6 @@ def _along_members(frame: FrameContents, applied: AppliedLoads) -> Iterator[tupl
             yield from ((member.i, force - part), (member.j, part))
 
 
-def _length(frame: FrameContents, member: Member) -> float:
+def _length(frame: FrameData, member: Member) -> float:
     start, end = member_ends(frame.nodes, member)
     return float(np.linalg.norm(end - start))

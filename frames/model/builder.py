@@ -192,9 +192,15 @@ class FrameBuilder(FrameLoader):
         new_name(name, self._superelements, "superelement")
         chosen = node_list(self._nodes, nodes, f'superelement "{name}"', least=1)
         self._superelements[name] = superelement(
-            name, chosen, stiffness, mass,
-            damping=damping, load=load, equations=equations, notes=notes,
-        )  # fmt: skip
+            name,
+            chosen,
+            stiffness,
+            mass,
+            damping=damping,
+            load=load,
+            equations=equations,
+            notes=notes,
+        )
 
     def add_diaphragm(self, name: str, nodes: Sequence[str]) -> None:
         """Make nodes move in their horizontal plane as one rigid body.

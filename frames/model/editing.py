@@ -132,11 +132,17 @@ class FrameEditor(NonlinearBuilder):
             If there is no such part.
         """
         groups: dict[str, dict[str, Any]] = {
-            "member": self._members, "spring": self._springs, "link": self._links,
-            "hinges": self._hinges, "bearing": self._bearings,
-            "diaphragm": self._diaphragms, "level": self._levels, "mass": self._masses,
-            "load": self._loads, "floor load": self._floor_loads,
-        }  # fmt: skip
+            "member": self._members,
+            "spring": self._springs,
+            "link": self._links,
+            "hinges": self._hinges,
+            "bearing": self._bearings,
+            "diaphragm": self._diaphragms,
+            "level": self._levels,
+            "mass": self._masses,
+            "load": self._loads,
+            "floor load": self._floor_loads,
+        }
         if kind not in groups:
             msg = f"kind = {kind!r}: choose one of {', '.join(groups)}"
             raise ModelError(msg)

@@ -208,9 +208,12 @@ def _put(
                 to.nodes.append((node, np.concatenate([down, np.cross(arm, down)])))
                 continue
             part = TaperedLoad(
-                (a - x_i) * ratio, (b - x_i) * ratio, (0.0, 0.0, -near / ratio),
-                (0.0, 0.0, -far / ratio), load.case,
-            )  # fmt: skip
+                (a - x_i) * ratio,
+                (b - x_i) * ratio,
+                (0.0, 0.0, -near / ratio),
+                (0.0, 0.0, -far / ratio),
+                load.case,
+            )
             to.members.append((member.name, part))
 
 

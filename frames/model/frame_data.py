@@ -39,7 +39,7 @@ def frozen(values: FloatArray) -> FloatArray:
     return values
 
 
-class FrameContents:
+class FrameData:
     """Components of a frame by name, in the order added.
 
     Parameters
@@ -101,9 +101,17 @@ class FrameContents:
 
     def _repr_html_(self) -> str:
         kinds = (
-            "nodes", "members", "springs", "links", "hinges", "superelements", "diaphragms",
-            "bearings", "levels", "floor_loads",
-        )  # fmt: skip
+            "nodes",
+            "members",
+            "springs",
+            "links",
+            "hinges",
+            "superelements",
+            "diaphragms",
+            "bearings",
+            "levels",
+            "floor_loads",
+        )
         rows = [
             (kind.replace("_", " "), str(len(getattr(self, kind))))
             for kind in kinds

@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.model.applied_loads import applied_loads, load_masses
-from frames.model.frame_data import FrameContents, frozen
+from frames.model.frame_data import FrameData, frozen
 from lir_element.argument_checks import require_finite, require_non_negative, require_type
 
 if TYPE_CHECKING:
@@ -49,9 +49,7 @@ def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
     }
 
 
-def combination(
-    frame: FrameContents, factors: Mapping[str, float], weight: str
-) -> dict[str, float]:
+def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> dict[str, float]:
     """Return the factors of a combination once they fit the frame.
 
     Parameters
@@ -90,7 +88,7 @@ def combination(
     return found
 
 
-def factor_loads(frame: FrameContents, factors: Mapping[str, float], weight: str) -> None:
+def factor_loads(frame: FrameData, factors: Mapping[str, float], weight: str) -> None:
     """Multiply the permanent loads of a frame and what its masses weigh; masses stay.
 
     Parameters
@@ -115,7 +113,7 @@ def factor_loads(frame: FrameContents, factors: Mapping[str, float], weight: str
     }
 
 
-def factor_all(frame: FrameContents, factors: Mapping[str, float], weight: str) -> None:
+def factor_all(frame: FrameData, factors: Mapping[str, float], weight: str) -> None:
     """Multiply permanent loads and masses of a frame, so that all that weighs is mass.
 
     Parameters
@@ -152,7 +150,7 @@ def factor_all(frame: FrameContents, factors: Mapping[str, float], weight: str) 
     }
 
 
-def _multiply(frame: FrameContents, factors: Mapping[str, float]) -> None:
+def _multiply(frame: FrameData, factors: Mapping[str, float]) -> None:
     def scaled(group: dict[str, dict[str, FloatArray]]) -> dict[str, dict[str, FloatArray]]:
         return {
             key: {case: frozen(factors[case] * values) for case, values in cases.items()}

@@ -10,7 +10,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.model.components import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
-from frames.model.frame_data import FrameContents, frozen
+from frames.model.frame_data import FrameData, frozen
 from frames.model.geometry_checks import member_span
 from frames.model.names import known_name, new_name
 from lir_element.argument_checks import (
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from frames.model.panels import Span
 
 
-class FrameLoader(FrameContents):
+class FrameLoader(FrameData):
     """The verbs of `Frame` that add masses and permanent loads."""
 
     def add_mass(

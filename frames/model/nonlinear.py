@@ -53,9 +53,11 @@ class NonlinearBuilder(FrameBuilder):
         new_name(name, self._links, "link")
         require_two_nodes(self._nodes, i, j, f'link "{name}"')
         require_type(
-            f'law of link "{name}"', law, LAWS,
+            f'law of link "{name}"',
+            law,
+            LAWS,
             "a law such as Bilinear(stiffness=..., yield_force=...)",
-        )  # fmt: skip
+        )
         vector, turns = self._link_direction(name, i, j, direction)
         self._links[name] = Link(name, i, j, law, vector, turns)
 
@@ -84,9 +86,11 @@ class NonlinearBuilder(FrameBuilder):
         for end, each in given.items():
             require_choice(f'end of the hinge on member "{member}"', end, ("i", "j"))
             require_type(
-                f'hinge at end {end} of member "{member}"', each, PlasticHinge,
+                f'hinge at end {end} of member "{member}"',
+                each,
+                PlasticHinge,
                 "a PlasticHinge(moment_y=..., moment_z=...)",
-            )  # fmt: skip
+            )
         if any(self._members[member].releases):
             message = (
                 f'member "{member}" has releases, and plastic hinges do not go with them: leave '
@@ -127,9 +131,11 @@ class NonlinearBuilder(FrameBuilder):
         for side, each in given.items():
             require_choice(f'side of moat "{name}"', side, tuple(_SIDES))
             require_type(
-                f'law of moat "{name}", side {side}', each, (Gap, HertzGap),
+                f'law of moat "{name}", side {side}',
+                each,
+                (Gap, HertzGap),
                 "a Gap(gap=..., stiffness=...) or a HertzGap",
-            )  # fmt: skip
+            )
         for node in nodes:
             known_name(node, self._nodes, "node")
             new_name(f"{name}-{node}", self._nodes, "node")

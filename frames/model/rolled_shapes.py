@@ -55,9 +55,12 @@ def rolled_i_constants(
     """
     where = "Section.rolled_i"
     d, b, tf, tw = dimensions(
-        where, depth=depth, flange_width=flange_width, flange_thickness=flange_thickness,
+        where,
+        depth=depth,
+        flange_width=flange_width,
+        flange_thickness=flange_thickness,
         web_thickness=web_thickness,
-    )  # fmt: skip
+    )
     r = require_non_negative(f"{where}: radius [m]", radius, error=ModelError)
     web = d - 2.0 * tf
     if 2.0 * r >= web or tw + 2.0 * r > b:

@@ -14,7 +14,7 @@ from frames._errors import ModelError
 from lir_element.units import ACCELERATIONS, DENSITIES, LENGTHS, MODULI, meant
 
 if TYPE_CHECKING:
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 TALLEST, WIDEST = 1000.0, 50e3
 """Extent along z, and in plan, that no structure on bearings has [m]."""
@@ -37,7 +37,7 @@ SLENDEREST, STOUTEST = 600.0, 8.0
 a frame do not exceed [-]."""
 
 
-def refuse_extent(frame: FrameContents) -> None:
+def refuse_extent(frame: FrameData) -> None:
     """Refuse coordinates that no structure has.
 
     Parameters
@@ -66,7 +66,7 @@ def refuse_extent(frame: FrameContents) -> None:
             raise ModelError(message)
 
 
-def doubts(frame: FrameContents) -> tuple[str, ...]:
+def sanity_warnings(frame: FrameData) -> tuple[str, ...]:
     """Return what is strange about a frame, a sentence each; nothing for usual ones.
 
     Parameters
@@ -80,12 +80,15 @@ def doubts(frame: FrameContents) -> tuple[str, ...]:
         Each names the value, what is usual, and the unit to suspect.
     """
     return (
-        *_of_gravity(frame), *_of_members(frame), *_of_sections(frame), *_of_floors(frame),
+        *_of_gravity(frame),
+        *_of_members(frame),
+        *_of_sections(frame),
+        *_of_floors(frame),
         *_of_mass_source(frame),
-    )  # fmt: skip
+    )
 
 
-def _of_gravity(frame: FrameContents) -> list[str]:
+def _of_gravity(frame: FrameData) -> list[str]:
     g = frame.gravity
     if g <= 0.0 or USUAL_GRAVITY[0] <= g <= USUAL_GRAVITY[1]:
         return []
@@ -93,7 +96,7 @@ def _of_gravity(frame: FrameContents) -> list[str]:
     return [f"gravity = {g:g} m/s2 is not the Earth's: {hint} if that is not meant"]
 
 
-def _of_members(frame: FrameContents) -> list[str]:
+def _of_members(frame: FrameData) -> list[str]:
     ratios = []
     for member in frame.members.values():
         ends = (np.array(frame.nodes[node].position) for node in (member.i, member.j))
@@ -120,7 +123,7 @@ def _of_members(frame: FrameContents) -> list[str]:
     return []
 
 
-def _of_sections(frame: FrameContents) -> list[str]:
+def _of_sections(frame: FrameData) -> list[str]:
     found = []
     for section in dict.fromkeys(member.section for member in frame.members.values()):
         modulus, density = section.elastic_modulus, section.density
@@ -135,7 +138,7 @@ def _of_sections(frame: FrameContents) -> list[str]:
     return found
 
 
-def _of_floors(frame: FrameContents) -> list[str]:
+def _of_floors(frame: FrameData) -> list[str]:
     light = [load for load in frame.floor_loads.values() if 0.0 < load.q < LIGHTEST_FLOOR]
     if not light:
         return []
@@ -146,7 +149,7 @@ def _of_floors(frame: FrameContents) -> list[str]:
     ]
 
 
-def _of_mass_source(frame: FrameContents) -> list[str]:
+def _of_mass_source(frame: FrameData) -> list[str]:
     cases = frame.load_cases
     empty = [name for name, share in frame.mass_source.items() if share and name not in cases]
     if not empty:

@@ -15,10 +15,16 @@ SOFTEST, LARGEST_AREA = 1e6, 500.0
 """Elastic modulus [Pa] below, and area [m2] above which no member is."""
 
 UNITS = {
-    "area": "m2", "inertia_y": "m4", "inertia_z": "m4", "torsion_constant": "m4",
-    "elastic_modulus": "Pa", "shear_modulus": "Pa", "density": "kg/m3", "shear_area_y": "m2",
+    "area": "m2",
+    "inertia_y": "m4",
+    "inertia_z": "m4",
+    "torsion_constant": "m4",
+    "elastic_modulus": "Pa",
+    "shear_modulus": "Pa",
+    "density": "kg/m3",
+    "shear_area_y": "m2",
     "shear_area_z": "m2",
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -89,8 +95,10 @@ class SectionConstants:
         def text(value: float) -> str:
             return "not counted" if math.isinf(value) else f"{value:.4g}"
 
-        rows = [(f.name.replace("_", " "), text(getattr(self, f.name)), UNITS[f.name]) for f in
-                fields(self)]  # fmt: skip
+        rows = [
+            (f.name.replace("_", " "), text(getattr(self, f.name)), UNITS[f.name])
+            for f in fields(self)
+        ]
         return html_table("Section", rows)
 
     def cracked(

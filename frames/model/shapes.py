@@ -105,9 +105,12 @@ def i_shape_constants(
         If a dimension is not positive, or flanges or web do not fit.
     """
     d, b, tf, tw = dimensions(
-        "Section.i_shape", depth=depth, flange_width=flange_width,
-        flange_thickness=flange_thickness, web_thickness=web_thickness,
-    )  # fmt: skip
+        "Section.i_shape",
+        depth=depth,
+        flange_width=flange_width,
+        flange_thickness=flange_thickness,
+        web_thickness=web_thickness,
+    )
     if 2.0 * tf >= d or tw > b:
         message = (
             f"Section.i_shape: flange_thickness = {tf:g} m must be less than half the depth, "

@@ -19,7 +19,7 @@ from lir_element.tables import html_table
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class MotionContents:
+class MotionData:
     """Accelerations of the ground, checked, copied and frozen; parameters as in `GroundMotion`."""
 
     x: FloatArray | None = None

@@ -10,7 +10,7 @@ from typing import Self
 from frames._errors import MotionWarning
 from frames.motion import transforms
 from frames.motion.components import AXES
-from frames.motion.motion_data import MotionContents
+from frames.motion.motion_data import MotionData
 from frames.motion.records import (
     AccelerationTrace,
     ColumnLayout,
@@ -24,7 +24,7 @@ from frames.motion.sanity_checks import record_doubts
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class RecordedMotion(MotionContents):
+class RecordedMotion(MotionData):
     """Accelerations of the ground that files hold; parameters as in `GroundMotion`."""
 
     @classmethod

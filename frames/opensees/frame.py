@@ -33,7 +33,7 @@ from lir_element.opensees.dangling_references import listed
 if TYPE_CHECKING:
     from frames.assembly.system import System
     from frames.model.builder import FrameBuilder
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.opensees.model import OpenSeesModel
 
 NAME = "opensees"
@@ -62,8 +62,9 @@ def read(options: Options) -> tuple[Taken, Structure]:
     """
     _check_options(options)
     model = read_model()
-    unknown = [tag for tag in (*options.base_nodes, *options.other_supports)
-               if tag not in model.tags]  # fmt: skip
+    unknown = [
+        tag for tag in (*options.base_nodes, *options.other_supports) if tag not in model.tags
+    ]
     if unknown:
         message = (
             f"the OpenSees model has no node {unknown[0]}, named as a base node or support: give "
@@ -92,7 +93,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
     return taken, structure
 
 
-def refuse_taken(frame: FrameContents, structure: Structure, options: Options) -> None:
+def refuse_taken(frame: FrameData, structure: Structure, options: Options) -> None:
     """Refuse a frame taken over whose bearings could not work, or that would fall.
 
     Parameters
@@ -121,9 +122,13 @@ def fill(frame: FrameBuilder, taken: Taken) -> None:
     for name, dofs in taken.fixed.items():
         frame.fix(name, *dofs)
     frame.add_superelement(
-        "opensees", taken.members, **taken.matrices,
-        load=taken.load, equations=taken.equations, notes=taken.notes,
-    )  # fmt: skip
+        "opensees",
+        taken.members,
+        **taken.matrices,
+        load=taken.load,
+        equations=taken.equations,
+        notes=taken.notes,
+    )
     for name, (i, j, device) in taken.bearings.items():
         frame.add_bearing(name, i, j, device)
     for name, nodes in taken.diaphragms.items():

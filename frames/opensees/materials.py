@@ -18,10 +18,18 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
 
-DASHPOTS = frozenset({
-    "Viscous", "ViscousMaterial", "ViscousDamper", "Maxwell", "MaxwellMaterial",
-    "BilinearOilDamper", "DamperMaterial", "ViscoelasticGap",
-})  # fmt: skip
+DASHPOTS = frozenset(
+    {
+        "Viscous",
+        "ViscousMaterial",
+        "ViscousDamper",
+        "Maxwell",
+        "MaxwellMaterial",
+        "BilinearOilDamper",
+        "DamperMaterial",
+        "ViscoelasticGap",
+    }
+)
 """Types of uniaxial materials whose force depends on speed: not tried, as trials are static."""
 
 DEPARTURE = 0.05
@@ -98,8 +106,10 @@ def _part(text: str, word: str) -> str:
     begin = text.find(f'\t"{word}": [')
     if begin < 0:
         return ""
-    following = [text.find(f'\t"{other}": [', begin + 1) for other in
-                 ("ndMaterials", "sections", "crdTransformations", "elements")]  # fmt: skip
+    following = [
+        text.find(f'\t"{other}": [', begin + 1)
+        for other in ("ndMaterials", "sections", "crdTransformations", "elements")
+    ]
     return text[begin : min((place for place in following if place > 0), default=len(text))]
 
 

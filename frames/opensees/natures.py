@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     from frames.opensees.model import ElementEntry, OpenSeesModel
 
 LINEAR = (
-    "ElasticBeam2d", "ElasticBeam3d", "ElasticTimoshenkoBeam2d", "ElasticTimoshenkoBeam3d",
-    "ModElasticBeam2d", "ModElasticBeam3d",
-)  # fmt: skip
+    "ElasticBeam2d",
+    "ElasticBeam3d",
+    "ElasticTimoshenkoBeam2d",
+    "ElasticTimoshenkoBeam3d",
+    "ModElasticBeam2d",
+    "ModElasticBeam3d",
+)
 """Classes of elements that are linear whatever their material: only P-Delta changes them."""
 
 SPRINGS = ("ZeroLength", "TwoNodeLink", "CoupledZeroLength")
@@ -28,12 +32,21 @@ BARS = ("Truss", "Truss2", "CorotTruss", "CorotTruss2")
 """Classes of elements whose uniaxial material sees a strain."""
 
 _ELASTIC_SECTIONS = (
-    "ElasticSection2d", "ElasticSection3d", "ElasticShearSection2d", "ElasticShearSection3d",
-    "ElasticMembranePlateSection", "ElasticPlateSection",
-)  # fmt: skip
+    "ElasticSection2d",
+    "ElasticSection3d",
+    "ElasticShearSection2d",
+    "ElasticShearSection3d",
+    "ElasticMembranePlateSection",
+    "ElasticPlateSection",
+)
 _ELASTIC_SOLID = "ElasticIsotropic"
-_WRAPPERS = ("PlateFiberMaterial", "PlaneStressMaterial", "PlaneStrainMaterial",
-             "PlateFromPlaneStressMaterial", "BeamFiberMaterial")  # fmt: skip
+_WRAPPERS = (
+    "PlateFiberMaterial",
+    "PlaneStressMaterial",
+    "PlaneStrainMaterial",
+    "PlateFromPlaneStressMaterial",
+    "BeamFiberMaterial",
+)
 
 
 class Nature(NamedTuple):

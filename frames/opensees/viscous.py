@@ -65,8 +65,11 @@ def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, 
             unclear += [element.tag for element in group]
             continue
         for rows, columns, sign in (
-            (first, first, 1), (second, second, 1), (first, second, -1), (second, first, -1)
-        ):  # fmt: skip
+            (first, first, 1),
+            (second, second, 1),
+            (first, second, -1),
+            (second, first, -1),
+        ):
             damping[rows, columns] = damping[rows, columns].toarray() + sign * own
         added = True
     notes = []

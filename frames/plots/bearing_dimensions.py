@@ -94,6 +94,12 @@ def _upright(ax: Axes, at: float, start: float, end: float, text: str) -> None:
 
 
 def _arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
-    line = {"arrowstyle": "<|-|>", "linewidth": 0.6, "color": "black", "shrinkA": 0, "shrinkB": 0,
-            "mutation_scale": 7}  # fmt: skip
+    line = {
+        "arrowstyle": "<|-|>",
+        "linewidth": 0.6,
+        "color": "black",
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "mutation_scale": 7,
+    }
     ax.annotate("", xy=tuple(end), xytext=tuple(start), arrowprops=line)

@@ -71,8 +71,10 @@ def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
         end = int(np.argmax(slip)) if slip.max() > _SLIPS else far
         middle = int(touches[touches <= end][-1]) if touches[0] <= end else int(touches[0])
     aside = np.flatnonzero(u @ u[middle] <= 0.0)  # on the other side of the centre
-    swing = range(int(max(aside[aside < middle], default=-1)) + 1,
-                  int(min(aside[aside > middle], default=len(u))))  # fmt: skip
+    swing = range(
+        int(max(aside[aside < middle], default=-1)) + 1,
+        int(min(aside[aside > middle], default=len(u))),
+    )
     if len(touches):
         start = int(touches[touches >= swing.start][0])
     begin = start
@@ -164,10 +166,11 @@ def bearing_sections(
     figure = _draw_panels(data.sel(bearing=name), device, chosen, postures, plane)
     names = ("plates", "slider") if device.is_dcfp else ("plates", "bottom slider", "top slider")
     handles = [
-        Polygon(np.zeros((1, 2)), facecolor=FILLS[body], edgecolor="black", linewidth=0.6,
-                label=label)
+        Polygon(
+            np.zeros((1, 2)), facecolor=FILLS[body], edgecolor="black", linewidth=0.6, label=label
+        )
         for body, label in zip(BODIES, names, strict=False)
-    ]  # fmt: skip
+    ]
     angle = math.degrees(math.atan2(plane[1], plane[0])) % 360.0
     heading = f"{name}, to scale: vertical section at {round(angle) % 360}° from x"
     ps.add_legend(figure, handles, title=heading)
@@ -234,8 +237,12 @@ def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | No
         line = np.array([points[end] - half, points[end] + half])
         ax.plot(*line.T, color=INTERFACE, linewidth=1.2, solid_capstyle="butt")
     for low, high in (("bottom", "interface bottom"), ("interface top", "top")):
-        ax.plot(*np.array([points[low], points[high]]).T, color="black", linewidth=0.7,
-                linestyle=(0, (6, 2, 1, 2)))  # fmt: skip
+        ax.plot(
+            *np.array([points[low], points[high]]).T,
+            color="black",
+            linewidth=0.7,
+            linestyle=(0, (6, 2, 1, 2)),
+        )
     ax.set_aspect("equal")
     ax.set_axis_off()
 

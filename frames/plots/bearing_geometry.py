@@ -262,8 +262,10 @@ def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dic
     points = contact_points(bearing, now)
     lower = plane_height(bearing)
     upper = bearing.slider_height - lower
-    half = [_half_slider(r, bearing.slider_radius, h)
-            for r, h in zip(bearing.radii, (lower, upper), strict=True)]  # fmt: skip
+    half = [
+        _half_slider(r, bearing.slider_radius, h)
+        for r, h in zip(bearing.radii, (lower, upper), strict=True)
+    ]
     sides = (_plate(bearing, now, 0, reach), _plate(bearing, now, 1, reach))
     normal, plate = now.axis, now.plate_axis
     return {
@@ -326,6 +328,12 @@ def _plate(bearing: Geometry, now: Posture, surface: int, reach: float | None) -
     edge, below = _sagitta(radius, face), -0.35 * bearing.slider_height
     outer = face + width
     crown = edge + rim
-    body = [[right, crown], [outer, crown], [outer, below], [-outer, below], [-outer, crown],
-            [-left, crown]]  # fmt: skip
+    body = [
+        [right, crown],
+        [outer, crown],
+        [outer, below],
+        [-outer, below],
+        [-outer, crown],
+        [-left, crown],
+    ]
     return np.vstack([arc, body])

@@ -17,16 +17,20 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import System
     from frames.model.components import Hinges, Link
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.model.laws import Law
 
 SHARE = 0.07
 """Of a member's length, from its end, at which a hinge is drawn."""
 
 HINGES = {
-    "linestyle": "", "marker": "o", "markersize": 3.6, "markerfacecolor": "#F0E442",
-    "markeredgecolor": "black", "markeredgewidth": 0.6,
-}  # fmt: skip
+    "linestyle": "",
+    "marker": "o",
+    "markersize": 3.6,
+    "markerfacecolor": "#F0E442",
+    "markeredgecolor": "black",
+    "markeredgewidth": 0.6,
+}
 """Style of plastic hinges."""
 
 _TICK = 0.03  # of the extent: half a wall, half the tick along a link's direction
@@ -57,7 +61,7 @@ def kind_of(law: Law) -> Kind:
 
 
 def draw_links(
-    panel: Any, model: FrameContents, system: System, place: FloatArray, enlarged: float
+    panel: Any, model: FrameData, system: System, place: FloatArray, enlarged: float
 ) -> list[Any]:
     """Draw the links of a model.
 
@@ -128,7 +132,7 @@ def hinge_places(lines: FloatArray, system: System, hinges: Hinges) -> tuple[lis
     return [hinge.name for hinge in found], np.array(points).reshape(-1, 3)
 
 
-def part_handles(model: FrameContents) -> list[Line2D]:
+def part_handles(model: FrameData) -> list[Line2D]:
     """Return the entries of a legend for the links and plastic hinges that a model has."""
     laws = [link.law for link in model.links.values()]
     handles = []

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray, IntArray
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 YIELDED = 1e-9
 """Plastic rotation from which on a hinge counts as yielded [rad]."""
@@ -41,7 +41,7 @@ _SIZE = 26.0  # pt2
 
 
 def hinge_map(
-    model: FrameContents,
+    model: FrameData,
     data: xr.Dataset,
     time: float | None = None,
     *,
@@ -140,8 +140,13 @@ def _legend(classes: IntArray, bounds: FloatArray | None) -> list[Artist]:
     style: dict[str, Any] = {"linestyle": "", "marker": "o", "markeredgecolor": "black"}
     return [
         Line2D(
-            [], [], markerfacecolor=colour, label=f"{label}: {int((classes == k).sum())}",
-            markersize=5.0 if k else 3.6, markeredgewidth=0.5, **style,
+            [],
+            [],
+            markerfacecolor=colour,
+            label=f"{label}: {int((classes == k).sum())}",
+            markersize=5.0 if k else 3.6,
+            markeredgewidth=0.5,
+            **style,
         )
         for k, (label, colour) in enumerate(zip(labels, colours, strict=True))
-    ]  # fmt: skip
+    ]

@@ -125,8 +125,16 @@ def _history(panel: Axes, traces: Sequence[xr.DataArray], limit: float) -> None:
     panel.set_ylim(bottom, (1.08 * factor * shown) or 1.0)
     beyond = [(k, factor * value) for k, value in enumerate(peaks) if value > limit]
     for place, (k, value) in enumerate(beyond):
-        panel.text(0.015, 0.95 - 0.13 * place, f"▲ {value:.3g}", transform=panel.transAxes,
-                   ha="left", va="top", fontsize=ps.SMALL, color=ps.PALETTE[k])  # fmt: skip
+        panel.text(
+            0.015,
+            0.95 - 0.13 * place,
+            f"▲ {value:.3g}",
+            transform=panel.transAxes,
+            ha="left",
+            va="top",
+            fontsize=ps.SMALL,
+            color=ps.PALETTE[k],
+        )
     ps.caption(panel, y=ps.text_of(str(traces[0].attrs["long_name"]), unit))
 
 

@@ -227,9 +227,13 @@ def _mark_peaks(panel: Axes, u: FloatArray, force: FloatArray, limit: float) -> 
                 f"{arrow} {force[step]:.2f}".replace("-", "−"),
                 (u[step], sign * limit),
                 xytext=(-6.0 if side == "right" else 6.0, -3.0 * sign),
-                textcoords="offset points", ha=side, va=place, fontsize=ps.SMALL, color=ps.GREY,
+                textcoords="offset points",
+                ha=side,
+                va=place,
+                fontsize=ps.SMALL,
+                color=ps.GREY,
                 bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.5},
-            )  # fmt: skip
+            )
     return is_cut
 
 
@@ -253,10 +257,18 @@ def _orbit(panel: Axes, path: FloatArray, colour: str) -> None:
 
 def _orbit_legend(rims: Iterable[float], factor: float, unit: str) -> list[Artist]:
     entries: list[Artist] = [
-        Line2D([], [], color="black", marker="o", markerfacecolor="white", linestyle="",
-               markersize=4.0, label="largest displacement"),
+        Line2D(
+            [],
+            [],
+            color="black",
+            marker="o",
+            markerfacecolor="white",
+            linestyle="",
+            markersize=4.0,
+            label="largest displacement",
+        ),
         Line2D([], [], color="black", marker="s", linestyle="", markersize=3.5, label="at the end"),
-    ]  # fmt: skip
+    ]
     sizes = sorted({round(factor * c, 3) for c in rims})
     if sizes:
         text = ", ".join(f"{size:.4g}" for size in sizes)

@@ -25,22 +25,26 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.assembly.system import System
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.statics.modes import BearingStiffness
 
 LARGEST = 0.08
 """Drawn size of the largest displacement over the extent of the model, where none is chosen."""
 
 MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
-    ps.PALETTE[0], ps.PALETTE[1], "black", ps.PALETTE[2], "#BBBBBB",
-)  # fmt: skip
+    ps.PALETTE[0],
+    ps.PALETTE[1],
+    "black",
+    ps.PALETTE[2],
+    "#BBBBBB",
+)
 _PICTURES = 20  # a second, of a film
 _NARROW = 0.35  # of the longest side: below, there is room for few numbers along an axis
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
 
 
 def model_view(
-    model: FrameContents,
+    model: FrameData,
     data: xr.Dataset | None = None,
     *,
     time: float | None = None,
@@ -91,7 +95,7 @@ def model_view(
 
 
 def model_film(
-    model: FrameContents,
+    model: FrameData,
     data: xr.Dataset,
     *,
     factor: float | None = None,
@@ -160,9 +164,7 @@ def model_film(
     return FuncAnimation(figure, show, frames=len(steps), interval=1000.0 / _PICTURES)
 
 
-def mode_shapes(
-    model: FrameContents, count: int = 3, bearings: BearingStiffness = "sliding"
-) -> Figure:
+def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "sliding") -> Figure:
     """Draw the first natural modes of a model on its bearings.
 
     Parameters
@@ -233,7 +235,7 @@ def _scale(system: System, u: FloatArray, factor: float | None) -> float:
 
 def _draw(
     panel: Any,
-    model: FrameContents,
+    model: FrameData,
     system: System,
     u: FloatArray,
     *,
@@ -251,7 +253,7 @@ def _draw(
 
 
 def _parts(
-    panel: Any, model: FrameContents, system: System, u: FloatArray, *, plain: bool = False
+    panel: Any, model: FrameData, system: System, u: FloatArray, *, plain: bool = False
 ) -> list[Any]:
     # The parts of the model at displacements that are already enlarged; returns what was drawn.
     place = system.coordinates + u[:, :3]
@@ -325,7 +327,7 @@ def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> Non
         getattr(panel, f"set_{name}label")(f"{name} [m]", fontsize=ps.LABEL)
 
 
-def _handles(model: FrameContents, *, deformed: bool) -> list[Line2D]:
+def _handles(model: FrameData, *, deformed: bool) -> list[Line2D]:
     plain: dict[str, Any] = {"linestyle": "", "markersize": 5.0}
     handles = [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
     if model.springs:

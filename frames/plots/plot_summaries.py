@@ -51,8 +51,17 @@ PERIODS = np.geomspace(0.02, 5.0, 120)
 MOST_PANELS = 6
 _RING: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markersize": 6.0}
 _LINES: tuple[Literal["-", "--", "-.", ":"], ...] = (
-    "-", "--", "-", ":", "-.", ":", "--", "-", "-.", ":",
-)  # fmt: skip
+    "-",
+    "--",
+    "-",
+    ":",
+    "-.",
+    ":",
+    "--",
+    "-",
+    "-.",
+    ":",
+)
 
 
 def storey_profiles(
@@ -87,10 +96,16 @@ def storey_profiles(
         pick.need(data, ("node_displacement", "level_height"), "profiles need a frame's levels")
         z = data["level_height"].to_numpy()
         of = partial(_peaks, data, whole=start is None and end is None)
-        left.stairs(100.0 * of("drift"), z, orientation="horizontal", baseline=None,
-                    **ps.line_of(k, 0.6))  # fmt: skip
-        right.plot(of("floor_plan"), z, marker="os^Dvp"[k],
-                   markersize=6.0 - 1.5 * k if k < 3 else 2.0, **ps.line_of(k))  # fmt: skip
+        left.stairs(
+            100.0 * of("drift"), z, orientation="horizontal", baseline=None, **ps.line_of(k, 0.6)
+        )
+        right.plot(
+            of("floor_plan"),
+            z,
+            marker="os^Dvp"[k],
+            markersize=6.0 - 1.5 * k if k < 3 else 2.0,
+            **ps.line_of(k),
+        )
         _corners(left, right, data, k, of)
     first = next(iter(found.values()))
     names = [str(name) for name in first["level"].to_numpy()]
@@ -279,8 +294,9 @@ def _energies(
         hatches = [hatch for _, _, hatch in shown.values()]
         for area, hatch in zip(
             panel.stackplot(time, *groups, colors=colours, linewidth=0.3, edgecolor=EDGE),
-            hatches, strict=True,
-        ):  # fmt: skip
+            hatches,
+            strict=True,
+        ):
             area.set_hatch(hatch)
     else:
         for values, colour, line in zip(groups, colours, _LINES, strict=False):

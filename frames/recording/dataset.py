@@ -32,14 +32,14 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.assemble import System
     from frames.kernel_data import Ground, Output
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.gravity import GravityState
     from lir_element.layout import Records
 
 
 def build_dataset(
-    frame: FrameContents,
+    frame: FrameData,
     state: GravityState,
     shaking: Ground,
     peak: FloatArray,
@@ -157,7 +157,7 @@ def build_dataset(
     return xr.Dataset(variables, coordinates)
 
 
-def _permanent(frame: FrameContents, state: GravityState) -> dict[str, xr.Variable]:
+def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
     # What a structure carries, and its levels.
     system = state.system
     return {
@@ -293,6 +293,6 @@ def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> 
     return total
 
 
-def _levels_of_nodes(frame: FrameContents, names: tuple[str, ...]) -> Any:
+def _levels_of_nodes(frame: FrameData, names: tuple[str, ...]) -> Any:
     place = {node: k for k, level in enumerate(frame.levels) for node in level.nodes}
     return np.array([place.get(name, -1) for name in names], dtype=np.int64)

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from frames.assembly.system import System
     from frames.kernel_data import Output
     from frames.model.components import HingedEnd
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 HINGE_FORCES = ("N", "My", "Mz")
 """Forces on a hinge, in local axes of its member."""
 
 
 def part_variables(
-    found: NonlinearParts, frame: FrameContents, out: Output, count: int
+    found: NonlinearParts, frame: FrameData, out: Output, count: int
 ) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
     """Return the variables of links and hinges over the first `count` records; coordinates too."""
     variables: dict[str, xr.Variable] = {}

@@ -13,7 +13,7 @@ from frames.results.peak_response import Extreme, extreme_of, later
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.kernel_data import Output
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.statics.gravity import GravityState
 
 
@@ -28,7 +28,7 @@ class PartGauge:
         The structure.
     """
 
-    def __init__(self, state: GravityState, model: FrameContents) -> None:
+    def __init__(self, state: GravityState, model: FrameData) -> None:
         found = state.system.parts
         self._links = len(found.links)
         self._elastic = found.elastic[: self._links]

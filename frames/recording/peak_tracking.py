@@ -1,7 +1,7 @@
 """What a run reached, taken up by compiled code from what its loop records, without any Dataset.
 
 The quantities are those of `frames.results.peak_response`, of most runs at the level 'pendulum'
-(`can_gauge`); those of others are read off Datasets (`Reduction`).
+(`can_track`); those of others are read off Datasets (`Reduction`).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class StoreyMaps(NamedTuple):
     crossed: IntArray  # (n_storeys, n_bearings) 1 where the bearing passes through the storey
 
 
-def can_gauge(state: GravityState) -> bool:
+def can_track(state: GravityState) -> bool:
     """Return whether what a run reaches can be taken up without Datasets."""
     # without vertical coupling its force is formed over neighbouring steps; bearings that the tilt
     # of their plates does not reach do not know it; nor are friction's other laws looked at there
@@ -121,13 +121,20 @@ def shape_of(state: GravityState, places: Places) -> Shape:
         rest=np.concatenate([basis.offset[u_used], shears.rest]),
         rates=np.ascontiguousarray(state.accelerating[a_used].T),
         mass_e=np.ascontiguousarray(basis.mass_e),
-        u_start=u_rows[0], u_place=u_rows[1], u_value=u_rows[2],
-        shear=shear[1], crossed=shears.crossed,
-        a_start=a_rows[0], a_place=a_rows[1], a_value=a_rows[2],
+        u_start=u_rows[0],
+        u_place=u_rows[1],
+        u_value=u_rows[2],
+        shear=shear[1],
+        crossed=shears.crossed,
+        a_start=a_rows[0],
+        a_place=a_rows[1],
+        a_value=a_rows[2],
         sizes=np.array([len(system.node_names), levels, storeys, lines], dtype=np.int64),
-        x=np.zeros((AT_ONCE, whole.shape[1])), u=np.zeros((AT_ONCE, len(moves))),
-        x_rate=np.zeros((AT_ONCE, expand.shape[1])), a=np.zeros((AT_ONCE, len(a_used))),
-    )  # fmt: skip
+        x=np.zeros((AT_ONCE, whole.shape[1])),
+        u=np.zeros((AT_ONCE, len(moves))),
+        x_rate=np.zeros((AT_ONCE, expand.shape[1])),
+        a=np.zeros((AT_ONCE, len(a_used))),
+    )
 
 
 def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
@@ -139,19 +146,29 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
 
     columns, whole = len(BEARING_COLUMNS), len(WHOLE_PLACES)
     return Reached(
-        bearing=lowest(bearings, columns), bearing_at=np.zeros((bearings, columns)),
-        axis=lowest(3), axis_at=np.zeros(3),
-        node=lowest(nodes, 2), node_at=np.zeros((nodes, 2)),
-        level=lowest(levels, 2), level_at=np.zeros((levels, 2)),
-        storey=lowest(storeys), storey_at=np.zeros(storeys),
-        shear=lowest(storeys), shear_at=np.zeros(storeys),
-        line=lowest(lines), line_at=np.zeros(lines),
-        whole=lowest(whole), whole_at=np.zeros(whole),
-        total=np.zeros(3), lifted=np.zeros((bearings, 2)), last=np.zeros(2),
-    )  # fmt: skip
+        bearing=lowest(bearings, columns),
+        bearing_at=np.zeros((bearings, columns)),
+        axis=lowest(3),
+        axis_at=np.zeros(3),
+        node=lowest(nodes, 2),
+        node_at=np.zeros((nodes, 2)),
+        level=lowest(levels, 2),
+        level_at=np.zeros((levels, 2)),
+        storey=lowest(storeys),
+        storey_at=np.zeros(storeys),
+        shear=lowest(storeys),
+        shear_at=np.zeros(storeys),
+        line=lowest(lines),
+        line_at=np.zeros(lines),
+        whole=lowest(whole),
+        whole_at=np.zeros(whole),
+        total=np.zeros(3),
+        lifted=np.zeros((bearings, 2)),
+        last=np.zeros(2),
+    )
 
 
-class Gauge:
+class PeakTracker:
     """Keeps what a run reached.
 
     Parameters

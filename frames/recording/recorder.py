@@ -10,7 +10,7 @@ from frames.kernels.integration import record
 from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.nonlinear_tracking import PartGauge
-from frames.recording.peak_tracking import Gauge, can_gauge, devices_of, places_of, shape_of
+from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
 from frames.recording.reduction import (
     Findings,
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.kernel_data import Ground
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.peak_data import Shape
     from frames.recording.recording import Recording
@@ -75,7 +75,7 @@ class Recorder:
 
     def __init__(
         self,
-        model: FrameContents,
+        model: FrameData,
         motion: GroundMotion,
         state: GravityState,
         ground: Ground,
@@ -172,10 +172,10 @@ class Recorder:
         Returns
         -------
         xarray.Dataset
-            Where all steps are recorded and it can be (`can_gauge`), what was reached instead of
+            Where all steps are recorded and it can be (`can_track`), what was reached instead of
             histories: compiled code takes it up in a fraction of the time. Else `data` itself.
         """
-        if not self._is_whole or not can_gauge(self._state):
+        if not self._is_whole or not can_track(self._state):
             return data
         count = data.sizes["time"]
         reached, totals = self._gauged(count)
@@ -195,7 +195,7 @@ class Recorder:
         dict of str to Extreme
             By compiled code where it can be.
         """
-        if not self._is_whole or not can_gauge(self._state):
+        if not self._is_whole or not can_track(self._state):
             return {name: largest(data, name) for name in present_quantities(data)}
         return self._gauged(data.sizes["time"], shape_of(self._state, places_of(data)))[0]
 
@@ -203,7 +203,7 @@ class Recorder:
         self, count: int, shape: Shape | None = None
     ) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
         # What the first rows reached, and their totals; with a shape, the structure's too.
-        gauge = Gauge(devices_of(self._state), shape)
+        gauge = PeakTracker(devices_of(self._state), shape)
         parts = PartGauge(self._state, self._model)
         gauge.take(self._states, self.out, self._ground, 0, count)
         parts.take(self.out, 0, count)
@@ -219,8 +219,15 @@ class Recorder:
     def _dataset(self, count: int, *, kept: bool = False) -> xr.Dataset:
         peak = peak_velocity(self._motion, float(self.out.time[count - 1]))
         data = build_dataset(
-            self._model, self._state, self._ground, peak, self.out, self._states, self._bodies,
-            count, kept=kept,
-        )  # fmt: skip
+            self._model,
+            self._state,
+            self._ground,
+            peak,
+            self.out,
+            self._states,
+            self._bodies,
+            count,
+            kept=kept,
+        )
         left_out = self._state.system.features.left_out
         return data.assign_attrs(features_left_out=", ".join(left_out) or "none")

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.assembly.system import System
     from frames.model.components import Level
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
 """End forces of a member along and about its local axes x, y, z."""
@@ -56,7 +56,7 @@ class _Structure(NamedTuple):
 
 
 def member_forces(
-    model: FrameContents, data: xr.Dataset, members: Sequence[str] | None = None
+    model: FrameData, data: xr.Dataset, members: Sequence[str] | None = None
 ) -> xr.DataArray:
     """Return the end forces of members over a time history.
 
@@ -93,7 +93,7 @@ def member_forces(
     return _member_forces(found, chosen)
 
 
-def support_reactions(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
+def support_reactions(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     """Return what the supports exert on the structure over a time history.
 
     Parameters
@@ -118,7 +118,7 @@ def support_reactions(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
     return _support_reactions(_structure(model, data))
 
 
-def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
+def storey_forces(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     """Return storey shears, overturning moments and torsion over a time history.
 
     Parameters
@@ -151,7 +151,7 @@ def storey_forces(model: FrameContents, data: xr.Dataset) -> xr.DataArray:
     return _storey_forces(found, model.levels)
 
 
-def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFrame]:
+def force_tables(model: FrameData, data: xr.Dataset) -> dict[str, pd.DataFrame]:
     """Return the envelopes of all forces in the structure as tables.
 
     Parameters
@@ -193,7 +193,7 @@ def force_tables(model: FrameContents, data: xr.Dataset) -> dict[str, pd.DataFra
     }
 
 
-def require_own(model: FrameContents, system: System, data: xr.Dataset) -> None:
+def require_own(model: FrameData, system: System, data: xr.Dataset) -> None:
     """Raise a ModelError unless a result was computed with a model, assembled as `system`."""
     if "node_displacement" not in data:
         msg = (
@@ -216,7 +216,7 @@ def require_own(model: FrameContents, system: System, data: xr.Dataset) -> None:
         raise ModelError(msg)
 
 
-def _structure(model: FrameContents, data: xr.Dataset) -> _Structure:
+def _structure(model: FrameData, data: xr.Dataset) -> _Structure:
     system = assemble(model)
     require_own(model, system, data)
     u = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
@@ -249,12 +249,14 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
         np.ascontiguousarray(forces.reshape(*forces.shape[:2], 2, 6)),
         dims=("time", "member", "end", "component"),
         coords={
-            "time": found.data["time"], "member": list(chosen), "end": ["i", "j"],
+            "time": found.data["time"],
+            "member": list(chosen),
+            "end": ["i", "j"],
             "component": list(COMPONENTS),
         },
         attrs={"units": "N, N m", "long_name": "end forces in local axes"} | noted(found.data),
         name="member_forces",
-    )  # fmt: skip
+    )
 
 
 def _hinge_share(found: _Structure, member: str) -> FloatArray:

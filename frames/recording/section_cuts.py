@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
 
 
-class Cut(NamedTuple):
+class SectionCut(NamedTuple):
     """A horizontal cut: forces on all ends of elements, and those of members that cross it.
 
     Forces of the nodes on them, of members as far as they cross; those of other elements cancel
@@ -46,7 +46,7 @@ class StoreyRows:
     crossed: BoolArray  # (n_storeys, n_bearings)
 
 
-def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Cut]:
+def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[SectionCut]:
     """Return the cuts of the storeys: below the lowest level, then above each but the last.
 
     Parameters
@@ -79,7 +79,7 @@ def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Cu
         np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
         rows = others + scatter(whole[crosses], table.nodes[crosses], count)
         crossed = np.array([bool(above[j] and not above[i]) for _, i, j, _ in system.bearings])
-        found.append(Cut(above, rows, constant, crossed))
+        found.append(SectionCut(above, rows, constant, crossed))
     return found
 
 
@@ -105,6 +105,8 @@ def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> 
         constant.append(np.asarray(lower @ cut.constant))
         crossed.append(cut.crossed)
     return StoreyRows(
-        sparse.csr_array(sparse.vstack(over_q)), np.vstack(over_beyond),
-        np.concatenate(constant), np.array(crossed),
-    )  # fmt: skip
+        sparse.csr_array(sparse.vstack(over_q)),
+        np.vstack(over_beyond),
+        np.concatenate(constant),
+        np.array(crossed),
+    )

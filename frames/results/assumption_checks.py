@@ -366,9 +366,13 @@ def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
 
 def _remarked(remark: Remark) -> Finding:
     return Finding(
-        feature=remark.feature, left_out=False, mattered=remark.doubtful, number=remark.number,
-        sentence=remark.sentence, doubtful=remark.doubtful,
-    )  # fmt: skip
+        feature=remark.feature,
+        left_out=False,
+        mattered=remark.doubtful,
+        number=remark.number,
+        sentence=remark.sentence,
+        doubtful=remark.doubtful,
+    )
 
 
 def _finding(feature: str, out: bool, mattered: bool, number: float, text: str) -> Finding:

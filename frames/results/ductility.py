@@ -16,8 +16,15 @@ if TYPE_CHECKING:
     import xarray as xr
 
 COLUMNS = (
-    "kind", "largest", "time", "yield", "ductility", "residual", "cumulative", "work",
-)  # fmt: skip
+    "kind",
+    "largest",
+    "time",
+    "yield",
+    "ductility",
+    "residual",
+    "cumulative",
+    "work",
+)
 
 _STOREY = re.compile(r"storey-(\d+)-([xy])")
 

@@ -174,11 +174,13 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
         drift,
         dims=("time", "line", "axis"),
         coords={
-            "time": data["time"], "line": data["node"].to_numpy()[upper],
-            "storey": ("line", data["level"].to_numpy()[storey]), "axis": ["x", "y"],
+            "time": data["time"],
+            "line": data["node"].to_numpy()[upper],
+            "storey": ("line", data["level"].to_numpy()[storey]),
+            "axis": ["x", "y"],
         },
         attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"} | noted(data),
-    )  # fmt: skip
+    )
 
 
 def lines_of(data: xr.Dataset) -> tuple[IntArray, IntArray, IntArray]:
@@ -242,11 +244,12 @@ def spectra_of(motions: xr.DataArray, periods: npt.ArrayLike, damping: float) ->
         np.asarray(values),
         dims=("level", "axis", "period"),
         coords={
-            "level": moves["level"], "axis": moves["axis"],
+            "level": moves["level"],
+            "axis": moves["axis"],
             "period": np.atleast_1d(np.asarray(periods, dtype=np.float64)),
         },
         attrs={"units": "m/s2", "long_name": "pseudo-acceleration", "damping": damping},
-    )  # fmt: skip
+    )
 
 
 def uplift_gap(data: xr.Dataset) -> xr.DataArray:
@@ -270,9 +273,13 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         If what it is made from was not recorded.
     """
     require_recorded(
-        data, "uplift_gap", "bearing_displacement", "node_displacement", "interface_slip_size",
+        data,
+        "uplift_gap",
+        "bearing_displacement",
+        "node_displacement",
+        "interface_slip_size",
         "axial_force",
-    )  # fmt: skip
+    )
     length = data["length"].to_numpy()
     moves = data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
     across = moves[..., :2] + centre_shift(data)

@@ -275,11 +275,15 @@ def _flag(mask: BoolArray) -> FloatArray:
 _B, _L, _H = ("bearing",), ("link",), ("hinge",)
 QUANTITIES: dict[str, Quantity] = {
     "displacement": Quantity(
-        _B, "m", "bearing displacement in plan",
+        _B,
+        "m",
+        "bearing displacement in plan",
         lambda d: in_plan(_of(d, "bearing_displacement", "axis")),
     ),
     "displacement_along": Quantity(
-        ("axis",), "m", "bearing displacement along each axis",
+        ("axis",),
+        "m",
+        "bearing displacement along each axis",
         lambda d: np.abs(_of(d, "bearing_displacement", "axis")).max(axis=1),
     ),
     "force": Quantity(
@@ -290,18 +294,24 @@ QUANTITIES: dict[str, Quantity] = {
         _B, "N", "negative of the least axial force", lambda d: -_of(d, "axial_force")
     ),
     "vertical_tension": Quantity(
-        _B, "1", "negative of the least vertical force over the static one",
+        _B,
+        "1",
+        "negative of the least vertical force over the static one",
         lambda d: -_vertical_ratio(d),
     ),
     "vertical_change": Quantity(
-        _B, "1", "change of the vertical force over the static one",
+        _B,
+        "1",
+        "change of the vertical force over the static one",
         lambda d: np.abs(_vertical_ratio(d) - 1.0),
     ),
     "lifted": Quantity(
         _B, "1", "1: lifted off, first then", lambda d: _flag(_vertical_ratio(d) <= 0.0)
     ),
     "gap": Quantity(
-        _B, "m", "gap of the axial contact",
+        _B,
+        "m",
+        "gap of the axial contact",
         lambda d: uplift_gap(d).transpose("time", "bearing").to_numpy(),
     ),
     "sliding": Quantity((*_B, "surface"), "m", "sliding on each surface", _sliding),
@@ -314,7 +324,9 @@ QUANTITIES: dict[str, Quantity] = {
         _B, "1", "force of the interface over what its friction holds", _interface_share
     ),
     "slipped": Quantity(
-        _B, "1", "1: the interface slipped, first then",
+        _B,
+        "1",
+        "1: the interface slipped, first then",
         lambda d: _flag(_interface_share(d) >= FULL_SLIP),
     ),
     "eccentricity": Quantity(
@@ -323,42 +335,60 @@ QUANTITIES: dict[str, Quantity] = {
     "spin": Quantity(_B, "rad", "spin of the sliders", lambda d: np.abs(_of(d, "slider_spin"))),
     "tilt": Quantity(_B, "rad", "tilt of a slider with contact points", _tilt),
     "temperature": Quantity(
-        (*_B, "contact"), "degC", "temperature of what each contact slides on",
+        (*_B, "contact"),
+        "degC",
+        "temperature of what each contact slides on",
         lambda d: _of(d, "temperature", "contact"),
     ),
     "centre_shift": Quantity(
-        _B, "m", "shift of the spheres' centres by tilt of the plates",
+        _B,
+        "m",
+        "shift of the spheres' centres by tilt of the plates",
         lambda d: np.linalg.norm(centre_shift(d), axis=-1),
     ),
     "base_shear": Quantity(
-        (), "N", "base shear in plan",
+        (),
+        "N",
+        "base shear in plan",
         lambda d: in_plan(_values(d, "base_shear", "time", "axis")),
     ),
     "storey_shear": Quantity(
-        ("storey",), "N", "storey shear in plan",
+        ("storey",),
+        "N",
+        "storey shear in plan",
         lambda d: in_plan(_values(d, "storey_shear", "time", "storey", "axis")),
     ),
     "floor_plan": Quantity(
-        ("level",), "m/s2", "floor acceleration in plan, mean of the level",
+        ("level",),
+        "m/s2",
+        "floor acceleration in plan, mean of the level",
         lambda d: in_plan(_floor(d)),
     ),
     "floor_vertical": Quantity(
-        ("level",), "m/s2", "floor acceleration, vertical, mean of the level",
+        ("level",),
+        "m/s2",
+        "floor acceleration, vertical, mean of the level",
         lambda d: np.abs(_floor(d)[..., 2]),
     ),
     "node_plan": Quantity(
-        ("node",), "m/s2", "acceleration of a node in plan",
+        ("node",),
+        "m/s2",
+        "acceleration of a node in plan",
         lambda d: in_plan(_node_acceleration(d)),
     ),
     "node_vertical": Quantity(
-        ("node",), "m/s2", "acceleration of a node, vertical",
+        ("node",),
+        "m/s2",
+        "acceleration of a node, vertical",
         lambda d: np.abs(_node_acceleration(d)[..., 2]),
     ),
     "violence": Quantity(
         ("node",), "m/s2", "acceleration of a node with mass, 0 up to 50 g", _violence
     ),
     "imbalance": Quantity(
-        ("resultant",), "1", "sum of all forces, or their moments, over the weight",
+        ("resultant",),
+        "1",
+        "sum of all forces, or their moments, over the weight",
         lambda d: np.abs(_values(d, "imbalance", "time", "resultant")),
     ),
     "drift": Quantity(
@@ -377,9 +407,7 @@ QUANTITIES: dict[str, Quantity] = {
     "energy_yielding": Quantity(
         (), "J", "work that yielding took up", lambda d: _term(d, "yielding")
     ),
-    "link_ductility": Quantity(
-        _L, "1", "deformation of a link over that at yield", link_ductility
-    ),
+    "link_ductility": Quantity(_L, "1", "deformation of a link over that at yield", link_ductility),
     "link_deformation": Quantity(
         _L, "m, rad", "deformation of a link", lambda d: np.abs(of_links(d, "link_deformation"))
     ),
@@ -387,7 +415,9 @@ QUANTITIES: dict[str, Quantity] = {
         _L, "N, N m", "force of a link", lambda d: np.abs(of_links(d, "link_force"))
     ),
     "link_reversal": Quantity(
-        _L, "N, N m", "negative of the least force of a link",
+        _L,
+        "N, N m",
+        "negative of the least force of a link",
         lambda d: -of_links(d, "link_force"),
     ),
     "link_work": Quantity(
@@ -400,7 +430,7 @@ QUANTITIES: dict[str, Quantity] = {
     "hinge_work": Quantity(
         _H, "J", "work that a hinge has dissipated", lambda d: of_hinges(d, "hinge_work")
     ),
-}  # fmt: skip
+}
 """Derived histories by name; what begins with "1:" is 0 before it happens."""
 
 LEFT = ("displacement", "slip", "link_deformation", "link_work", "hinge_rotation", "hinge_work")

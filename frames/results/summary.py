@@ -33,27 +33,58 @@ class Row:
 
 _FLOORS = "floor acceleration in plan, mean"
 ROWS = (
-    Row("peak bearing displacement in plan [mm]", 1e3, ".0f", "peak_bearing_displacement_m",
-        "bearing displacement"),
-    Row("peak base shear in plan / weight [-]", 1.0, ".3f", "peak_base_shear_over_weight",
-        "base shear over weight"),
-    Row("peak storey drift in plan, mean [%]", 1e2, ".3f", "peak_storey_drift",
-        "storey drift, mean"),
-    Row("peak floor acceleration in plan, mean [m/s2]", 1.0, ".2f", "peak_floor_acceleration_m_s2",
-        _FLOORS),
+    Row(
+        "peak bearing displacement in plan [mm]",
+        1e3,
+        ".0f",
+        "peak_bearing_displacement_m",
+        "bearing displacement",
+    ),
+    Row(
+        "peak base shear in plan / weight [-]",
+        1.0,
+        ".3f",
+        "peak_base_shear_over_weight",
+        "base shear over weight",
+    ),
+    Row(
+        "peak storey drift in plan, mean [%]", 1e2, ".3f", "peak_storey_drift", "storey drift, mean"
+    ),
+    Row(
+        "peak floor acceleration in plan, mean [m/s2]",
+        1.0,
+        ".2f",
+        "peak_floor_acceleration_m_s2",
+        _FLOORS,
+    ),
     Row("peak floor acceleration in plan, mean [g]", 1.0 / STANDARD_GRAVITY, ".2f", "", _FLOORS),
     Row("largest interface slip [mm]", 1e3, ".1f", "largest_interface_slip_m", "interface slip"),
     Row("largest rim force [kN]", 1e-3, ".0f", "largest_rim_force_N", "rim force"),
     Row("largest axial force [kN]", 1e-3, ".0f", "largest_axial_force_N", "axial force"),
     Row("smallest axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N", "least axial force"),
-    Row("residual displacement in plan [mm]", 1e3, ".1f", "residual_displacement_m",
-        "bearing displacement left"),
-    Row("residual interface slip [mm]", 1e3, ".1f", "residual_interface_slip_m",
-        "interface slip left"),
-    Row("energy ledger: error / input [-]", 1.0, ".1e", "energy_error",
-        "energy ledger: error over input"),
+    Row(
+        "residual displacement in plan [mm]",
+        1e3,
+        ".1f",
+        "residual_displacement_m",
+        "bearing displacement left",
+    ),
+    Row(
+        "residual interface slip [mm]",
+        1e3,
+        ".1f",
+        "residual_interface_slip_m",
+        "interface slip left",
+    ),
+    Row(
+        "energy ledger: error / input [-]",
+        1.0,
+        ".1e",
+        "energy_error",
+        "energy ledger: error over input",
+    ),
     Row("run time, time loop [s]", 1.0, ".2f", "run_time_s", "seconds of the time loop"),
-)  # fmt: skip
+)
 """In plan: the size of the vector of both horizontal components, at one instant. Mean: of the nodes
 of a level."""
 

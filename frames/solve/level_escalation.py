@@ -21,7 +21,9 @@ MOST_RUNS = 5
 """Features and level settle in two or three runs; this bounds what each run may reveal anew."""
 
 
-def settle(analyse: Callable[[Features, str], xr.Dataset], features: Features) -> xr.Dataset:
+def escalate_level(
+    analyse: Callable[[Features, str], xr.Dataset], features: Features
+) -> xr.Dataset:
     """Run with `features`, and again with what was missing.
 
     Parameters
@@ -55,7 +57,7 @@ def settle(analyse: Callable[[Features, str], xr.Dataset], features: Features) -
 
 
 def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
-    """Say in the audit of a result of `settle` that an earlier run ended otherwise.
+    """Say in the audit of a result of `escalate_level` that an earlier run ended otherwise.
 
     Parameters
     ----------

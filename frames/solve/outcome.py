@@ -40,7 +40,7 @@ class Outcome(NamedTuple):
     detail: str
 
 
-def judged(data: xr.Dataset) -> tuple[RunStatus, str]:
+def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
     """Judge a completed run by its ledger of energy, and by its sliders where they are bodies.
 
     Parameters
@@ -112,8 +112,8 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of the run. Gets the attribute `audit`, those of `judged`, and, where
-        a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
+        What the audit reads of the run. Gets the attribute `audit`, those of `evaluated`, and,
+        where a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
         ``exceeded_at`` and ``exceeded_bearing``.
     state : GravityState
         The state it left.
@@ -131,7 +131,7 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     name = state.system.bearings[int(state.run.counts["bearing"][0])][0]
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
-        status, detail = judged(data)
+        status, detail = evaluated(data)
     return Outcome(status, float(state.run.clock["time"][0]), where, detail)
 
 
@@ -148,9 +148,11 @@ def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
         return {}
     name, value = values[status]
     return {
-        "exceeded": name, "exceeded_value": float(value),
-        "exceeded_at": float(run.clock["time"][0]), "exceeded_bearing": state.system.bearings[k][0],
-    }  # fmt: skip
+        "exceeded": name,
+        "exceeded_value": float(value),
+        "exceeded_at": float(run.clock["time"][0]),
+        "exceeded_bearing": state.system.bearings[k][0],
+    }
 
 
 def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:

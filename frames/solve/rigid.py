@@ -15,7 +15,7 @@ from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
 from frames.recording.size import number_of_steps, require_memory
 from frames.results.assumption_checks import audit_report
-from frames.solve.outcome import Outcome, judged
+from frames.solve.outcome import Outcome, evaluated
 from frames.statics.gravity import gravity
 from lir_element.bundles.rigid_data import (
     DEFAULT_TOLERANCE,
@@ -29,8 +29,8 @@ from lir_element.bundles.rigid_data import (
 from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
-from lir_element.interruptible import in_pieces, ready
-from lir_element.kernels.rigid_body.integrate import march, start
+from lir_element.interruptible import interruptible, ready
+from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray, IntArray
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.gravity import GravityState
     from lir_element.bundles.rigid_data import RigidInput, RigidRun, RigidSetup
@@ -56,7 +56,7 @@ _WORKS = {
 
 
 def rigid_time_history(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     length: float,
     dt: float | None,
@@ -149,14 +149,14 @@ def rigid_time_history(
     where = f'bearing "{state.system.bearings[0][0]}"'
     detail = limit_detail(run.props, run.states[2:], 0)
     if status is RunStatus.OK:
-        status, detail = judged(data)
+        status, detail = evaluated(data)
     if is_thinned:
         data = reduced(data.assign_attrs(recording=str(recording)), recording)
     return data, Outcome(status, float(clock["time"]), where, detail)
 
 
 def _dataset(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     state: GravityState,
     given: RigidInput,
@@ -177,14 +177,14 @@ def _march(
 ) -> tuple[RunStatus, float]:
     # The compiled loop in pieces, and its seconds.
     ready(start, run, given)
-    ready(march, run, given, setup, 0, 0)
+    ready(integrate_bodies, run, given, setup, 0, 0)
     began = perf_counter()
     start(run, given)
 
     def go(last: int, tries: int) -> int:
-        return march(run, given, setup, last, tries)
+        return integrate_bodies(run, given, setup, last, tries)
 
-    status = in_pieces(go, lambda: int(run.counts["outputs"][0]), len(given.times), progress)
+    status = interruptible(go, lambda: int(run.counts["outputs"][0]), len(given.times), progress)
     return status, perf_counter() - began
 
 

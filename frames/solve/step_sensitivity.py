@@ -15,7 +15,7 @@ from frames.solve.time_history import time_history
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 NOISE = 1e-9
@@ -31,7 +31,7 @@ _HISTORY = "bearing displacement, whole history"
 
 
 def step_sensitivity(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     duration: float | None = None,
     dt: float | None = None,

@@ -12,13 +12,13 @@ import numpy as np
 from frames._errors import AuditWarning
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
-from frames.kernel_data import MOST_HALVINGS, Ground, Setup
-from frames.kernels.integration import advance, record
+from frames.kernel_data import MOST_HALVINGS, Ground, IntegratorSettings
+from frames.kernels.integration import integrate_chunk, record
 from frames.motion.resampling import seen_by_steps
 from frames.recording.recorder import Recorder
 from frames.recording.recording import recording_of
 from frames.results.assumption_checks import doubts_of
-from frames.solve.level_escalation import mark_other_end, settle
+from frames.solve.level_escalation import escalate_level, mark_other_end
 from frames.solve.options import Options, check_options, check_reduction, options_of
 from frames.solve.outcome import Outcome, concluded, ended
 from frames.solve.rigid import LARGEST_STEP, rigid_time_history
@@ -30,7 +30,7 @@ from frames.statics.model_traits import exact_features, plane_coupling
 from frames.statics.sanity_checks import check_analysis
 from lir_element.device.features import Features
 from lir_element.errors import RunStatus
-from lir_element.interruptible import in_pieces, ready
+from lir_element.interruptible import interruptible, ready
 from lir_element.results.dataset import report
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.kernel_data import Output
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
@@ -63,7 +63,7 @@ _ENERGY_FLOOR = 1e-6  # of weight times effective radius
 
 
 def time_history(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     duration: float | None = None,
     dt: float | None = None,
@@ -162,15 +162,28 @@ def time_history(
     check_reduction(method, level, reduction_tolerance)
     wanted = recording_of(recording, record_every)
     options = options_of(
-        motion, duration, dt, method=method, integrator=integrator,
-        spectral_radius=spectral_radius, tolerance=tolerance, recording=wanted, progress=progress,
+        motion,
+        duration,
+        dt,
+        method=method,
+        integrator=integrator,
+        spectral_radius=spectral_radius,
+        tolerance=tolerance,
+        recording=wanted,
+        progress=progress,
         reduction=reduction_tolerance,
-    )  # fmt: skip
+    )
     if level == "rigid_body":
         data, outcome = rigid_time_history(
-            model, motion, options.duration, dt, integrator=integrator, tolerance=tolerance,
-            recording=wanted, progress=progress,
-        )  # fmt: skip
+            model,
+            motion,
+            options.duration,
+            dt,
+            integrator=integrator,
+            tolerance=tolerance,
+            recording=wanted,
+            progress=progress,
+        )
         return _told(report(data, *outcome, on_failure=on_failure))
     outcomes: list[Outcome] = []
     recorders: list[Recorder] = []
@@ -186,7 +199,7 @@ def time_history(
         return data
 
     if level == "auto":
-        data = settle(analyse, exact_features(model, motion))
+        data = escalate_level(analyse, exact_features(model, motion))
         mark_other_end(data, [(outcome[0], outcome[1]) for outcome in outcomes])
     else:
         data = analyse(Features.all() if features is None else features, level)
@@ -219,7 +232,7 @@ class StepWriter(Protocol):
 
 
 def _run(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     features: Features,
     level: str | Mapping[str, str],
@@ -254,7 +267,7 @@ def _run(
 
 def _run_from(
     state: GravityState,
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     options: Options,
     attrs: dict[str, object],
@@ -266,7 +279,7 @@ def _run_from(
     ground = ground_of(motion, features, settings)
     recorder = Recorder(model, motion, state, ground, options.steps, options.recording)
     begin(state, ground, settings)
-    code, seconds = march(state, settings, ground, recorder, options)
+    code, seconds = integrate(state, settings, ground, recorder, options)
     end = ended(state, code)
     counts = state.run.counts[0]
     data = recorder.data(int(state.run.clock["done"][0]))
@@ -295,7 +308,7 @@ def _run_from(
     return data, outcome, recorder
 
 
-def settings_of(state: GravityState, options: Options) -> Setup:
+def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
     """Return the constants of the time integration."""
     alpha_m, alpha_f = 0.0, 0.0
     radius = options.spectral_radius
@@ -305,7 +318,7 @@ def settings_of(state: GravityState, options: Options) -> Setup:
     tolerance = options.tolerance
     if tolerance is None:
         tolerance = _ERROR_TOLERANCE if state.contacts is None else _CONTACT_TOLERANCE
-    return Setup(
+    return IntegratorSettings(
         dt=float(options.base),
         alpha_m=float(alpha_m),
         alpha_f=float(alpha_f),
@@ -328,7 +341,7 @@ def settings_of(state: GravityState, options: Options) -> Setup:
     )
 
 
-def estimated_error(state: GravityState, settings: Setup) -> float:
+def estimated_error(state: GravityState, settings: IntegratorSettings) -> float:
     """Return the estimated error of a run's displacement histories over the largest reached [-]."""
     clock = state.run.clock[0]
     return float(clock["worst"] / max(clock["reach"], 1e-6 * settings.smallest_reach))
@@ -350,13 +363,13 @@ def _tangent_worth(bearings: int, unknowns: int) -> float:
     return max(new / kept - 1.0, 0.0) / _SERVES
 
 
-def ground_of(motion: GroundMotion, features: Features, settings: Setup) -> Ground:
+def ground_of(motion: GroundMotion, features: Features, settings: IntegratorSettings) -> Ground:
     """Return a motion as the loop integrates it: along the directions that are modelled."""
     shaking = motion if features.second_direction else motion.scaled([1.0, 0.0, 1.0])
     return Ground(*seen_by_steps(shaking, settings.dt))
 
 
-def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
+def begin(state: GravityState, ground: Ground, settings: IntegratorSettings) -> None:
     """Set the accelerations at rest: the ground's first value acts on what has mass."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
@@ -377,25 +390,29 @@ def begin(state: GravityState, ground: Ground, settings: Setup) -> None:
     run.carried[:] /= state.system.gravity
 
 
-def march(
-    state: GravityState, settings: Setup, ground: Ground, recorder: StepWriter, options: Options
+def integrate(
+    state: GravityState,
+    settings: IntegratorSettings,
+    ground: Ground,
+    recorder: StepWriter,
+    options: Options,
 ) -> tuple[RunStatus, float]:
     """Run the compiled loop in pieces, to its end, a failure, or Ctrl-C; return its seconds too."""
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
-    ready(advance, model, run, contacts, parts, settings, ground, out, 0, 0)
+    ready(integrate_chunk, model, run, contacts, parts, settings, ground, out, 0, 0)
     ready(record, model, run, contacts, parts, ground, out, 0)
     recorder.begin()
     began = perf_counter()
 
     def go(last: int, trials: int) -> int:
         here = settings._replace(first=recorder.first)
-        return advance(model, run, contacts, parts, here, ground, out, last, trials)
+        return integrate_chunk(model, run, contacts, parts, here, ground, out, last, trials)
 
     def done() -> int:
         return int(run.clock["done"][0])
 
-    status = in_pieces(
+    status = interruptible(
         go, done, options.steps, options.progress, room=lambda: recorder.room(done())
     )
     return status, perf_counter() - began - recorder.seconds

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from frames._types import FloatArray
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.results.peak_response import Extreme
     from frames.statics.gravity import GravityState
     from lir_element.device.features import Features
@@ -40,9 +40,12 @@ PARTS = {
     "floor_acceleration": (("node_plan",), ("node_plan",), FLOORS),
     "vertical_acceleration": (("node_vertical",), ("node_plan", "node_vertical"), VERTICAL),
     "storey_drift": (("drift", "line_drift"), ("drift", "line_drift"), FLOORS),
-    "yielding": (("link_deformation", "hinge_rotation"), ("link_deformation", "hinge_rotation"),
-                 FLOORS),
-}  # fmt: skip
+    "yielding": (
+        ("link_deformation", "hinge_rotation"),
+        ("link_deformation", "hinge_rotation"),
+        FLOORS,
+    ),
+}
 """By name of the error: quantities whose largest values are compared, those over whose largest,
 and the share of the tolerance."""
 
@@ -56,7 +59,7 @@ class Refined(NamedTuple):
 
 
 def refined(
-    model: FrameContents,
+    model: FrameData,
     features: Features,
     level: str | Mapping[str, str],
     tolerance: float,

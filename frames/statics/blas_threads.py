@@ -17,7 +17,7 @@ from threadpoolctl import ThreadpoolController
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 _SMALL = 3000  # displacements and rotations of nodes, below which threads do not pay
 _TAKEN = threading.Lock()
@@ -29,7 +29,7 @@ def _controller() -> ThreadpoolController:
 
 
 @contextmanager
-def blas_threads_for(*models: FrameContents) -> Generator[None, None, None]:
+def blas_threads_for(*models: FrameData) -> Generator[None, None, None]:
     """Keep the dense algebra of small models on one thread.
 
     The setting is that of the whole process: it is made, and taken back, by the first of those who

@@ -8,7 +8,7 @@ import numpy as np
 
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.supports import load_path
-from frames.kernel_data import Model, Run, contacts_of, model_arrays, run_arrays
+from frames.kernel_data import IntegrationState, ReducedModel, contacts_of, model_arrays, run_arrays
 from frames.kernels.stepping import solve_gravity
 from frames.statics.springs import spring_forces
 from lir_element.element import limit_detail
@@ -35,8 +35,8 @@ _YIELDS = ("yield_displacement", "interface_yield", "torsion_yield")
 class Equilibrium(NamedTuple):
     """A frame in equilibrium, as the kernels see it."""
 
-    model: Model
-    run: Run
+    model: ReducedModel
+    run: IntegrationState
     contacts: Contacts | None
     compiling: float  # s
 
@@ -85,7 +85,7 @@ def find_equilibrium(
     empty = run_arrays(model), contacts_of(system, chosen)
     compiling = ready(solve_gravity, model, *empty, tolerance, _MAX_ITERATIONS)
 
-    def solve(first: FloatArray) -> tuple[RunStatus, Run, Contacts | None]:
+    def solve(first: FloatArray) -> tuple[RunStatus, IntegrationState, Contacts | None]:
         run, contacts = run_arrays(model), contacts_of(system, chosen)
         run.b[:] = first
         status = solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS)
@@ -101,9 +101,10 @@ def find_equilibrium(
 
 
 def _softened(
-    model: Model, solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]],
+    model: ReducedModel,
+    solve: Callable[[FloatArray], tuple[RunStatus, IntegrationState, Contacts | None]],
     guess: FloatArray,
-) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
+) -> tuple[RunStatus, IntegrationState, Contacts | None] | None:
     # Follow the equilibrium from soft friction to the true one; None if no way leads there.
     true = {name: model.props[name].copy() for name in _YIELDS}
     try:
@@ -118,9 +119,12 @@ def _softened(
 
 
 def _way_from(
-    softness: float, props: Records, true: Mapping[str, FloatArray],
-    solve: Callable[[FloatArray], tuple[RunStatus, Run, Contacts | None]], guess: FloatArray,
-) -> tuple[RunStatus, Run, Contacts | None] | None:  # fmt: skip
+    softness: float,
+    props: Records,
+    true: Mapping[str, FloatArray],
+    solve: Callable[[FloatArray], tuple[RunStatus, IntegrationState, Contacts | None]],
+    guess: FloatArray,
+) -> tuple[RunStatus, IntegrationState, Contacts | None] | None:
     # The same from one softness.
     _soften(props, true, softness)
     found = solve(guess)
@@ -175,7 +179,9 @@ def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> 
         props[name] = np.maximum(values, soft[name])
 
 
-def _raise_failure(system: System, run: Run, status: RunStatus, linear: FloatArray) -> None:
+def _raise_failure(
+    system: System, run: IntegrationState, status: RunStatus, linear: FloatArray
+) -> None:
     # A bearing that lifts is the cause, whatever Newton's method made of it; then limits. What
     # Newton's last trial lifted where it failed says nothing: the linear solution does.
     lifted = run.new["axial_force"] <= 0.0

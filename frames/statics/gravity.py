@@ -27,7 +27,7 @@ from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium
 from frames.statics.nonlinear_start import parts_at_rest
 from frames.statics.resultants import Resultants
-from frames.statics.sanity_checks import doubts, held_periods
+from frames.statics.sanity_checks import held_periods, sanity_warnings
 from frames.statics.springs import first_displacement
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.element import LEVELS
@@ -36,8 +36,8 @@ from lir_element.tables import html_table
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
-    from frames.kernel_data import Model, Run
-    from frames.model.frame_data import FrameContents
+    from frames.kernel_data import IntegrationState, ReducedModel
+    from frames.model.frame_data import FrameData
     from frames.nonlinear_data import NonlinearElements
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
@@ -57,7 +57,7 @@ class GravityState:
         The members' axial forces it was made with, tension positive [N].
     basis : Basis
         The frame in bearing coordinates.
-    model, run : Model, Run
+    model, run : ReducedModel, IntegrationState
         What the kernels work on; `run` holds the equilibrium as committed state.
     contacts : Contacts or None
         Sliders of the bearings at the level 'contact'.
@@ -77,8 +77,8 @@ class GravityState:
     geometric: SparseMatrix
     member_forces: FloatArray
     basis: Basis
-    model: Model
-    run: Run
+    model: ReducedModel
+    run: IntegrationState
     contacts: Contacts | None
     displacement: FloatArray
     axial_forces: FloatArray
@@ -114,7 +114,7 @@ class GravityState:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What is strange about the model, a sentence each: lost loads, numbers in other units."""
-        found = doubts(self.system, self.axial_forces, self.held_periods)
+        found = sanity_warnings(self.system, self.axial_forces, self.held_periods)
         lost = self.load_path.sentence()
         return (lost, *found) if lost else found
 
@@ -136,7 +136,7 @@ class GravityState:
 
 
 def gravity(
-    frame: FrameContents,
+    frame: FrameData,
     features: Features | None = None,
     level: str | Mapping[str, str] = "pendulum",
 ) -> GravityState:
@@ -197,11 +197,11 @@ class Prepared(NamedTuple):
 
 
 def prepare(
-    frame: FrameContents, features: Features | None, level: str | Mapping[str, str]
+    frame: FrameData, features: Features | None, level: str | Mapping[str, str]
 ) -> Prepared:
     """Check a frame and make its matrices, geometric stiffness included; arguments as `gravity`."""
     sanity_checks.refuse_extent(frame)
-    for doubt in sanity_checks.doubts(frame):
+    for doubt in sanity_checks.sanity_warnings(frame):
         warnings.warn(doubt, ModelWarning, stacklevel=3)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)

@@ -20,12 +20,12 @@ from frames.statics.sanity_checks import (
     isolated_period,
     motion_doubts,
 )
-from lir_element.device.sanity_checks import doubts as device_doubts
+from lir_element.device.sanity_checks import sanity_warnings as device_doubts
 from lir_element.errors import AnalysisError
 from lir_element.tables import html_table, text_table
 
 if TYPE_CHECKING:
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 SHOWN_PERIODS = 3
@@ -123,11 +123,15 @@ class ModelCheck:
     def _rows(self) -> list[tuple[str, ...]]:
         rows: list[tuple[str, ...]] = [
             (
-                load.name, f"{1e-3 * load.axial_force:.4g} kN", f"{1e-6 * load.pressure:.3g} MPa",
-                f"{1e3 * load.settlement:.2g} mm", f"{load.period:.3g} s", _held(load),
+                load.name,
+                f"{1e-3 * load.axial_force:.4g} kN",
+                f"{1e-6 * load.pressure:.3g} MPa",
+                f"{1e3 * load.settlement:.2g} mm",
+                f"{load.period:.3g} s",
+                _held(load),
             )
             for load in self.bearings[:SHOWN]
-        ]  # fmt: skip
+        ]
         if len(self.bearings) > SHOWN:
             rows.append((f"and {len(self.bearings) - SHOWN} more", "", "", "", "", ""))
         return rows
@@ -145,7 +149,7 @@ def _held(load: BearingLoad) -> str:
     return f"{1e3 * max(load.slip_stability, 0.0):.3g} of {overlap}"
 
 
-def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> ModelCheck:
+def check_model(frame: FrameData, motion: GroundMotion | None = None) -> ModelCheck:
     """Add up a model, and judge it: `Frame.check`.
 
     Parameters
@@ -172,7 +176,7 @@ def check_model(frame: FrameContents, motion: GroundMotion | None = None) -> Mod
     loads = totals.copy()
     loads[2] += system.gravity * masses[2]
     loads[np.abs(loads) < 1e-6 * np.abs(totals).max(initial=0.0)] = 0.0
-    found = [*sanity_checks.doubts(frame)]
+    found = [*sanity_checks.sanity_warnings(frame)]
     for device in dict.fromkeys(link.bearing for link in frame.bearings.values()):
         found += device_doubts(device)
     if motion is not None:

@@ -18,11 +18,11 @@ from lir_element import Features
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.assemble import System
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 
-def exact_features(frame: FrameContents, motion: GroundMotion) -> Features:
+def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
     """Return what a scene needs as far as that is certain before the run.
 
     Parameters
@@ -73,7 +73,7 @@ def is_plane(system: System) -> bool:
     return not (system.load[outside].any() or system.inertia_load[outside][:, [0, 2]].any())
 
 
-def plane_coupling(frame: FrameContents) -> float:
+def plane_coupling(frame: FrameData) -> float:
     """Return how far a frame moves along y when it is pushed along x.
 
     Parameters

@@ -17,7 +17,7 @@ from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
@@ -42,7 +42,7 @@ class Modes:
     mass_ratios: FloatArray
 
 
-def modes(frame: FrameContents, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
     """Return the first natural modes under gravity.
 
     Parameters

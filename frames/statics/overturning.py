@@ -18,7 +18,7 @@ from frames.statics.springs import spring_matrix
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.system import System
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 FOLLOWS = 0.9
 """Share of an overturning moment from which on axial forces count as following it [-]."""
@@ -123,7 +123,7 @@ def overturning_share(system: System) -> Overturning:
     return Overturning(shares[0], shares[1], len(tops))
 
 
-def unknown_axial_forces(frame: FrameContents) -> str:
+def unknown_axial_forces(frame: FrameData) -> str:
     """Return why the axial forces of a frame's bearings are not known; empty where they are.
 
     Parameters

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError, ModelWarning
-from frames.model.frame_data import FrameContents
+from frames.model.frame_data import FrameData
 from frames.motion.ground_motion import GroundMotion
 from lir_element.device.sanity_checks import (
     LARGEST_PRESSURE,
@@ -113,7 +113,9 @@ def held_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
     return tuple((2.0 * math.pi / np.sqrt(modes)).tolist())
 
 
-def doubts(system: System, axial_forces: FloatArray, periods: tuple[float, ...]) -> tuple[str, ...]:
+def sanity_warnings(
+    system: System, axial_forces: FloatArray, periods: tuple[float, ...]
+) -> tuple[str, ...]:
     """Return what is strange about a frame in equilibrium, a sentence each.
 
     Parameters
@@ -217,7 +219,7 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
     ]
 
 
-def motion_doubts(frame: FrameContents, motion: GroundMotion) -> tuple[str, ...]:
+def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     """Return what is strange about a motion under a frame, a sentence each.
 
     Parameters
@@ -276,10 +278,10 @@ def check_analysis(model: object, motion: object) -> None:
     ModelWarning
         On a motion that is stronger or weaker than what was probably meant.
     """
-    if isinstance(model, GroundMotion) and isinstance(motion, FrameContents):
+    if isinstance(model, GroundMotion) and isinstance(motion, FrameData):
         msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
         raise TypeError(msg)
-    if not isinstance(model, FrameContents):
+    if not isinstance(model, FrameData):
         msg = f"model = {model!r} must be a Frame: time_history(model, motion)"
         raise TypeError(msg)
     if not isinstance(motion, GroundMotion):

@@ -37,8 +37,15 @@ VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version_
 """What else the code depends on, beside the processor."""
 
 _DIGEST = hashlib.sha256().digest_size
-_UNREADABLE = (pickle.PickleError, AttributeError, EOFError, ImportError, LookupError, TypeError,
-               ValueError)  # fmt: skip
+_UNREADABLE = (
+    pickle.PickleError,
+    AttributeError,
+    EOFError,
+    ImportError,
+    LookupError,
+    TypeError,
+    ValueError,
+)
 _said: set[str] = set()
 
 taken: set[Path] = set()

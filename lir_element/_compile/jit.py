@@ -62,8 +62,13 @@ def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> 
     def decorate(function: F) -> F:
         if config.DISABLE_JIT:
             return function
-        options = {"error_model": "numpy", "nogil": True, "forceinline": inline, "_nrt": counts,
-                   "no_cfunc_wrapper": True}  # fmt: skip  # Python calls by the other wrapper
+        options = {
+            "error_model": "numpy",
+            "nogil": True,
+            "forceinline": inline,
+            "_nrt": counts,
+            "no_cfunc_wrapper": True,
+        }  # Python calls by the other wrapper
         if WITH_PARTS:
             options |= {"nopython": True, "boundscheck": None}  # as `njit` has it
             compiled: Any = KernelDispatcher(function, targetoptions=options)

@@ -58,8 +58,9 @@ class BodyStep(NamedTuple):
     scratch: Any  # record of SCRATCH
 
 
-def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
-                   ) -> Contacts:  # fmt: skip
+def contact_arrays(
+    bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
+) -> Contacts:
     """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded.
 
     Parameters
@@ -95,12 +96,19 @@ def contact_arrays(bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravi
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
-        row=row, sliders=sliders, points=points,
-        bodies_old=bodies, bodies_new=others, touch_old=touches, touch_new=news,
-        bodies_old_words=as_rows(bodies), bodies_new_words=as_rows(others),
-        touch_old_words=as_rows(touches), touch_new_words=as_rows(news),
+        row=row,
+        sliders=sliders,
+        points=points,
+        bodies_old=bodies,
+        bodies_new=others,
+        touch_old=touches,
+        touch_new=news,
+        bodies_old_words=as_rows(bodies),
+        bodies_new_words=as_rows(others),
+        touch_old_words=as_rows(touches),
+        touch_new_words=as_rows(news),
         scratch=np.zeros(len(picked), dtype=SCRATCH),
-    )  # fmt: skip
+    )
 
 
 def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:

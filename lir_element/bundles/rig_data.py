@@ -40,9 +40,14 @@ class RigRun(NamedTuple):
 
 
 def rig_run(
-    props: Records, start: Records, heat: Floats, path: Floats, loads: Floats, velocity: float,
+    props: Records,
+    start: Records,
+    heat: Floats,
+    path: Floats,
+    loads: Floats,
+    velocity: float,
     increment: float,
-) -> RigRun:  # fmt: skip
+) -> RigRun:
     """Return a bearing at rest that is to follow a path.
 
     Parameters
@@ -66,8 +71,25 @@ def rig_run(
     old, new = start.copy(), start.copy()
     states, bodies = np.zeros(len(path), dtype=STATE), np.zeros(len(path), dtype=BODIES)
     return RigRun(
-        props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK),
-        heat, path, loads, velocity, increment, np.zeros(12), np.zeros(12), np.zeros((12, 12)),
-        states, np.zeros((len(path), 2)), bodies, as_rows(states), as_rows(bodies),
-        np.zeros(2, dtype=np.int64), np.zeros(2),
-    )  # fmt: skip
+        props,
+        old,
+        new,
+        as_rows(old),
+        as_rows(new),
+        np.zeros(1, dtype=WORK),
+        heat,
+        path,
+        loads,
+        velocity,
+        increment,
+        np.zeros(12),
+        np.zeros(12),
+        np.zeros((12, 12)),
+        states,
+        np.zeros((len(path), 2)),
+        bodies,
+        as_rows(states),
+        as_rows(bodies),
+        np.zeros(2, dtype=np.int64),
+        np.zeros(2),
+    )

@@ -108,9 +108,15 @@ def bossak(spectral_radius: float) -> tuple[float, float, float]:
 
 
 def rigid_run(
-    props: Records, contacts: Contacts, state: Records, mass: Floats, inertia: Floats,
-    free: Words, *, driven: bool,
-) -> RigidRun:  # fmt: skip
+    props: Records,
+    contacts: Contacts,
+    state: Records,
+    mass: Floats,
+    inertia: Floats,
+    free: Words,
+    *,
+    driven: bool,
+) -> RigidRun:
     """Return a run that starts from the equilibrium held by `contacts` and `state` (1,).
 
     Parameters
@@ -150,15 +156,29 @@ def rigid_run(
     for name in ("velocity", "spin", "acceleration", "spin_rate"):
         bodies[name] = 0.0
     return RigidRun(
-        props=props, sliders=sliders, points=contacts.points[0], mass=masses, inertia=inertias,
-        free=np.concatenate([np.ones(12, np.int64), np.asarray(free, np.int64)]), driven=driven,
-        bodies=bodies, touches=touches, states=states,
-        bodies_words=as_rows(bodies), touches_words=as_rows(touches), states_words=as_rows(states),
-        scratch=np.zeros(1, dtype=SCRATCH), energy=energy,
-        energy_words=as_rows(energy), u=np.zeros(12), ground=np.zeros(3),
-        ground_mean=np.zeros(3), drive=np.zeros(2),
-        clock=np.zeros(1, dtype=RIGID_CLOCK), counts=np.zeros(1, dtype=RIGID_COUNTS),
-    )  # fmt: skip
+        props=props,
+        sliders=sliders,
+        points=contacts.points[0],
+        mass=masses,
+        inertia=inertias,
+        free=np.concatenate([np.ones(12, np.int64), np.asarray(free, np.int64)]),
+        driven=driven,
+        bodies=bodies,
+        touches=touches,
+        states=states,
+        bodies_words=as_rows(bodies),
+        touches_words=as_rows(touches),
+        states_words=as_rows(states),
+        scratch=np.zeros(1, dtype=SCRATCH),
+        energy=energy,
+        energy_words=as_rows(energy),
+        u=np.zeros(12),
+        ground=np.zeros(3),
+        ground_mean=np.zeros(3),
+        drive=np.zeros(2),
+        clock=np.zeros(1, dtype=RIGID_CLOCK),
+        counts=np.zeros(1, dtype=RIGID_COUNTS),
+    )
 
 
 class RigidOutput(NamedTuple):
@@ -192,14 +212,20 @@ def rigid_input(
     """
     count = len(times)
     out = RigidOutput(
-        states=np.zeros(count, dtype=STATE), bodies=np.zeros(count, dtype=BODIES),
+        states=np.zeros(count, dtype=STATE),
+        bodies=np.zeros(count, dtype=BODIES),
         energy=np.zeros(count, dtype=RIGID_LEDGER),
-    )  # fmt: skip
+    )
     given = RigidInput(
-        motion=np.ascontiguousarray(ground[0]), motion_dt=float(ground[1]), times=times,
-        drive=drive, load=load, words=as_rows(out.states), bodies=as_rows(out.bodies),
+        motion=np.ascontiguousarray(ground[0]),
+        motion_dt=float(ground[1]),
+        times=times,
+        drive=drive,
+        load=load,
+        words=as_rows(out.states),
+        bodies=as_rows(out.bodies),
         energy=as_rows(out.energy),
-    )  # fmt: skip
+    )
     return given, out
 
 

@@ -18,19 +18,43 @@ from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 _UNITS = {
     **dict.fromkeys(
-        ("radius", "slider_height", "slider_radius", "capacity", "rims", "rim_overrun",
-         "slip_capacity", "yield_displacement", "interface_yield_displacement", "plate_thickness"),
+        (
+            "radius",
+            "slider_height",
+            "slider_radius",
+            "capacity",
+            "rims",
+            "rim_overrun",
+            "slip_capacity",
+            "yield_displacement",
+            "interface_yield_displacement",
+            "plate_thickness",
+        ),
         "m",
     ),
-    "axial_stiffness": "N/m", "axial_damping": "N s/m", "rim_stiffness": "N/m",
-    "rim_damping": "N s/m", "design_load": "N", "slider_density": "kg/m3", "slider_mass": "kg",
+    "axial_stiffness": "N/m",
+    "axial_damping": "N s/m",
+    "rim_stiffness": "N/m",
+    "rim_damping": "N s/m",
+    "design_load": "N",
+    "slider_density": "kg/m3",
+    "slider_mass": "kg",
     "slider_inertia": "kg m2",
-}  # fmt: skip
+}
 
 _FACTORS = (
-    "pressure_rate", "pressure_load", "softens", "softening_scale", "softening_rate",
-    "softening_rest", "heats", "initial_temperature", "heat_rate", "heat_gain", "heat_skin",
-)  # fmt: skip
+    "pressure_rate",
+    "pressure_load",
+    "softens",
+    "softening_scale",
+    "softening_rate",
+    "softening_rest",
+    "heats",
+    "initial_temperature",
+    "heat_rate",
+    "heat_gain",
+    "heat_skin",
+)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

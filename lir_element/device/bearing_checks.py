@@ -18,7 +18,7 @@ from lir_element.argument_checks import (
 )
 from lir_element.device.friction import CoulombFriction, VelocityFriction
 from lir_element.device.heating import FrictionHeating, PressureDependence
-from lir_element.device.sanity_checks import doubts, refuse_forces, refuse_sizes
+from lir_element.device.sanity_checks import refuse_forces, refuse_sizes, sanity_warnings
 from lir_element.units import LENGTHS, meant, per_cent
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def check_bearing(bearing: Specification) -> None:
     require_choice("friction_law", bearing.friction_law, ("elastic-plastic", "bouc-wen"))
     require_between("bouc_wen_exponent", bearing.bouc_wen_exponent, 1.0, math.inf, "-")
     refuse_forces(bearing)
-    for doubt in doubts(bearing):
+    for doubt in sanity_warnings(bearing):
         warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 

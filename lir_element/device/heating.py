@@ -142,9 +142,13 @@ class FrictionHeating:
         require_choice("variant", self.variant, tuple(_FALLS))
         require_between("conductivity", self.conductivity, 0.1, 1e4, "W/(m K)")
         require_between(
-            "diffusivity", self.diffusivity, 1e-8, 1e-2, "m2/s",
+            "diffusivity",
+            self.diffusivity,
+            1e-8,
+            1e-2,
+            "m2/s",
             remedy="give m2/s (4.44 mm2/s are 4.44e-6 m2/s)",
-        )  # fmt: skip
+        )
         for name in ("initial_temperature", "reference_temperature"):
             require_between(name, getattr(self, name), -100.0, 400.0, "C", remedy="give it in C")
         if self.thickness is not None:

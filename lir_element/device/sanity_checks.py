@@ -138,7 +138,7 @@ def refuse_forces(bearing: Specification) -> None:
         raise ValueError(msg)
 
 
-def doubts(bearing: Specification) -> tuple[str, ...]:
+def sanity_warnings(bearing: Specification) -> tuple[str, ...]:
     """Return what is strange about a bearing, a sentence each; nothing for usual ones.
 
     Parameters
@@ -152,9 +152,12 @@ def doubts(bearing: Specification) -> tuple[str, ...]:
         Each names the value, what is usual, and the unit to suspect.
     """
     return (
-        *_of_geometry(bearing), *_of_loads(bearing), *_of_friction(bearing), *_of_rims(bearing),
+        *_of_geometry(bearing),
+        *_of_loads(bearing),
+        *_of_friction(bearing),
+        *_of_rims(bearing),
         *_of_slip(bearing),
-    )  # fmt: skip
+    )
 
 
 def _of_geometry(bearing: Specification) -> list[str]:

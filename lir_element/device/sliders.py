@@ -157,8 +157,11 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
     top = -first + bearing.slider_height - bodies[1][1]
     interface = -first + lower
     record["place"][0, :, 2] = (
-        -first - thickness[0], bottom, top, -first + bearing.slider_height + thickness[1],
-    )  # fmt: skip
+        -first - thickness[0],
+        bottom,
+        top,
+        -first + bearing.slider_height + thickness[1],
+    )
     record["plane"][0] = interface - bottom, interface - top
     record["vertex"][0] = -first - bottom, -first + bearing.slider_height - top
     plan, share = ring_points(bearing.contact_points, bearing.slider_radius)

@@ -26,17 +26,29 @@ if TYPE_CHECKING:
 def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
     """Return the bodies of bearing `k`, which stand at `at` in `contacts`."""
     return BodyStep(
-        props[k], contacts.sliders[at], contacts.points[at], contacts.bodies_old[at],
-        contacts.bodies_new[at], contacts.touch_old[at], contacts.touch_new[at],
+        props[k],
+        contacts.sliders[at],
+        contacts.points[at],
+        contacts.bodies_old[at],
+        contacts.bodies_new[at],
+        contacts.touch_old[at],
+        contacts.touch_new[at],
         contacts.scratch[at],
-    )  # fmt: skip
+    )
 
 
 @kernel
 def bearing_trial(
-    props: Records, old: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
-    u: Floats, v: Floats, time: float,
-) -> int:  # fmt: skip
+    props: Records,
+    old: Records,
+    new: Records,
+    work: Records,
+    contacts: Contacts | None,
+    k: int,
+    u: Floats,
+    v: Floats,
+    time: float,
+) -> int:
     """Determine the state of bearing `k`; returns a RunStatus code."""
     if contacts is not None:
         at = contacts.row[k]
@@ -48,9 +60,13 @@ def bearing_trial(
 
 @kernel
 def bearing_tangent(
-    props: Records, new: Records, work: Records, contacts: Contacts | None, k: int,
+    props: Records,
+    new: Records,
+    work: Records,
+    contacts: Contacts | None,
+    k: int,
     tangent: Floats,
-) -> None:  # fmt: skip
+) -> None:
     """Fill the tangent (12, 12) of bearing `k`'s last trial."""
     if contacts is not None:
         at = contacts.row[k]
@@ -62,9 +78,15 @@ def bearing_tangent(
 
 @kernel
 def bearing_commit(
-    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, heat: Floats,
-    contacts: Contacts | None, k: int,
-) -> None:  # fmt: skip
+    props: Records,
+    old: Records,
+    new: Records,
+    old_words: Words,
+    new_words: Words,
+    heat: Floats,
+    contacts: Contacts | None,
+    k: int,
+) -> None:
     """Accept the trial state of bearing `k`; `heat` as in `heat_parts`."""
     if contacts is not None:
         at = contacts.row[k]

@@ -109,9 +109,15 @@ def return_map(
 
 @inlined
 def returned(
-    bouc_wen: int, exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
-    u_y: float, inv: float,
-) -> tuple[float, float, float, float, float, float, float, float, float]:  # fmt: skip
+    bouc_wen: int,
+    exponent: float,
+    old_1: float,
+    old_2: float,
+    d_1: float,
+    d_2: float,
+    u_y: float,
+    inv: float,
+) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Return what `return_map` does; `d` is the sliding over `u_y`, `inv` is one over it."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
     square = b_1 * b_1 + b_2 * b_2
@@ -146,9 +152,16 @@ def returned(
 
 @kernel
 def bouc_wen_rate(
-    exponent: float, old_1: float, old_2: float, d_1: float, d_2: float,
-    by_old_1: float, by_old_2: float, by_d_1: float, by_d_2: float,
-) -> tuple[float, float, float]:  # fmt: skip
+    exponent: float,
+    old_1: float,
+    old_2: float,
+    d_1: float,
+    d_2: float,
+    by_old_1: float,
+    by_old_2: float,
+    by_d_1: float,
+    by_d_2: float,
+) -> tuple[float, float, float]:
     """Return the derivative of z (2) and of ``|b| - rho`` in a direction of z_old and dw / u."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2
     c_1, c_2 = by_old_1 + by_d_1, by_old_2 + by_d_2
@@ -171,9 +184,19 @@ def bouc_wen_rate(
 
 @kernel
 def friction_map(
-    bouc_wen: int, exponent: float, old_1: float, old_2: float, dw_1: float, dw_2: float,
-    u_y: float, kept: float, by_push: float, before_1: float, before_2: float, share: float,
-) -> Mapped:  # fmt: skip
+    bouc_wen: int,
+    exponent: float,
+    old_1: float,
+    old_2: float,
+    dw_1: float,
+    dw_2: float,
+    u_y: float,
+    kept: float,
+    by_push: float,
+    before_1: float,
+    before_2: float,
+    share: float,
+) -> Mapped:
     """Return what `return_map` does where a share of z is kept, and more.
 
     Eleven numbers: z (2), dz/d(dw) (2 x 2, by rows), the sliding that goes on past the old z (>= 0)
@@ -188,17 +211,42 @@ def friction_map(
     """
     size = math.sqrt(old_1 * old_1 + old_2 * old_2)
     return friction_step(
-        bouc_wen, exponent, old_1, old_2, size, dw_1, dw_2, u_y, 1.0 / u_y,
-        kept, by_push, 2.0 / (1.0 + kept), before_1, before_2, share,
-    )  # fmt: skip
+        bouc_wen,
+        exponent,
+        old_1,
+        old_2,
+        size,
+        dw_1,
+        dw_2,
+        u_y,
+        1.0 / u_y,
+        kept,
+        by_push,
+        2.0 / (1.0 + kept),
+        before_1,
+        before_2,
+        share,
+    )
 
 
 @inlined
 def friction_step(
-    bouc_wen: int, exponent: float, old_1: float, old_2: float, size: float,
-    dw_1: float, dw_2: float, u_y: float, per_u: float,
-    kept: float, by_push: float, softer: float, before_1: float, before_2: float, share: float,
-) -> Mapped:  # fmt: skip
+    bouc_wen: int,
+    exponent: float,
+    old_1: float,
+    old_2: float,
+    size: float,
+    dw_1: float,
+    dw_2: float,
+    u_y: float,
+    per_u: float,
+    kept: float,
+    by_push: float,
+    softer: float,
+    before_1: float,
+    before_2: float,
+    share: float,
+) -> Mapped:
     """Return what `friction_map` does from what all trials of a step, or all contacts, share.
 
     `size` is that of the old z, `per_u` is ``1 / u_y``, `softer` is ``2 / (1 + kept)``.

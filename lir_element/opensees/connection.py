@@ -52,9 +52,21 @@ def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
         listener.settimeout(_WAIT)
         port = listener.getsockname()[1]
         ops.element(
-            "genericClient", tag, "-node", *placement.nodes, "-dof", *dofs, "-dof", *dofs,
-            "-server", port, _LOOPBACK, "-dataSize", vector_length(placement.dofs), "-noRayleigh",
-        )  # fmt: skip
+            "genericClient",
+            tag,
+            "-node",
+            *placement.nodes,
+            "-dof",
+            *dofs,
+            "-dof",
+            *dofs,
+            "-server",
+            port,
+            _LOOPBACK,
+            "-dataSize",
+            vector_length(placement.dofs),
+            "-noRayleigh",
+        )
         try:
             return _accept_own(listener, port, tag)
         except ConnectionError:

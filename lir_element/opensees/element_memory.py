@@ -40,7 +40,7 @@ _C.free.argtypes = [ctypes.c_void_p]
 _STATUS = {int(status): status for status in RunStatus}
 
 
-class Hosted:
+class ElementMemory:
     """A bearing whose state other compiled code determines.
 
     Parameters
@@ -245,8 +245,16 @@ class Hosted:
             return
         bundle = contact_arrays([self.bearing], [True], STANDARD_GRAVITY)
         self.block["point_count"] = bundle.points.shape[1]
-        for name in ("row", "sliders", "points", "bodies_old", "bodies_new", "touch_old",
-                     "touch_new", "scratch"):  # fmt: skip
+        for name in (
+            "row",
+            "sliders",
+            "points",
+            "bodies_old",
+            "bodies_new",
+            "touch_old",
+            "touch_new",
+            "scratch",
+        ):
             self._keep(name, getattr(bundle, name))
         self._keep("bodies_first", initial_bodies(1))
         self._keep("touch_first", initial_touches(self.bearing, point_records(self.bearing)))

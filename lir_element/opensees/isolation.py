@@ -216,9 +216,17 @@ def isolate(
             ops.node(grounds[tag], *point, "-ndf", 6)
             made.append(grounds[tag])
             routes[tag] = bearing_element(
-                elements[tag], grounds[tag], tag, device, level, axis, route,
-                length_unit=length_unit, force_unit=force_unit, tangent=tangent,
-            )  # fmt: skip
+                elements[tag],
+                grounds[tag],
+                tag,
+                device,
+                level,
+                axis,
+                route,
+                length_unit=length_unit,
+                force_unit=force_unit,
+                tangent=tangent,
+            )
     except (ValueError, TypeError, RuntimeError):
         for tag in routes:
             ops.remove("element", elements[tag])

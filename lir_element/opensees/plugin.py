@@ -14,7 +14,7 @@ from lir_element.argument_checks import require_choice
 from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.connection import add_host_element
-from lir_element.opensees.element_memory import Hosted
+from lir_element.opensees.element_memory import ElementMemory
 from lir_element.opensees.fast.in_process_element import Grafted
 from lir_element.opensees.fast.portable_responses import Manners
 from lir_element.opensees.fast.selftest import why_not_fast
@@ -298,7 +298,7 @@ def _choose(route: str) -> str:
 def _add_fast(
     ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement, symmetric: bool
 ) -> Grafted:
-    hosted = Hosted(tag, bearing, level, placement, symmetric)
+    hosted = ElementMemory(tag, bearing, level, placement, symmetric)
     connection = add_host_element(ops, tag, placement)
     try:
         return Grafted(hosted, connection)

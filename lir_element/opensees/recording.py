@@ -98,9 +98,11 @@ class BearingRecording:
         first = self._bearings[0].placement.matrix
         if all(np.array_equal(bearing.placement.matrix, first) for bearing in self._bearings):
             variables["base_shear"] = labelled(
-                ("time", "axis"), states["force"][:, :, 6:9].sum(axis=1), "N",
+                ("time", "axis"),
+                states["force"][:, :, 6:9].sum(axis=1),
+                "N",
                 "resisting force of all recorded bearings",
-            )  # fmt: skip
+            )
         coordinates = {
             "time": labelled(("time",), times, "s", "time"),
             **bearing_coordinates([str(tag) for tag in self.tags]),

@@ -31,9 +31,17 @@ if TYPE_CHECKING:
 AXES = ("x", "y", "z")
 SURFACES = ("bottom", "top")
 DEVICE = (
-    "radius", "length", "slider_radius", "interface_friction", "slip_capacity", "lever",
-    "rim_displacement", "friction_max", "friction_drop", "friction_rate",
-)  # fmt: skip
+    "radius",
+    "length",
+    "slider_radius",
+    "interface_friction",
+    "slip_capacity",
+    "lever",
+    "rim_displacement",
+    "friction_max",
+    "friction_drop",
+    "friction_rate",
+)
 """Properties of the bearings that a Dataset keeps, whatever the run left out."""
 
 PRESSURE = ("pressure_rate", "pressure_load")

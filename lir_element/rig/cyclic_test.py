@@ -14,7 +14,7 @@ from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
 from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
-from lir_element.interruptible import in_pieces, ready
+from lir_element.interruptible import interruptible, ready
 from lir_element.kernels.cyclic_kernel import begin_path, follow_path
 from lir_element.results.dataset import (
     bearing_coordinates,
@@ -138,7 +138,7 @@ def _follow(run: RigRun, contacts: Contacts | None) -> RunStatus:
     def go(last: int, increments: int) -> int:
         return follow_path(run, contacts, last, increments)
 
-    return in_pieces(go, lambda: int(run.reached[0]), len(run.path))
+    return interruptible(go, lambda: int(run.reached[0]), len(run.path))
 
 
 def _path(displacement: ArrayLike) -> Floats:

@@ -8,8 +8,8 @@ import numpy as np
 
 from lir_element.bundles.rigid_data import FIRST_STEP, rigid_input, rigid_run, rigid_setup
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.interruptible import in_pieces
-from lir_element.kernels.rigid_body.integrate import march, start
+from lir_element.interruptible import interruptible
+from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
@@ -18,9 +18,13 @@ if TYPE_CHECKING:
 
 
 def drive_path(
-    props: Records, contacts: Contacts, state: Records, path: Floats, loads: Floats,
+    props: Records,
+    contacts: Contacts,
+    state: Records,
+    path: Floats,
+    loads: Floats,
     velocity: float,
-) -> tuple[Records, Records, int, RunStatus, float, Records]:  # fmt: skip
+) -> tuple[Records, Records, int, RunStatus, float, Records]:
     """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
 
     Parameters
@@ -46,9 +50,14 @@ def drive_path(
     """
     mass = np.max(loads) / STANDARD_GRAVITY
     run = rigid_run(
-        props, contacts, state, np.full(3, mass), np.zeros(3), np.array([0, 0, 1, 0, 0, 0]),
+        props,
+        contacts,
+        state,
+        np.full(3, mass),
+        np.zeros(3),
+        np.array([0, 0, 1, 0, 0, 0]),
         driven=True,
-    )  # fmt: skip
+    )
     points = np.vstack([np.zeros((1, 2)), path])
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     count = len(points)
@@ -63,9 +72,9 @@ def drive_path(
     start(run, given)
 
     def go(last: int, tries: int) -> int:
-        return march(run, given, setup, last, tries)
+        return integrate_bodies(run, given, setup, last, tries)
 
-    status = in_pieces(go, lambda: int(run.counts["outputs"][0]), count)
+    status = interruptible(go, lambda: int(run.counts["outputs"][0]), count)
     reached = int(run.counts["outputs"][0]) - 1
     time = float(run.clock["time"][0])
     return out.states[1:], out.bodies[1:], reached, status, time, run.states[2:]

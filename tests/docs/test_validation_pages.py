@@ -10,10 +10,19 @@ import validation
 from validation.page import CLAIMS, FOLDER, index
 
 MEASUREMENTS = (
-    "benchmark", "speed_error", "hard_cases", "opensees_hard_cases", "opensees_cost",
-    "opensees_public_models", "random_scenes",
-    "slip", "study", "worked_building", "yielding", "yielding_comparison",
-)  # fmt: skip
+    "benchmark",
+    "speed_error",
+    "hard_cases",
+    "opensees_hard_cases",
+    "opensees_cost",
+    "opensees_public_models",
+    "random_scenes",
+    "slip",
+    "study",
+    "worked_building",
+    "yielding",
+    "yielding_comparison",
+)
 PACKAGE = Path(str(validation.__file__)).parent
 FIGURE = re.compile(r"!\[[^\]]+\]\((figures/[^)]+)\)")
 claims = pytest.mark.parametrize("name", CLAIMS)

@@ -254,8 +254,10 @@ def recentring(f):
 
 
 RULES = {
-    "restoring force": restoring, "interface holds before the rim": interface,
-    "pairs of motions": motions.pairs, "mean spectrum of the motions": motions.mean,
+    "restoring force": restoring,
+    "interface holds before the rim": interface,
+    "pairs of motions": motions.pairs,
+    "mean spectrum of the motions": motions.mean,
     "mean spectrum of the motions at the period 0": motions.mean_at_zero,
     "near-fault pairs that are not turned to the fault": motions.turned,
     "number of motions": lambda f: (len(f.suite.failed), LEAST_MOTIONS[f.code]),
@@ -265,9 +267,11 @@ RULES = {
     "slip over the one that holds": lambda f: f.worst(f.slips(), f.d.holds),
     "slip left": lambda f: f.worst(f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)),
     "rim force": lambda f: f.of("rim_force", "rim_strength"),
-    "resultant between the sliders, over their radius":
-        lambda f: f.of("eccentricity", "eccentricity"),
-    "lateral force of a bearing": lateral, "lateral force that the bearing passes on": lateral,
+    "resultant between the sliders, over their radius": lambda f: f.of(
+        "eccentricity", "eccentricity"
+    ),
+    "lateral force of a bearing": lateral,
+    "lateral force that the bearing passes on": lateral,
     "displacement left": lambda f: f.of("displacement_left", "displacement_left"),
     "largest axial force": lambda f: f.of("axial_force", "axial_force"),
     "pressure on the sliders' overlap": on_overlap,
@@ -275,19 +279,32 @@ RULES = {
     "gap of uplift over the height of the rims": gap_over_rims,
     "gap of uplift": lambda f: f.worst(f.lifted("gap").max(0), f.limits["uplift_gap"]),
     "pressure of a landing on the sliders": landing,
-    "axial force with a landing": landing_force, "base shear": base_shear,
-    "storey shear of time histories": storey_shear, "storey drift ratio": drift,
+    "axial force with a landing": landing_force,
+    "base shear": base_shear,
+    "storey shear of time histories": storey_shear,
+    "storey drift ratio": drift,
     "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
     "interface holds until a rim is met": holds,
     "slip that holds": lambda f: (f.p.tests.slip, f.whole.holds),
     "interface slips before the rim breaks": slips_before,
     "resultant between the sliders": resultant,
-    "recentring, energy": recentring_energy, "recentring, displacement": recentring,
-}  # fmt: skip
-SUITE = {"restoring force", "interface holds before the rim", "number of motions",
-         "runs that failed", "recentring, energy", "recentring, displacement"}  # fmt: skip
-OF_RUN = {"gap of uplift over the height of the rims", "gap of uplift",
-          "axial force with a landing", "pressure of a landing on the sliders"}  # fmt: skip
+    "recentring, energy": recentring_energy,
+    "recentring, displacement": recentring,
+}
+SUITE = {
+    "restoring force",
+    "interface holds before the rim",
+    "number of motions",
+    "runs that failed",
+    "recentring, energy",
+    "recentring, displacement",
+}
+OF_RUN = {
+    "gap of uplift over the height of the rims",
+    "gap of uplift",
+    "axial force with a landing",
+    "pressure of a landing on the sliders",
+}
 
 
 def rule_of(title):

@@ -11,15 +11,28 @@ import numpy as np
 from reading import GRAVITY as G
 
 B_ASCE = ((2, 0.8), (5, 1.0), (10, 1.2), (20, 1.5), (30, 1.7), (40, 1.9), (50, 2.0))
-B_NCH = ((2, 0.65), (5, 1.0), (10, 1.37), (15, 1.67), (20, 1.94), (25, 2.17), (30, 2.38),
-         (50, 3.02))  # fmt: skip
+B_NCH = (
+    (2, 0.65),
+    (5, 1.0),
+    (10, 1.37),
+    (15, 1.67),
+    (20, 1.94),
+    (25, 2.17),
+    (30, 2.38),
+    (50, 3.02),
+)
 GROUND = {  # S, T_B, T_C, T_D
-    (1, "A"): (1.0, 0.15, 0.4, 2.0), (1, "B"): (1.2, 0.15, 0.5, 2.0),
-    (1, "C"): (1.15, 0.20, 0.6, 2.0), (1, "D"): (1.35, 0.20, 0.8, 2.0),
-    (1, "E"): (1.4, 0.15, 0.5, 2.0), (2, "A"): (1.0, 0.05, 0.25, 1.2),
-    (2, "B"): (1.35, 0.05, 0.25, 1.2), (2, "C"): (1.5, 0.10, 0.25, 1.2),
-    (2, "D"): (1.8, 0.10, 0.30, 1.2), (2, "E"): (1.6, 0.05, 0.25, 1.2),
-}  # fmt: skip
+    (1, "A"): (1.0, 0.15, 0.4, 2.0),
+    (1, "B"): (1.2, 0.15, 0.5, 2.0),
+    (1, "C"): (1.15, 0.20, 0.6, 2.0),
+    (1, "D"): (1.35, 0.20, 0.8, 2.0),
+    (1, "E"): (1.4, 0.15, 0.5, 2.0),
+    (2, "A"): (1.0, 0.05, 0.25, 1.2),
+    (2, "B"): (1.35, 0.05, 0.25, 1.2),
+    (2, "C"): (1.5, 0.10, 0.25, 1.2),
+    (2, "D"): (1.8, 0.10, 0.30, 1.2),
+    (2, "E"): (1.6, 0.05, 0.25, 1.2),
+}
 SOIL = {  # A/g, T_a, T_b, T_c, T_d [s], alpha_A [cm/s2], alpha_V [cm/s], alpha_D [cm]
     "I": (0.40, 0.03, 0.110, 0.29, 2.51, 1085, 50, 20),
     "II": (0.41, 0.03, 0.200, 0.54, 2.00, 1100, 94, 30),
@@ -159,10 +172,17 @@ def asce(s, given, above):
     ratio = max(math.sqrt(square) / math.sqrt((s.b**2 + s.d**2) / 12.0), 1.0)
     each = torsion(s, moved, 1.15, ratio**2)
     found = {
-        "centre": moved, "each": each, "total": each.max(), "allowed": each.max(),
-        "period": period, "damping": beta, "factor": damping_factor("ASCE 7-22", beta),
-        "k": k, "V_b": k * moved, "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
-    }  # fmt: skip
+        "centre": moved,
+        "each": each,
+        "total": each.max(),
+        "allowed": each.max(),
+        "period": period,
+        "damping": beta,
+        "factor": damping_factor("ASCE 7-22", beta),
+        "k": k,
+        "V_b": k * moved,
+        "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
+    }
     if above is None:
         return found
     v_st = found["V_b"] * (above["W_s"] / s.W) ** (1.0 - 3.5 * beta)
@@ -172,9 +192,12 @@ def asce(s, given, above):
     sliding = max(s.mu_upper * s.W, 1.5 * s.mu_nominal * s.W)
     prime = moved / math.sqrt(1.0 + (above["T_fb"] / period) ** 2)
     return found | {
-        "V_s": max(v_st / r_i, fixed, above["wind"], sliding), "V_st": v_st, "R_I": r_i,
-        "D_least": 0.8 * found["total"] * prime / moved, "V_least": 0.9 * found["V_b"],
-    }  # fmt: skip
+        "V_s": max(v_st / r_i, fixed, above["wind"], sliding),
+        "V_st": v_st,
+        "R_I": r_i,
+        "D_least": 0.8 * found["total"] * prime / moved,
+        "V_least": 0.9 * found["V_b"],
+    }
 
 
 def en(s, given, above):
@@ -193,10 +216,17 @@ def en(s, given, above):
     more = np.maximum(ey / radius * np.abs(s.y - cy), ex / radius * np.abs(s.x - cx))
     each = moved * (1.0 + more)
     found = {
-        "centre": moved, "each": each, "total": each.max(), "allowed": 1.2 * each.max(),
-        "period": period, "damping": xi, "factor": 1.0 / damping_factor("EN 1998", xi), "k": k,
-        "V_b": k * moved, "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
-    }  # fmt: skip
+        "centre": moved,
+        "each": each,
+        "total": each.max(),
+        "allowed": 1.2 * each.max(),
+        "period": period,
+        "damping": xi,
+        "factor": 1.0 / damping_factor("EN 1998", xi),
+        "k": k,
+        "V_b": k * moved,
+        "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
+    }
     if above is not None:
         found["V_s"] = above["W_s"] / G * spectrum("EN 1998", given, period, xi) / 1.5
     return found
@@ -214,11 +244,20 @@ def nch(s, given, above):
     each = torsion(s, design, 1.1) / design * moved
     shear = s.force(design, s.mu_upper).sum()
     found = {
-        "centre": design, "each": each, "total": each.max(), "allowed": each.max(),
-        "moved": moved, "period": period, "damping": beta, "design": design,
-        "factor": damping_factor("NCh2745", beta), "k": k, "V_b": shear,
-        "T_D": s.secant(design)[2], "D_TD": torsion(s, design, 1.1).max(),
-    }  # fmt: skip
+        "centre": design,
+        "each": each,
+        "total": each.max(),
+        "allowed": each.max(),
+        "moved": moved,
+        "period": period,
+        "damping": beta,
+        "design": design,
+        "factor": damping_factor("NCh2745", beta),
+        "k": k,
+        "V_b": shear,
+        "T_D": s.secant(design)[2],
+        "D_TD": torsion(s, design, 1.1).max(),
+    }
     if above is not None:
         r_1 = max(min(above["R"], 2.0), 1.0)
         sliding = max(s.mu_upper * s.W, 1.5 * s.mu_nominal * s.W)
@@ -238,17 +277,25 @@ def above_of(project):
     facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has bearings held
     period = facts["fixed_base_period"]
     return {
-        "W_s": G * mass[1:].sum(), "w": G * mass[1:], "h": levels[1:] - levels[0],
-        "R": given["R"], "importance": given.get("importance", 1.0),
-        "wind": given.get("wind_shear", 0.0), "T_fb": period,
-    }  # fmt: skip
+        "W_s": G * mass[1:].sum(),
+        "w": G * mass[1:],
+        "h": levels[1:] - levels[0],
+        "R": given["R"],
+        "importance": given.get("importance", 1.0),
+        "wind": given.get("wind_shear", 0.0),
+        "T_fb": period,
+    }
 
 
 COLUMNS = {
-    "total_displacement [m]": "total", "period [s]": "period", "damping [-]": "damping",
-    "damping_factor [-]": "factor", "stiffness [N/m]": "k", "base_shear [N]": "V_b",
+    "total_displacement [m]": "total",
+    "period [s]": "period",
+    "damping [-]": "damping",
+    "damping_factor [-]": "factor",
+    "stiffness [N/m]": "k",
+    "base_shear [N]": "V_b",
     "superstructure_shear [N]": "V_s",
-}  # fmt: skip
+}
 
 
 def stick_period(given):

@@ -6,19 +6,27 @@ import numpy as np
 
 MEAN_FROM = 7
 LEVELS = {  # name: factor on the motions, and what is judged
-    "ASCE 7-22": {"": "all"}, "EN 1998": {"": "all"},
+    "ASCE 7-22": {"": "all"},
+    "EN 1998": {"": "all"},
     "NCh2745": {"design": "superstructure", "maximum": "isolation"},
-}  # fmt: skip
+}
 ROWS = {
-    "isolator displacement": ("displacement", 1), "displacement left": ("displacement_left", 1),
-    "interface slip": ("slip", 1), "interface slip left": ("slip_left", 1),
-    "rim force": ("rim_force", 1), "largest axial force": ("axial_force", 1),
-    "least axial force": ("axial_tension", -1), "uplifts, all bearings": ("uplifts", 1),
-    "time lifted": ("time_lifted", 1), "gap of uplift": ("gap", 1), "base shear": ("base_shear", 1),
-    "storey shear": ("storey_shear", 1), "storey drift ratio": ("drift", 1),
+    "isolator displacement": ("displacement", 1),
+    "displacement left": ("displacement_left", 1),
+    "interface slip": ("slip", 1),
+    "interface slip left": ("slip_left", 1),
+    "rim force": ("rim_force", 1),
+    "largest axial force": ("axial_force", 1),
+    "least axial force": ("axial_tension", -1),
+    "uplifts, all bearings": ("uplifts", 1),
+    "time lifted": ("time_lifted", 1),
+    "gap of uplift": ("gap", 1),
+    "base shear": ("base_shear", 1),
+    "storey shear": ("storey_shear", 1),
+    "storey drift ratio": ("drift", 1),
     "storey drift ratio, worst line": ("line_drift", 1),
     "floor acceleration in plan": ("floor_plan", 1),
-}  # fmt: skip
+}
 
 
 class Suite:
@@ -56,8 +64,12 @@ class Suite:
         kind = name.removesuffix("_left")
         if kind in {"base_shear", "uplifts"}:
             return [""]
-        key = {"drift": "storey", "storey_shear": "storey", "line_drift": "line",
-               "floor_plan": "level"}.get(kind, "bearing")  # fmt: skip
+        key = {
+            "drift": "storey",
+            "storey_shear": "storey",
+            "line_drift": "line",
+            "floor_plan": "level",
+        }.get(kind, "bearing")
         return list(map(str, self.data[key]))
 
 
@@ -98,23 +110,42 @@ def _demands(project, found, tally):
             else:
                 each = np.array([suite.value(c) for c in values.T])
             largest = np.nan if np.isnan(each).all() else sign * np.nanmax(each)
-            tally.same(name, f"{level} {row['quantity']} {bound}", row[column] or np.nan, largest,
-                       floor_of(quantity))  # fmt: skip
+            tally.same(
+                name,
+                f"{level} {row['quantity']} {bound}",
+                row[column] or np.nan,
+                largest,
+                floor_of(quantity),
+            )
             said = f"{'mean' if suite.mean else 'largest'} of"
             if len(suite.failed) == 1 and not suite.void:
                 said = "1 run"
-            tally.words(name, f"{level} {bound} statistic", column.split(", ")[1][: len(said)]
-                        if ":" not in column else said, said)  # fmt: skip
+            tally.words(
+                name,
+                f"{level} {bound} statistic",
+                column.split(", ")[1][: len(said)] if ":" not in column else said,
+                said,
+            )
             if not np.isnan(each).all() and np.nanmax(each) > best[0]:
                 best = float(np.nanmax(each)), suite.names(quantity)[int(np.nanargmax(each))]
             if not np.isnan(values).all():
                 worst = max(worst, float(np.nanmax(values)))
         last = next(key for key in row if key.startswith("worst of all"))
         finite = math.isfinite
-        tally.same(name, f"{level} {row['quantity']} envelope", row["envelope of these"] or np.nan,
-                   sign * best[0] if finite(best[0]) else np.nan, floor_of(quantity))  # fmt: skip
-        tally.same(name, f"{level} {row['quantity']} worst", row[last] or np.nan,
-                   sign * worst if finite(worst) else np.nan, floor_of(quantity))  # fmt: skip
+        tally.same(
+            name,
+            f"{level} {row['quantity']} envelope",
+            row["envelope of these"] or np.nan,
+            sign * best[0] if finite(best[0]) else np.nan,
+            floor_of(quantity),
+        )
+        tally.same(
+            name,
+            f"{level} {row['quantity']} worst",
+            row[last] or np.nan,
+            sign * worst if finite(worst) else np.nan,
+            floor_of(quantity),
+        )
         if best[0] > 0.0 and row["where"] != best[1]:
             near(found[level], quantity, row["where"], best, tally, name)
 
@@ -122,30 +153,50 @@ def _demands(project, found, tally):
 def near(each, quantity, reported, best, tally, name):
     """Allow the name of another place that reached as much, to single precision."""
     values = [s.of(quantity)[s.names(quantity).index(reported)] for s in each.values()]
-    tally.same(name, f"where {quantity}: {reported} for {best[1]}", max(values), best[0],
-               floor_of(quantity))  # fmt: skip
+    tally.same(
+        name,
+        f"where {quantity}: {reported} for {best[1]}",
+        max(values),
+        best[0],
+        floor_of(quantity),
+    )
 
 
 def floor_of(quantity):
     """Return the size below which differences of a quantity are round-off of single precision."""
-    return {"gap": 0.1, "g": 0.1, "slip": 1e-3, "slip_left": 1e-3, "displacement_left": 1e-2,
-            "axial_tension": 1e4, "drift": 1e-3, "line_drift": 1e-3}.get(quantity, 0.0)  # fmt: skip
+    return {
+        "gap": 0.1,
+        "g": 0.1,
+        "slip": 1e-3,
+        "slip_left": 1e-3,
+        "displacement_left": 1e-2,
+        "axial_tension": 1e4,
+        "drift": 1e-3,
+        "line_drift": 1e-3,
+    }.get(quantity, 0.0)
 
 
 def _bearings(project, tally):
     name = "table of bearings"
     tally.category(name, 1e-4, "of peaks from histories; average loads beside those at rest")
     columns = {
-        "displacement [m]": ("displacement", 1), "slip [m]": ("slip", 1),
-        "rim force [N]": ("rim_force", 1), "largest load [N]": ("axial_force", 1),
+        "displacement [m]": ("displacement", 1),
+        "slip [m]": ("slip", 1),
+        "rim force [N]": ("rim_force", 1),
+        "largest load [N]": ("axial_force", 1),
         "least load [N]": ("axial_tension", -1),
-    }  # fmt: skip
+    }
     statics = project.governing
     for k, row in enumerate(project.table("bearings")):
         for column, (quantity, sign) in columns.items():
             reached = [peaks[quantity][:, k].max() for peaks in project.peaks.values()]
-            tally.same(name, f"{row['bearing']} {column}", row[column], sign * max(reached),
-                       floor_of(quantity))  # fmt: skip
+            tally.same(
+                name,
+                f"{row['bearing']} {column}",
+                row[column],
+                sign * max(reached),
+                floor_of(quantity),
+            )
         top = statics["node_position"][statics["bearing_node"][k, 1]]
         tally.same(name, f"{row['bearing']} place", [row["x [m]"], row["y [m]"]], top[:2])
         tally.same(
@@ -165,8 +216,12 @@ def _friction(project, tally):
     name = "table of friction"
     tally.category(name, 1e-12, "products of numbers of the file")
     b = project.bearing
-    own = {"bottom surface": b.fast, "top surface": b.fast, "bottom surface, slow": b.slow,
-           "top surface, slow": b.slow}  # fmt: skip
+    own = {
+        "bottom surface": b.fast,
+        "top surface": b.fast,
+        "bottom surface, slow": b.slow,
+        "top surface, slow": b.slow,
+    }
     for row in project.table("friction"):
         what = row["friction coefficient"]
         for bound in ("lower", "nominal", "upper"):
@@ -245,8 +300,12 @@ def impact_speed(project):
 
 def _programme(project, found, tally):
     name = "programme of tests"
-    tally.category(name, 2e-3, "loads of combinations as multiples of those on average: the frame's"
-                   " equilibrium is nearly linear")  # fmt: skip
+    tally.category(
+        name,
+        2e-3,
+        "loads of combinations as multiples of those on average: the frame's"
+        " equilibrium is nearly linear",
+    )
     d = Tests(project, found)
     project.tests = d
     words = {"ASCE 7-22": _of_asce, "EN 1998": _of_en, "NCh2745": _of_nch}[project.code]
@@ -264,11 +323,14 @@ def _programme(project, found, tally):
             wind = project.file.get("superstructure", {}).get("wind_shear", 0.0)
             forces = 2 * [wind / len(d.system.P) or math.nan]
         own = {
-            "displacement [m]": moved, "vertical load [N]": load, "cycles": cycles,
+            "displacement [m]": moved,
+            "vertical load [N]": load,
+            "cycles": cycles,
             "peak speed [m/s]": speed,
             "period [s]": 2.0 * math.pi * moved / speed if speed > 0.0 else math.nan,
-            "least force [N]": forces[0], "largest force [N]": forces[1],
-        }  # fmt: skip
+            "least force [N]": forces[0],
+            "largest force [N]": forces[1],
+        }
         for column, value in own.items():
             tally.same(name, f"{what}: {column}", row[column] or math.nan, value)
 
@@ -304,13 +366,15 @@ def _of_en(d, project):
     fast = _harmonic(d, d.total)
     yield "S, service", math.nan, d.average, 20, 0.1 * d.slow, False
     for title, share, load, speed in (
-        ("P1, benchmark", 1.0, d.average, d.slow), ("D1, dynamic", 0.25, d.average, fast),
-        ("D2, dynamic", 0.5, d.average, fast), ("D3, dynamic", 1.0, d.average, fast),
+        ("P1, benchmark", 1.0, d.average, d.slow),
+        ("D1, dynamic", 0.25, d.average, fast),
+        ("D2, dynamic", 0.5, d.average, fast),
+        ("D3, dynamic", 1.0, d.average, fast),
         ("P2, integrity of the liner", 1.0, d.average, d.slow),
         ("D4, seismic, largest load", 1.0, d.loads[1], fast),
         ("D5, seismic, least load", 1.0, d.loads[0], fast),
         ("B, both directions", 1.0, d.average, fast),
-    ):  # fmt: skip
+    ):
         yield title, share * d.total, load, 3, speed, False
 
 

@@ -22,11 +22,21 @@ def one(data, k):
     until = int(np.isfinite(force).all(axis=-1).sum())  # a run that ended early is filled by NaN
     found = {"time": time[:until]}
     for name in (
-        "axial_force", "bearing_displacement", "bearing_force", "interface_slip",
-        "interface_slip_size", "interface_eccentricity", "rim_force", "slider_displacement",
-        "node_displacement", "node_acceleration", "base_shear", "storey_shear", "energy",
+        "axial_force",
+        "bearing_displacement",
+        "bearing_force",
+        "interface_slip",
+        "interface_slip_size",
+        "interface_eccentricity",
+        "rim_force",
+        "slider_displacement",
+        "node_displacement",
+        "node_acceleration",
+        "base_shear",
+        "storey_shear",
+        "energy",
         "ground_acceleration",
-    ):  # fmt: skip
+    ):
         found[name] = data[name][k][:until]
     return found
 
@@ -49,24 +59,30 @@ def of_run(run, statics):
     means, drifts, lines = floors(run, statics)
     kinetic = run["energy"]
     found = {
-        "displacement": moved.max(0), "displacement_left": moved[-1],
+        "displacement": moved.max(0),
+        "displacement_left": moved[-1],
         "displacement_along": np.abs(run["bearing_displacement"]).max((0, 1)),
         "force": plan(run["bearing_force"]).max(0),
-        "axial_force": force.max(0), "axial_tension": -force.min(0),
-        "slip": slip.max(0), "slip_left": slip[-1],
+        "axial_force": force.max(0),
+        "axial_tension": -force.min(0),
+        "slip": slip.max(0),
+        "slip_left": slip[-1],
         "sliding": plan(run["slider_displacement"]).max(0),
         "rim_force": run["rim_force"].max((0, 2)),
         "rims_met": (run["rim_force"] > 0.0).any((0, 2)).astype(float),
         "eccentricity": np.where(pressed, offset, 0.0).max(0),
-        "time_lifted": (steps[:, None] * lifted).sum(0), "uplifts": float(begins.sum()),
+        "time_lifted": (steps[:, None] * lifted).sum(0),
+        "uplifts": float(begins.sum()),
         "gap": gaps(run, statics, lifted).max(0),
         "base_shear": plan(run["base_shear"]).max(),
         "storey_shear": plan(run["storey_shear"]).max(0),
-        "floor_plan": plan(means).max(0), "drift": drifts.max(0), "line_drift": lines.max(0),
+        "floor_plan": plan(means).max(0),
+        "drift": drifts.max(0),
+        "line_drift": lines.max(0),
         "energy_input": np.abs(kinetic[:, 0]).max(),
         "energy_gap": np.abs(kinetic[:, 0] - kinetic[:, 1:].sum(1)).max(),
         "until": time[-1],
-    }  # fmt: skip
+    }
     timed = {"displacement": moved, "base_shear": plan(run["base_shear"]), "axial_force": force}
     found |= {f"{name}_at": time[values.argmax(0)] for name, values in timed.items()}
     return found | {f"{name}_equal": equal(values, time) for name, values in timed.items()}
@@ -122,11 +138,32 @@ def gaps(run, statics, lifted):
 
 
 COMPARED = (
-    "displacement", "displacement_left", "displacement_along", "force", "axial_force",
-    "axial_tension", "slip", "slip_left", "sliding", "rim_force", "rims_met", "eccentricity",
-    "time_lifted", "uplifts", "gap", "base_shear", "storey_shear", "floor_plan", "drift",
-    "line_drift", "energy_input", "until", "displacement_at", "base_shear_at", "axial_force_at",
-)  # fmt: skip
+    "displacement",
+    "displacement_left",
+    "displacement_along",
+    "force",
+    "axial_force",
+    "axial_tension",
+    "slip",
+    "slip_left",
+    "sliding",
+    "rim_force",
+    "rims_met",
+    "eccentricity",
+    "time_lifted",
+    "uplifts",
+    "gap",
+    "base_shear",
+    "storey_shear",
+    "floor_plan",
+    "drift",
+    "line_drift",
+    "energy_input",
+    "until",
+    "displacement_at",
+    "base_shear_at",
+    "axial_force_at",
+)
 
 
 def compare(project, tally):
@@ -138,8 +175,16 @@ def compare(project, tally):
     tally.category(times, 1e-2, "in single precision two steps near a peak may be equal")
     balance = "base shear, as the sum of the bearings"
     tally.category(balance, 1e-4, "sums of single precision, of forces that cancel")
-    floor = {"gap": 1e-3, "drift": 2e-3, "line_drift": 2e-3, "slip": 1e-3, "slip_left": 1e-3,
-             "displacement_left": 1e-2, "eccentricity": 1e-2, "axial_tension": 1e4}  # fmt: skip
+    floor = {
+        "gap": 1e-3,
+        "drift": 2e-3,
+        "line_drift": 2e-3,
+        "slip": 1e-3,
+        "slip_left": 1e-3,
+        "displacement_left": 1e-2,
+        "eccentricity": 1e-2,
+        "axial_tension": 1e4,
+    }
     found = {}
     for level, each in project.runs.items():
         for bound, data in each.items():
@@ -152,8 +197,13 @@ def compare(project, tally):
                     own[quantity] = np.clip(reported, first, last)
                 of = small if quantity in {"gap", "drift", "line_drift"} else name
                 of = times if quantity.endswith("_at") else of
-                tally.same(of, f"{level} {bound} {quantity}", reported, own[quantity],
-                           floor.get(quantity, 0.0))  # fmt: skip
+                tally.same(
+                    of,
+                    f"{level} {bound} {quantity}",
+                    reported,
+                    own[quantity],
+                    floor.get(quantity, 0.0),
+                )
             total = np.nansum(data["bearing_force"], axis=2)
             size = np.nanmax(np.abs(data["base_shear"]))
             off = np.nanmax(np.abs(total - np.nan_to_num(data["base_shear"])))

@@ -37,12 +37,17 @@ def main(arguments):
     """Review the folder; return 1 where something disagrees."""
     tally = review(arguments[0])
     if "--json" in arguments:
-        print(json.dumps({
-            "counts": tally.counts, "worst": tally.worst,
-            "tolerances": {name: list(pair) for name, pair in tally.why.items()},
-            "bad": [list(map(str, each)) for each in tally.bad],
-            "missing": [list(each) for each in tally.missing],
-        }))  # fmt: skip
+        print(
+            json.dumps(
+                {
+                    "counts": tally.counts,
+                    "worst": tally.worst,
+                    "tolerances": {name: list(pair) for name, pair in tally.why.items()},
+                    "bad": [list(map(str, each)) for each in tally.bad],
+                    "missing": [list(each) for each in tally.missing],
+                }
+            )
+        )
     else:
         show(tally)
     return 1 if tally.bad else 0
@@ -53,8 +58,10 @@ def show(tally, most=40):
     for name, count in tally.counts.items():
         tolerance, why = tally.why[name]
         print(f"{name:<58}{count:>8}{tally.worst.get(name, 0.0):>10.1e}{tolerance:>9.0e}  {why}")
-    print(f"{sum(tally.counts.values())} values, {len(tally.bad)} disagree,"
-          f" {len(tally.missing)} not recomputed")  # fmt: skip
+    print(
+        f"{sum(tally.counts.values())} values, {len(tally.bad)} disagree,"
+        f" {len(tally.missing)} not recomputed"
+    )
     for each in tally.bad[:most]:
         print("DISAGREES", *each)
     for each in sorted(set(tally.missing))[:most]:

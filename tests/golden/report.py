@@ -9,8 +9,16 @@ import reading
 from reading import GRAVITY
 from tally import plain
 
-FACTORS = {"mm": 1e3, "kN": 1e-3, "kN m": 1e-3, "MPa": 1e-6, "%": 1e2, "kN/m": 1e-3, "t": 1e-3,
-           "kJ": 1e-3}  # fmt: skip
+FACTORS = {
+    "mm": 1e3,
+    "kN": 1e-3,
+    "kN m": 1e-3,
+    "MPa": 1e-6,
+    "%": 1e2,
+    "kN/m": 1e-3,
+    "t": 1e-3,
+    "kJ": 1e-3,
+}
 GROUND_PERIODS = np.geomspace(0.05, 12.0, 120)
 
 
@@ -29,23 +37,40 @@ def compare(project, tally):
             tally.unknown("tables of the report", f"{heading}: {head[0]}")
         else:
             kind(project, head, rows, tally)
-    wanted = [_model, _loads, _modes, _device, _bearings, _friction, _motions, _linear, _limits,
-              _demands, _checks, _programme]  # fmt: skip
+    wanted = [
+        _model,
+        _loads,
+        _modes,
+        _device,
+        _bearings,
+        _friction,
+        _motions,
+        _linear,
+        _limits,
+        _demands,
+        _checks,
+        _programme,
+    ]
     for kind in wanted:
         tally.words("tables of the report", f"table {kind.__name__} is there", kind in seen, True)
 
 
 def _kind(heading, head):
     named = {
-        ("Structure", "mass"): _model, ("Structure", "bearing"): _loads,
-        ("Structure", "mode"): _modes, ("Bearings", "bearing"): _bearings,
+        ("Structure", "mass"): _model,
+        ("Structure", "bearing"): _loads,
+        ("Structure", "mode"): _modes,
+        ("Bearings", "bearing"): _bearings,
         ("Bearings", "effective radius"): _device,
-        ("Bearings", "friction coefficient"): _friction, ("Motions", "motion"): _motions,
+        ("Bearings", "friction coefficient"): _friction,
+        ("Motions", "motion"): _motions,
         ("Equivalent-linear analysis", "bound"): _linear,
-        ("Equivalent-linear analysis", "check"): _limits, ("Time histories", "quantity"): _demands,
-        ("Time histories", "members"): _members, ("Checks", "check"): _checks,
+        ("Equivalent-linear analysis", "check"): _limits,
+        ("Time histories", "quantity"): _demands,
+        ("Time histories", "members"): _members,
+        ("Checks", "check"): _checks,
         ("Test programme", "test"): _programme,
-    }  # fmt: skip
+    }
     return named.get((heading, head[0]))
 
 
@@ -67,10 +92,18 @@ def _model(project, head, rows, tally):
     mass = statics["node_mass"][:, 0].sum()
     found = {row[0]: row[1] for row in [head, *rows]}
     tally.printed("tables of the report", "mass", found["mass"], 1e-3 * mass)
-    tally.printed("tables of the report", "weight", found["permanent vertical load"],
-                  1e-3 * float(statics["weight"]))  # fmt: skip
-    tally.printed("tables of the report", "carried", found["carried by the bearings"],
-                  1e-3 * float(statics["weight"]))  # fmt: skip
+    tally.printed(
+        "tables of the report",
+        "weight",
+        found["permanent vertical load"],
+        1e-3 * float(statics["weight"]),
+    )
+    tally.printed(
+        "tables of the report",
+        "carried",
+        found["carried by the bearings"],
+        1e-3 * float(statics["weight"]),
+    )
     period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
     tally.printed("tables of the report", "pendulum", found["period on the bearings"], period)
     held = [float(row["period, held [s]"]) for row in project.table("modes")][:3]
@@ -87,8 +120,9 @@ def _loads(project, head, rows, tally):
         if row[0] in own:
             load = own[row[0]]
             tally.printed("tables of the report", "load", row[place["axial force"]], 1e-3 * load)
-            tally.printed("tables of the report", "pressure", row[place["pressure"]],
-                          1e-6 * load / area)  # fmt: skip
+            tally.printed(
+                "tables of the report", "pressure", row[place["pressure"]], 1e-6 * load / area
+            )
             tally.printed("tables of the report", "pendulum", row[place["pendulum"]], period)
 
 
@@ -96,12 +130,17 @@ def _device(project, head, rows, tally):
     b = project.bearing
     found = {row[0]: row[1] for row in [head, *rows]}
     own = {
-        "effective radius": b.L, "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
-        "lateral capacity": b.capacity, "sliding force / load": b.share(b.fast),
-        "slip that holds": b.L * b.inner - b.fast * b.R.sum(), "slider_height": b.h,
-        "slider_radius": b.a, "interface_friction": b.inner, "capacity": b.capacity,
+        "effective radius": b.L,
+        "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
+        "lateral capacity": b.capacity,
+        "sliding force / load": b.share(b.fast),
+        "slip that holds": b.L * b.inner - b.fast * b.R.sum(),
+        "slider_height": b.h,
+        "slider_radius": b.a,
+        "interface_friction": b.inner,
+        "capacity": b.capacity,
         "slip_capacity": b.overlap,
-    }  # fmt: skip
+    }
     for name, value in own.items():
         tally.printed("tables of the report", name, found[name], value)
 
@@ -133,8 +172,12 @@ def _from_csv(project, name, head, rows, tally, names=None):
             elif plain == "clause":
                 tally.words("tables of the report", label, text.removesuffix(" *"), value)
             elif plain not in {"bearing", "friction coefficient", "test"}:
-                tally.words("tables of the report", label, text if text != "-" else "", " ".join(
-                    value.split()))  # fmt: skip
+                tally.words(
+                    "tables of the report",
+                    label,
+                    text if text != "-" else "",
+                    " ".join(value.split()),
+                )
 
 
 UNIT = {"m": "mm", "N": "kN", "N m": "kN m"}
@@ -199,8 +242,7 @@ def _members(project, head, rows, tally):
 
 
 def _programme(project, head, rows, tally):
-    _from_csv(project, "programme", head, rows, tally,
-              lambda row: f"{row['test']} {row['what']}")  # fmt: skip
+    _from_csv(project, "programme", head, rows, tally, lambda row: f"{row['test']} {row['what']}")
 
 
 def _checks(project, head, rows, tally):
@@ -208,8 +250,13 @@ def _checks(project, head, rows, tally):
     tally.same("tables of the report", "rows of checks", len(rows), len(own))
     for row, given in zip(rows, own, strict=True):
         label = f"check {given['title']} {given['subject']} {given['bound']}"
-        for title, text in (("title", row[0]), ("subject", row[1]), ("bound", row[2]),
-                            ("level", row[3]), ("verdict", row[8])):  # fmt: skip
+        for title, text in (
+            ("title", row[0]),
+            ("subject", row[1]),
+            ("bound", row[2]),
+            ("level", row[3]),
+            ("verdict", row[8]),
+        ):
             tally.words("tables of the report", label, text, " ".join(given[title].split()))
         tally.words("tables of the report", label, row[9].removesuffix(" *"), given["clause"])
         star = given["standing"].startswith("to be confirmed")
@@ -280,12 +327,13 @@ def _limit(project, row):
         return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {
-        "effective period": (e["period"], 5.0), "effective damping": (e["damping"], 0.30),
+        "effective period": (e["period"], 5.0),
+        "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
         "period over fixed base": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),
-    }  # fmt: skip
+    }
     return simple.get(title)
 
 
@@ -330,11 +378,15 @@ def measures(a, dt):
     band = (f >= 0.25) & (f <= 20.0)
     size = np.abs(a)
     return {
-        "PGA [m/s2]": size.max(), "PGV [m/s]": np.abs(v).max(), "PGD [m]": np.abs(d).max(),
-        "Arias [m/s]": arias[-1], "CAV [m/s]": (0.5 * dt * (size[:-1] + size[1:])).sum(),
-        "D5-75 [s]": at[1] - at[0], "D5-95 [s]": at[2] - at[0],
+        "PGA [m/s2]": size.max(),
+        "PGV [m/s]": np.abs(v).max(),
+        "PGD [m]": np.abs(d).max(),
+        "Arias [m/s]": arias[-1],
+        "CAV [m/s]": (0.5 * dt * (size[:-1] + size[1:])).sum(),
+        "D5-75 [s]": at[1] - at[0],
+        "D5-95 [s]": at[2] - at[0],
         "Tm [s]": (power[band] / f[band]).sum() / power[band].sum(),
-    }  # fmt: skip
+    }
 
 
 def spectra(a, dt):

@@ -172,9 +172,12 @@ def test_options_are_those_of_the_single_run(
 
 def test_structures_that_yield(device: LIRBearing, motions: dict[str, GroundMotion]) -> None:
     stick = shear_building(
-        device, storey_mass=6e4, storey_stiffness=6e7, storeys=2,
+        device,
+        storey_mass=6e4,
+        storey_stiffness=6e7,
+        storeys=2,
         storey_law=lambda k: Bilinear(stiffness=k, yield_force=1.5e5, hardening=0.03),
-    )  # fmt: skip
+    )
     hinge = PlasticHinge(moment_y=1.5e4, moment_z=1.5e4, hardening=0.02)
     hinged = moment_frame((1, 1), 1, bearing=device, hinges={"column": hinge})
     models = {"stick": stick, "hinged": hinged}

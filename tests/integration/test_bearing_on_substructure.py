@@ -17,16 +17,24 @@ E, I_COLUMN = 2e11, 6e-4
 
 def column(factor: float = 1.0, area: float = 0.04) -> Section:
     return Section(
-        area=area, inertia_y=I_COLUMN * factor, inertia_z=I_COLUMN * factor,
-        torsion_constant=1e-3 * factor, elastic_modulus=E, shear_modulus=8e10,
-    )  # fmt: skip
+        area=area,
+        inertia_y=I_COLUMN * factor,
+        inertia_z=I_COLUMN * factor,
+        torsion_constant=1e-3 * factor,
+        elastic_modulus=E,
+        shear_modulus=8e10,
+    )
 
 
 def device(**options) -> LIRBearing:
     given = {
-        "radius": (1.0, 0.8), "slider_height": 0.1, "slider_radius": 0.12, "capacity": 0.08,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.14,
-    }  # fmt: skip
+        "radius": (1.0, 0.8),
+        "slider_height": 0.1,
+        "slider_radius": 0.12,
+        "capacity": 0.08,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.14,
+    }
     return LIRBearing(**{**given, **options})
 
 

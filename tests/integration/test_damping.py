@@ -29,16 +29,26 @@ DT = 0.002
 def held_bearing() -> LIRBearing:
     """Friction so high and stiff that small motions find it rigid."""
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
-        friction=CoulombFriction(0.9), interface_friction=math.inf, yield_displacement=1e-7,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=math.inf,
+        friction=CoulombFriction(0.9),
+        interface_friction=math.inf,
+        yield_displacement=1e-7,
+    )
 
 
 def frictionless_bearing() -> LIRBearing:
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
-        friction=CoulombFriction(0.0), interface_friction=math.inf, axial_damping=0.0,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=math.inf,
+        friction=CoulombFriction(0.0),
+        interface_friction=math.inf,
+        axial_damping=0.0,
+    )
 
 
 def stiffness(period: float) -> float:

@@ -48,21 +48,41 @@ CONTRACT = {
     "energy": (("time", "term"), "J"),
 }
 ATTRIBUTES = {
-    "status": str, "message": str, "lir_dcfp_version": str, "level": str, "method": str,
-    "integrator": str, "spectral_radius": float, "dt": float, "step_control": str, "steps": int,
-    "newton_iterations": int, "halvings": int, "state_determinations": int, "tangents": int,
-    "degrees_of_freedom": int, "seconds_gravity": float,
-    "seconds_loop": float, "title": str, "motion": str, "audit": str,
-    "features_left_out": str, "plane_coupling": float,
-}  # fmt: skip
+    "status": str,
+    "message": str,
+    "lir_dcfp_version": str,
+    "level": str,
+    "method": str,
+    "integrator": str,
+    "spectral_radius": float,
+    "dt": float,
+    "step_control": str,
+    "steps": int,
+    "newton_iterations": int,
+    "halvings": int,
+    "state_determinations": int,
+    "tangents": int,
+    "degrees_of_freedom": int,
+    "seconds_gravity": float,
+    "seconds_loop": float,
+    "title": str,
+    "motion": str,
+    "audit": str,
+    "features_left_out": str,
+    "plane_coupling": float,
+}
 
 
 def device() -> LIRBearing:
     return LIRBearing(
-        radius=(1.0, 0.8), slider_height=0.1, slider_radius=0.09, capacity=0.08,
+        radius=(1.0, 0.8),
+        slider_height=0.1,
+        slider_radius=0.09,
+        capacity=0.08,
         friction=(VelocityFriction(0.06, 0.03, 20.0), CoulombFriction(0.05)),
-        interface_friction=0.14, axial_damping=0.0,
-    )  # fmt: skip
+        interface_friction=0.14,
+        axial_damping=0.0,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -143,9 +163,13 @@ def test_supports_feel_the_ground(history):
 
 def test_total_acceleration_is_relative_plus_ground(run, pulse):
     smooth = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
-        friction=CoulombFriction(0.0), interface_friction=math.inf,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=math.inf,
+        friction=CoulombFriction(0.0),
+        interface_friction=math.inf,
+    )
     dt = 0.002
     motion = GroundMotion(x=pulse(2.0, 1.5, dt), y=pulse(1.0, 1.0, dt, cycles=3.0), dt=dt)
     data = run(lumped_mass(smooth, 1e5), motion, dt=dt)

@@ -35,18 +35,25 @@ YIELD = STRENGTH / STIFFNESS
 
 def device(**changes):
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.13,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.13,
+    }
     return LIRBearing(**(options | changes))
 
 
 def stick():
     """Return storeys that yield, with a rod, a rod that cannot yield, a damper and a wall."""
     frame = shear_building(
-        device().as_dcfp(rims=False), [3e4] * 3, [STIFFNESS] * 3, storey_height=HEIGHT,
+        device().as_dcfp(rims=False),
+        [3e4] * 3,
+        [STIFFNESS] * 3,
+        storey_height=HEIGHT,
         storey_law=lambda k: Bilinear(stiffness=k, yield_force=STRENGTH, hardening=0.02),
-    )  # fmt: skip
+    )
     frame.add_link("rod", "floor-1", "base", Tie(stiffness=1e6, yield_force=5e3), "ux")
     frame.add_link("cable", "base", "floor-1", Tie(stiffness=1e5), "ux")
     frame.add_link("damper", "base", "floor-1", ViscousDamper(coefficient=1e4), "ux")

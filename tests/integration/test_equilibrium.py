@@ -36,14 +36,22 @@ def device(scale: float = 1.0, **changes: object) -> LIRBearing:
     """A bearing with everything declared; `scale` times as long at eight times the force."""
     s, t, force = scale, scale**0.5, scale**1.5
     options: dict[str, object] = {
-        "radius": 1.185 * s, "slider_height": 0.12 * s, "slider_radius": 0.15 * s,
-        "friction": VelocityFriction(0.065, 0.03, 20.0 * t / s), "interface_friction": 0.13,
-        "capacity": 0.2 * s, "axial_stiffness": 5e9 * force / s,
-        "axial_damping": 2e6 * force * t / s, "rim_stiffness": 5e8 * force / s,
-        "rim_damping": 1e6 * force * t / s, "rim_overrun": 0.05 * s, "slip_capacity": 0.15 * s,
-        "design_load": 5e5 * force, "yield_displacement": 0.25e-3 * s,
+        "radius": 1.185 * s,
+        "slider_height": 0.12 * s,
+        "slider_radius": 0.15 * s,
+        "friction": VelocityFriction(0.065, 0.03, 20.0 * t / s),
+        "interface_friction": 0.13,
+        "capacity": 0.2 * s,
+        "axial_stiffness": 5e9 * force / s,
+        "axial_damping": 2e6 * force * t / s,
+        "rim_stiffness": 5e8 * force / s,
+        "rim_damping": 1e6 * force * t / s,
+        "rim_overrun": 0.05 * s,
+        "slip_capacity": 0.15 * s,
+        "design_load": 5e5 * force,
+        "yield_displacement": 0.25e-3 * s,
         "interface_yield_displacement": 0.01e-3 * s,
-    }  # fmt: skip
+    }
     return LIRBearing(**(options | changes))  # type: ignore[arg-type]
 
 
@@ -77,8 +85,13 @@ def with_middles(mass: float = 0.0, inertia: float = 0.0) -> Frame:
     return frame
 
 
-LIGHT = {"none": {}, "tiny mass": {"mass": 1e-3}, "a kilogram": {"mass": 1.0},
-         "tiny inertia": {"inertia": 1e-3}, "a kg m2": {"inertia": 1.0}}  # fmt: skip
+LIGHT = {
+    "none": {},
+    "tiny mass": {"mass": 1e-3},
+    "a kilogram": {"mass": 1.0},
+    "tiny inertia": {"inertia": 1e-3},
+    "a kg m2": {"inertia": 1.0},
+}
 
 
 @pytest.mark.meant(".")

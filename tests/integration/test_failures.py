@@ -47,13 +47,17 @@ CASES = {
     ),
     "slip_unstable": (
         {
-            **FUSED, "capacity": 0.1, "interface_friction": 0.06, "allow_weak_interface": True,
-            "slip_capacity": 10.0, "rim_overrun": 1.0,
+            **FUSED,
+            "capacity": 0.1,
+            "interface_friction": 0.06,
+            "allow_weak_interface": True,
+            "slip_capacity": 10.0,
+            "rim_overrun": 1.0,
         },
         6.0,
         [r"L mu_h \+ mu_1 R_1 \+ mu_2 R_2", "higher mu_h"],
     ),
-}  # fmt: skip
+}
 
 
 def failing(case: str, **options):
@@ -266,9 +270,13 @@ def test_runs_without_end_are_refused(options, words):
 def test_plates_without_inertia_are_named_where_they_find_no_equilibrium():
     """Interface and rim let go together: with rotary inertia the same run goes on to its limit."""
     device = LIRBearing(
-        radius=1.5, slider_height=0.2, slider_radius=0.2, capacity=0.25,
-        friction=CoulombFriction(0.05), interface_friction=0.16,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.2,
+        slider_radius=0.2,
+        capacity=0.25,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.16,
+    )
     t = np.arange(0.0, 3.6, 0.01)
     shape = np.exp(-(((t - 4.0) / 2.0) ** 2))
     motion = GroundMotion(

@@ -23,10 +23,14 @@ G = 9.80665
 
 def device(**changes) -> LIRBearing:
     options = {
-        "radius": (1.0, 0.8), "slider_height": 0.1, "slider_radius": 0.12, "capacity": 0.08,
-        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.14,
+        "radius": (1.0, 0.8),
+        "slider_height": 0.1,
+        "slider_radius": 0.12,
+        "capacity": 0.08,
+        "friction": VelocityFriction(0.06, 0.03, 20.0),
+        "interface_friction": 0.14,
         "design_load": 3e5,
-    }  # fmt: skip
+    }
     return LIRBearing(**(options | changes))
 
 

@@ -86,8 +86,9 @@ def test_a_cloud_of_motions_as_they_are() -> None:
     curve = fragility_of(found, limit, method="cloud", resamples=50)
     near = fragility_of(
         ida(MODEL, PULSES, intensity=PGV, rules=HuntFill(first=0.2), limit=limit),
-        limit, resamples=50,
-    )  # fmt: skip
+        limit,
+        resamples=50,
+    )
     assert curve.median == pytest.approx(near.median, rel=0.25)
 
 

@@ -36,9 +36,13 @@ FLOORS = ("floor-1", "floor-2")
 
 def lir(**options):
     given = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.12, "capacity": 0.15,
-        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.14,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.12,
+        "capacity": 0.15,
+        "friction": VelocityFriction(0.06, 0.03, 20.0),
+        "interface_friction": 0.14,
+    }
     return LIRBearing(**(given | options))
 
 
@@ -114,9 +118,11 @@ def test_the_same_building_wholly_in_opensees(ops, run, monkeypatch, kind):
     monkeypatch.setattr(transient, "_FORCE_TOLERANCE", 1e-12)
     stiffness, damping = 2e9, 1e6
     device = lir(
-        capacity=np.inf, friction=CoulombFriction(1e-9), axial_stiffness=stiffness,
+        capacity=np.inf,
+        friction=CoulombFriction(1e-9),
+        axial_stiffness=stiffness,
         axial_damping=damping,
-    ).as_dcfp()  # fmt: skip
+    ).as_dcfp()
     built = building(device, column=COLUMN, beam=BEAM, base_beam=BEAM)
     # OpenSees mixes up the modes of nodes that are tied where it damps by modes
     tied = () if kind == "modal" else FLOORS
@@ -184,10 +190,14 @@ def test_the_model_stays_as_it_was(ops, tmp_path):
         analysis_at_hand(ops)
         ops.reactions()
         return (
-            [ops.nodeDisp(tag) for tag in tags], [ops.nodeReaction(tag) for tag in tags],
-            [ops.eleForce(tag) for tag in ops.getEleTags()], ops.getTime(), ops.getFixedNodes(),
-            [ops.getFixedDOFs(tag) for tag in bases], ops.getConstrainedNodes(),
-        )  # fmt: skip
+            [ops.nodeDisp(tag) for tag in tags],
+            [ops.nodeReaction(tag) for tag in tags],
+            [ops.eleForce(tag) for tag in ops.getEleTags()],
+            ops.getTime(),
+            ops.getFixedNodes(),
+            [ops.getFixedDOFs(tag) for tag in bases],
+            ops.getConstrainedNodes(),
+        )
 
     before = state()
     eigenvalues = ops.eigen(4)
@@ -238,9 +248,19 @@ def test_fixed_interface_modes_are_those_of_the_fixed_base(ops):
 def add(ops, tag, i, j, transformation, *options):
     s = COLUMN
     ops.element(
-        "elasticBeamColumn", tag, i, j, s.area, s.elastic_modulus, s.shear_modulus,
-        s.torsion_constant, s.inertia_y, s.inertia_z, transformation, *options,
-    )  # fmt: skip
+        "elasticBeamColumn",
+        tag,
+        i,
+        j,
+        s.area,
+        s.elastic_modulus,
+        s.shear_modulus,
+        s.torsion_constant,
+        s.inertia_y,
+        s.inertia_z,
+        transformation,
+        *options,
+    )
 
 
 def plane_frame(ops, length=1.0, force=1.0):
@@ -254,9 +274,15 @@ def plane_frame(ops, length=1.0, force=1.0):
         ops.mass(tag, 2e4 / mass, 2e4 / mass, 1e3 / (mass * second**2))
     for tag, i, j in plane_members():
         ops.element(
-            "elasticBeamColumn", tag, i, j, COLUMN.area / length**2,
-            COLUMN.elastic_modulus * length**2 / force, COLUMN.inertia_y / length**4, 1,
-        )  # fmt: skip
+            "elasticBeamColumn",
+            tag,
+            i,
+            j,
+            COLUMN.area / length**2,
+            COLUMN.elastic_modulus * length**2 / force,
+            COLUMN.inertia_y / length**4,
+            1,
+        )
     ops.fix(1, 1, 1, 1)
     ops.fix(2, 1, 1, 0)
     ops.fix(3, 1, 1, 1)
@@ -301,8 +327,10 @@ def test_plane_and_space_y_up_and_other_units(ops, run):
         frame = Frame.from_opensees([1, 2, 3], device, gravity=G, **options)
         assert_allclose(frame.nodes["22"].position, (5.0, 0.0, 7.0), rtol=0.0, atol=1e-12)
         assert [level.nodes for level in frame.levels] == [
-            ("1", "2", "3"), ("11", "12", "13"), ("21", "22", "23"),
-        ]  # fmt: skip
+            ("1", "2", "3"),
+            ("11", "12", "13"),
+            ("21", "22", "23"),
+        ]
         assert ("ry" in frame.fixed_dofs["1"], "ry" in frame.fixed_dofs["2"]) == (True, False)
         return run(frame, motion)
 

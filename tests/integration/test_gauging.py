@@ -17,7 +17,7 @@ from frames import (
     moment_frame,
     time_history,
 )
-from frames.recording.peak_tracking import can_gauge
+from frames.recording.peak_tracking import can_track
 from lir_element import AnalysisWarning, Features, LIRBearing
 
 
@@ -57,7 +57,7 @@ def test_what_is_not_in_the_states_is_read_off_histories(
     scenes: dict[str, tuple[Frame, GroundMotion]],
 ) -> None:
     model, _ = scenes["building"]
-    assert can_gauge(gravity(model))
+    assert can_track(gravity(model))
     for features in (Features(plate_rotation=False), Features(vertical_coupling=False)):
-        assert not can_gauge(gravity(model, features))
-    assert not can_gauge(gravity(model, level="contact"))
+        assert not can_track(gravity(model, features))
+    assert not can_track(gravity(model, level="contact"))

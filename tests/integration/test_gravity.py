@@ -27,9 +27,13 @@ from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
 G = 9.80665
 SPAN, AXIAL = 8.0, 4e8
 RIGID = Section(
-    area=0.5, inertia_y=0.5, inertia_z=0.5, torsion_constant=0.5,
-    elastic_modulus=2e12, shear_modulus=8e11,
-)  # fmt: skip
+    area=0.5,
+    inertia_y=0.5,
+    inertia_z=0.5,
+    torsion_constant=0.5,
+    elastic_modulus=2e12,
+    shear_modulus=8e11,
+)
 
 
 def smooth_bearing(**options) -> LIRBearing:
@@ -144,9 +148,13 @@ def test_uniform_load_on_one_span_of_a_beam_with_an_overhang():
 def guided_column(push: float) -> tuple[float, float]:
     """Return lowest omega2 times mass with a permanent push on top, and the column's load."""
     section = Section(
-        area=0.01, inertia_y=2e-5, inertia_z=2e-5, torsion_constant=1e-5,
-        elastic_modulus=2e11, shear_modulus=8e10,
-    )  # fmt: skip
+        area=0.01,
+        inertia_y=2e-5,
+        inertia_z=2e-5,
+        torsion_constant=1e-5,
+        elastic_modulus=2e11,
+        shear_modulus=8e10,
+    )
     frame, bearing, mass = Frame("stick"), smooth_bearing(), 2e3
     frame.add_node("g", 0.0, 0.0, 0.0)
     frame.fix("g", "all")
@@ -236,9 +244,13 @@ def test_permanent_lateral_load_is_carried_by_friction_and_pendulum():
 
 def test_load_on_a_part_without_mass_bends_it(run):
     section = Section(
-        area=0.01, inertia_y=2e-5, inertia_z=2e-5, torsion_constant=1e-5,
-        elastic_modulus=2e11, shear_modulus=8e10,
-    )  # fmt: skip
+        area=0.01,
+        inertia_y=2e-5,
+        inertia_z=2e-5,
+        torsion_constant=1e-5,
+        elastic_modulus=2e11,
+        shear_modulus=8e10,
+    )
     frame = lumped_mass(smooth_bearing(friction=CoulombFriction(0.05)), 1e5)
     for name, z in (("middle", 2.1), ("tip", 4.1)):
         frame.add_node(name, 0.0, 0.0, z)
@@ -281,10 +293,15 @@ def test_heavy_load_on_stiff_friction(elastic, load):
     """Newton's method alone does not get there: friction holds within parts of a micrometre."""
     mu = 0.08
     bearing = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-        friction=CoulombFriction(mu), interface_friction=1.5 * mu, yield_displacement=elastic,
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.2,
+        friction=CoulombFriction(mu),
+        interface_friction=1.5 * mu,
+        yield_displacement=elastic,
         design_load=1e6,
-    )  # fmt: skip
+    )
     frame = moment_frame(bays=(2, 1), storeys=2, bearing=bearing, bay_width=(11.0, 7.0))
     for node in list(frame.nodes)[-3:]:
         frame.add_load(node, [0.0, 0.0, -load, 0.0, 0.0, 0.0])
@@ -302,10 +319,16 @@ def test_heavy_load_on_stiff_friction(elastic, load):
 def test_stiff_friction_under_sliders_as_bodies(elastic, load):
     """Base plates that tilt do not slide over their long radii: the sliders rock."""
     bearing = LIRBearing(
-        radius=3.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-        friction=CoulombFriction(0.08), interface_friction=0.2, yield_displacement=elastic,
-        interface_yield_displacement=elastic, design_load=1e6,
-    )  # fmt: skip
+        radius=3.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.2,
+        friction=CoulombFriction(0.08),
+        interface_friction=0.2,
+        yield_displacement=elastic,
+        interface_yield_displacement=elastic,
+        design_load=1e6,
+    )
     frame = moment_frame(bays=(2, 1), storeys=2, bearing=bearing, bay_width=(11.0, 7.0))
     for node in list(frame.nodes)[-3:]:
         frame.add_load(node, [0.0, 0.0, -load, 0.0, 0.0, 0.0])
@@ -313,8 +336,9 @@ def test_stiff_friction_under_sliders_as_bodies(elastic, load):
     weight = -state.system.node_load[2::6].sum()
     assert_allclose(state.run.old["force"][:, 8].sum(), -weight, rtol=1e-8, atol=0.0)
     # on vertical springs: plates that carry moments and friction shift parts of a percent
-    onto = spsolve(sparse.csc_array(state.system.stiffness + guessed_springs(state.system)),
-                   state.system.load)  # fmt: skip
+    onto = spsolve(
+        sparse.csc_array(state.system.stiffness + guessed_springs(state.system)), state.system.load
+    )
     moves = (bearing_rows(state.system) @ onto).reshape(-1, 12)
     expected = -bearing_axial_stiffness(bearing) * (moves[:, 8] - moves[:, 2])
     assert_allclose(state.axial_forces, expected, rtol=0.05, atol=0.0)

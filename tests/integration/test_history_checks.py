@@ -64,9 +64,13 @@ def pulse(size: float) -> GroundMotion:
 @pytest.fixture(scope="module")
 def bearing() -> LIRBearing:
     return LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.2,
-        friction=VelocityFriction(0.065, 0.0325, 15.0), interface_friction=0.14,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.2,
+        friction=VelocityFriction(0.065, 0.0325, 15.0),
+        interface_friction=0.14,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -143,8 +147,9 @@ def test_displacement_is_held_against_rims_and_the_slip_that_holds(
 
 def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr.Dataset) -> None:
     frame = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
-    limits = DesignLimits(base_shear=1e9, floor_acceleration=100.0, rim_strength=1e9,
-                          interface_pressure=1e9)  # fmt: skip
+    limits = DesignLimits(
+        base_shear=1e9, floor_acceleration=100.0, rim_strength=1e9, interface_pressure=1e9
+    )
     for code, level in (("ASCE 7-22", ""), ("EN 1998-1", ""), ("NCh2745", "maximum")):
         checks = history_checks(with_failure, frame, code, limits=limits, action_level=level)
         assert [c.title for c in checks if c.passed] == ["number of motions"]
@@ -256,8 +261,14 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
     assert table.attrs["statistics"] == dict.fromkeys(runs, "largest of 2 runs")
     heads = [f"{bound}, largest of 2 runs" for bound in runs]
     assert list(headed(table).columns) == [
-        "unit", *heads, "envelope of these", "where", "worst of all 6 runs", "in run", "note",
-    ]  # fmt: skip
+        "unit",
+        *heads,
+        "envelope of these",
+        "where",
+        "worst of all 6 runs",
+        "in run",
+        "note",
+    ]
     assert row[["lower", "nominal", "upper"]].tolist() == pytest.approx(each)
     assert (row["envelope"], row["where"]) == (pytest.approx(max(each)), "bearing")
     with pytest.raises(CheckError, match=r"no factor for the motion 'pulse 1\.4'"):
@@ -302,9 +313,13 @@ def test_the_slip_that_holds_goes_by_the_pressure_of_the_runs(bearing: LIRBearin
     lifting = 4.0 * np.sin(2.0 * math.pi * time) * (time < 2.0)
     wave = pulse(0.8).components[:, 0]
     data = quietly(
-        time_histories, model, [GroundMotion(x=wave, z=k * lifting, dt=0.01, name=f"{k:g}")
-                                for k in np.linspace(0.4, 1.0, 7)],
-    )  # fmt: skip
+        time_histories,
+        model,
+        [
+            GroundMotion(x=wave, z=k * lifting, dt=0.01, name=f"{k:g}")
+            for k in np.linspace(0.4, 1.0, 7)
+        ],
+    )
     least = -float(data["reached_axial_tension"].max())
     assert 0.0 < least < 0.8 * 180e3 * 9.80665
     check = one(history_checks(data, model, "ASCE 7-22"), "slip over the one that holds")

@@ -55,9 +55,13 @@ def quietly(analyse: Callable[..., Any], *given: Any, **options: Any) -> Any:
 def device(**other: Any) -> LIRBearing:
     given = {"capacity": 0.2} | other if "rims" not in other else other
     return LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.15,
-        friction=CoulombFriction(0.06), interface_friction=0.14, **given,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        friction=CoulombFriction(0.06),
+        interface_friction=0.14,
+        **given,
+    )
 
 
 def pulse(size: float, rest: float = 4.0) -> GroundMotion:
@@ -93,8 +97,11 @@ def test_impacts_are_compared_with_what_was_before(run: xr.Dataset) -> None:
     drift = np.hypot(*np.moveaxis(storey_drift(run).to_numpy(), -1, 0))
     floors = np.hypot(*np.moveaxis(floor_acceleration(run).to_numpy(), -1, 0)[:2])
     table = impact_demand(run)
-    histories = {"base shear": shear, "drift of floor-1": drift[:, 0],
-                 "acceleration of floor-2": floors[:, 2]}  # fmt: skip
+    histories = {
+        "base shear": shear,
+        "drift of floor-1": drift[:, 0],
+        "acceleration of floor-2": floors[:, 2],
+    }
     for name, history in histories.items():
         row = table.loc[name]
         assert row["before"] == history[:first].max()
@@ -115,9 +122,15 @@ def test_rims_engage_where_geometry_has_them(frame: Frame, run: xr.Dataset) -> N
 def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None:
     table = peaks(run)["value"]
     limits = DesignLimits(
-        rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6, base_shear=1e6,
-        drift=0.01, floor_acceleration=10.0, displacement_left=0.2, lateral_force=1e6,
-    )  # fmt: skip
+        rim_strength=1e6,
+        interface_pressure=100e6,
+        liner_pressure=100e6,
+        base_shear=1e6,
+        drift=0.01,
+        floor_acceleration=10.0,
+        displacement_left=0.2,
+        lateral_force=1e6,
+    )
     stick = impact_checks(run, frame, limits=limits)  # on one bearing, which knows no overturning
     assert {c.title for c in stick.failed} == {
         "gap of uplift over the height of the rims: not evaluated",
@@ -143,8 +156,9 @@ def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None
         assert one(checks, title).demand == pytest.approx(value, rel=1e-12), title
     assert table["interface slip"] > 0.01
     part = quietly(time_history, frame, pulse(1.5), recording=Recording.peaks())
-    some = DesignLimits(rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6,
-                        lateral_force=1e6)  # fmt: skip
+    some = DesignLimits(
+        rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6, lateral_force=1e6
+    )
     again = {c.title: c.demand for c in impact_checks(part, alone, limits=some)}
     assert again.items() <= {c.title: c.demand for c in checks}.items()
     with pytest.raises(ValueError, match="first and last step only"):

@@ -25,9 +25,14 @@ pytestmark = pytest.mark.skipif(
 )
 
 DEVICE = LIRBearing(
-    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.15,
-    friction=CoulombFriction(0.05), interface_friction=0.12, axial_stiffness=1e9,
-)  # fmt: skip
+    radius=1.0,
+    slider_height=0.1,
+    slider_radius=0.1,
+    capacity=0.15,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.12,
+    axial_stiffness=1e9,
+)
 CORNERS = ((0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 4.0))
 WEIGHT, FLOOR = 2e5, 3.5  # N at each corner of the floor, its height in m
 YIELD = 2e7  # N/m2, of fibre columns
@@ -83,9 +88,15 @@ def shake(ops, nodes, elements, *, length=1.0, up="z", duration=2.5, system="Umf
         x, y, z = motion.components.T
         motion = type(motion)(x, z, -y, dt=motion.dt)
     track = respond(
-        ops, motion, 0.005, nodes, elements,
-        duration=duration, system=system, length_unit=length,
-    )  # fmt: skip
+        ops,
+        motion,
+        0.005,
+        nodes,
+        elements,
+        duration=duration,
+        system=system,
+        length_unit=length,
+    )
     moved = length * track.displacement[..., :3]
     return moved if up == "z" else moved[..., [0, 2, 1]] * [1.0, -1.0, 1.0]
 
@@ -136,9 +147,14 @@ def test_y_up_in_mm_and_kn(ops):
     expected = shake(ops, nodes, [])
     table(ops, "y", 1e-3, 1e3)
     found = isolate(
-        [1, 2, 3, 4], DEVICE, vertical="y", length_unit=1e-3, force_unit=1e3,
-        tags=[71, 72, 73, 74], ground_tags=[81, 82, 83, 84],
-    )  # fmt: skip
+        [1, 2, 3, 4],
+        DEVICE,
+        vertical="y",
+        length_unit=1e-3,
+        force_unit=1e3,
+        tags=[71, 72, 73, 74],
+        ground_tags=[81, 82, 83, 84],
+    )
     assert bearing_tags() == (71, 72, 73, 74)
     assert found.held == dict.fromkeys(range(1, 5), (4, 6))
     assert_allclose(ops.nodeCoord(82), [5e3, -1e3 * DEVICE.height, 0.0], atol=1e-9)
@@ -279,6 +295,9 @@ def test_a_failure_in_the_middle_leaves_the_model(ops, monkeypatch):
 
 def state_of(ops):
     return (
-        ops.getNodeTags(), ops.getEleTags(), [ops.getFixedDOFs(k) for k in (1, 2, 3, 4)],
-        ops.getFixedNodes(), ops.getConstrainedNodes(),
-    )  # fmt: skip
+        ops.getNodeTags(),
+        ops.getEleTags(),
+        [ops.getFixedDOFs(k) for k in (1, 2, 3, 4)],
+        ops.getFixedNodes(),
+        ops.getConstrainedNodes(),
+    )

@@ -22,7 +22,7 @@ from frames import (
     time_histories,
 )
 from frames.batch import completed_runs
-from frames.batch.batch_dataset import Row
+from frames.batch.batch_dataset import RunResult
 from frames.batch.batch_run import Worker
 from lir_element import AnalysisInterrupted, CoulombFriction, LIRBearing
 
@@ -33,9 +33,13 @@ TIMED = ("seconds_loop", "seconds of the time loop")
 
 def bearing(friction: float = 0.05) -> LIRBearing:
     return LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-        friction=CoulombFriction(friction), interface_friction=0.15,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(friction),
+        interface_friction=0.15,
+    )
 
 
 def model(friction: float = 0.05) -> Frame:
@@ -61,7 +65,7 @@ def stopped_in_the_sixth(monkeypatch: pytest.MonkeyPatch) -> Callable[[BatchProg
     """Let runs wait from the sixth on until they are stopped, which is after the fifth."""
     run = Worker.row
 
-    def row(worker: Worker, place: int) -> Row | None:
+    def row(worker: Worker, place: int) -> RunResult | None:
         if place < 5:
             return run(worker, place)
         while not worker._is_stopped():
@@ -106,10 +110,8 @@ def test_other_models_and_cases_in_another_order(tmp_path) -> None:
     """A building of more degrees of freedom beside a mass; the cases turned round."""
     models = {
         "mass": model(),
-        "building": shear_building(
-            bearing(), [10e3, 10e3], [2e7, 2e7], base_mass=12e3
-        ),
-    }  # fmt: skip
+        "building": shear_building(bearing(), [10e3, 10e3], [2e7, 2e7], base_mass=12e3),
+    }
     cases = [(m, name, 0.4) for m in models for name in motions()]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -135,7 +137,7 @@ def test_other_models_and_cases_in_another_order(tmp_path) -> None:
         lambda kept: kept.setattr(completed_runs, "sources_hash", lambda: "another") or {},
     ],
     ids=["friction", "motion", "scale", "step", "level", "recording", "sources"],
-)  # fmt: skip
+)
 def test_runs_of_another_input_are_left_aside(tmp_path, monkeypatch, change) -> None:
     given = {"models": model(), "motions": motions(), "scales": [0.2], "dt": 0.01}
     time_histories(**given, resume=tmp_path)

@@ -68,11 +68,13 @@ def test_errors_are_those_of_a_scaled_response(reference):
     exact = reference("unequal radii")
     found = errors(
         replace(
-            exact, displacement=1.02 * exact.displacement, force=0.97 * exact.force,
+            exact,
+            displacement=1.02 * exact.displacement,
+            force=0.97 * exact.force,
             dissipated=1.05 * exact.dissipated,
         ),
         exact,
-    )  # fmt: skip
+    )
     assert found.peak == pytest.approx(2.0)
     assert found.force == pytest.approx(3.0)
     assert found.quantile == pytest.approx(3.0)

@@ -24,18 +24,24 @@ from lir_element import CoulombFriction, LIRBearing
 TIME = np.arange(0.0, 3.0, 0.005)
 BELL = np.exp(-(((TIME - 1.2) / 0.6) ** 2))
 MOTION = GroundMotion(
-    x=2.2 * BELL * np.sin(2 * np.pi * TIME / 1.4), y=0.9 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    z=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.2), dt=0.005,
-)  # fmt: skip
+    x=2.2 * BELL * np.sin(2 * np.pi * TIME / 1.4),
+    y=0.9 * BELL * np.sin(2 * np.pi * TIME / 0.8),
+    z=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.2),
+    dt=0.005,
+)
 DEAD, LIVE = 5e3, 3e3  # N/m2
 X, Y = 6.0, 4.5
 
 
 def bearing():
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.12,
-        friction=CoulombFriction(0.05), interface_friction=0.13,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.12,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.13,
+    )
 
 
 def building(*, damping=None):
@@ -52,9 +58,12 @@ def building(*, damping=None):
         for level in (0, 1):
             zones = {"j": (0.0, 0.0, -0.15)}
             frame.add_member(
-                f"column-{name}{level}", f"{name}{level}", f"{name}{level + 1}", column,
+                f"column-{name}{level}",
+                f"{name}{level}",
+                f"{name}{level + 1}",
+                column,
                 offsets=zones,
-            )  # fmt: skip
+            )
     for level in range(3):
         corners = [f"{name}{level}" for name in "abcd"]
         for k, i in enumerate(corners):

@@ -25,9 +25,13 @@ from lir_element import AnalysisError, CoulombFriction, LIRBearing
 
 G = 9.80665
 PAPER = LIRBearing(
-    radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-    friction=CoulombFriction(0.066), interface_friction=0.126,
-)  # fmt: skip
+    radius=0.75,
+    slider_height=0.085,
+    slider_radius=0.08,
+    capacity=0.175,
+    friction=CoulombFriction(0.066),
+    interface_friction=0.126,
+)
 LOAD = 30e6 * math.pi * 0.08**2
 
 
@@ -51,9 +55,12 @@ def storey(
     for level in ("base", "floor"):
         for a, b in (("00", "01"), ("01", "11"), ("11", "10"), ("10", "00")):
             frame.add_member(f"{level}-{a}-{b}", f"{level}-{a}", f"{level}-{b}", section)
-        frame.add_diaphragm(level, [f"{level}-{i}{j}" for i, j in places] + ["master"] * (
-            level == "floor" and not frame.add_node("master", 6.0, 6.0, device.height + 3.0)
-        ))  # fmt: skip
+        frame.add_diaphragm(
+            level,
+            [f"{level}-{i}{j}" for i, j in places]
+            + ["master"]
+            * (level == "floor" and not frame.add_node("master", 6.0, 6.0, device.height + 3.0)),
+        )
     frame.fix("master", "rx", "ry", *support)
     if held:
         frame.add_mass("master", floor, (0.0, 0.0, 5e6))
@@ -147,11 +154,16 @@ USUAL = {
     "a soft tower": lambda: shear_building(PAPER, 6e3, 5e6, storeys=8),
     "a model of a twentieth": lambda: lumped_mass(
         LIRBearing(
-            radius=0.0375, slider_height=0.00425, slider_radius=0.004, capacity=0.00875,
-            friction=CoulombFriction(0.066), interface_friction=0.126,
-        ), 0.05**3 * LOAD / G,
+            radius=0.0375,
+            slider_height=0.00425,
+            slider_radius=0.004,
+            capacity=0.00875,
+            friction=CoulombFriction(0.066),
+            interface_friction=0.126,
+        ),
+        0.05**3 * LOAD / G,
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("build", USUAL.values(), ids=USUAL)
@@ -167,38 +179,57 @@ WRONG = {
     "weight for mass": (lambda: lumped_mass(PAPER, LOAD), "294 MPa", "N for kg"),
     "weight for mass, light pressure": (
         lambda: lumped_mass(bearing_for(2e6), 2e6),
-        "9.81 times their design_load", "N for kg",
+        "9.81 times their design_load",
+        "N for kg",
     ),
     "mass in t, slender load": (
-        lambda: lumped_mass(bearing_for(2e6), 204.0), "0.001 times their design_load", "t or N",
+        lambda: lumped_mass(bearing_for(2e6), 204.0),
+        "0.001 times their design_load",
+        "t or N",
     ),
     "floors in t": (
         lambda: storey(held=False, base_mass=4.0, floor=800.0),
-        "kg/m3 (buildings have 100 to 600)", "t for kg",
+        "kg/m3 (buildings have 100 to 600)",
+        "t for kg",
     ),
     "floors' weight for mass": (
         lambda: storey(held=False, base_mass=4e3 * G, floor=800e3 * G),
-        "kg/m3 (buildings have 100 to 600)", "a weight in N for a mass in kg?",
+        "kg/m3 (buildings have 100 to 600)",
+        "a weight in N for a mass in kg?",
     ),
     "storey stiffness in kN/mm": (
-        lambda: shear_building(PAPER, 15e3, 40.0, storeys=3), "has a period of", "kN/mm for N/m",
+        lambda: shear_building(PAPER, 15e3, 40.0, storeys=3),
+        "has a period of",
+        "kN/mm for N/m",
     ),
     "storey stiffness in kN/m": (
-        lambda: shear_building(PAPER, 15e3, 40e3, storeys=3), "has a period of", "kN/m",
+        lambda: shear_building(PAPER, 15e3, 40e3, storeys=3),
+        "has a period of",
+        "kN/m",
     ),
     "masses in t, stiffness in kN/m": (
-        lambda: shear_building(PAPER, 15.0, 40e3, storeys=3), "MPa under permanent", "t for kg",
+        lambda: shear_building(PAPER, 15.0, 40e3, storeys=3),
+        "MPa under permanent",
+        "t for kg",
     ),
     "soft seat": (
         lambda: lumped_mass(
             LIRBearing(
-                radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-                friction=CoulombFriction(0.066), interface_friction=0.126, design_load=100e3,
+                radius=0.75,
+                slider_height=0.085,
+                slider_radius=0.08,
+                capacity=0.175,
+                friction=CoulombFriction(0.066),
+                interface_friction=0.126,
+                design_load=100e3,
                 axial_stiffness=6e6,
-            ), LOAD / G,
-        ), "% of its slider's height", "axial_stiffness",
+            ),
+            LOAD / G,
+        ),
+        "% of its slider's height",
+        "axial_stiffness",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("build", "value", "unit"), WRONG.values(), ids=WRONG)
@@ -266,15 +297,18 @@ def test_totals_of_the_demos_frame() -> None:
     frame.add_load(next(iter(frame.masses)), [0.0, 5e3, -20e3, 0.0, 0.0, 0.0])
     found = frame.check(pacoima())
     members = sum(
-        m.section.density * m.section.area
+        m.section.density
+        * m.section.area
         * math.dist(frame.nodes[m.i].position, frame.nodes[m.j].position)
         for m in frame.members.values()
-    )  # fmt: skip
+    )
     mass = members + sum(float(values[0]) for values in frame.masses.values())
     assert_allclose(found.mass, mass, rtol=1e-12)
-    own = sum(float(q[2]) * math.dist(*(frame.nodes[n].position for n in ends))
-              for name, q in frame.uniform_loads.items()
-              for ends in [(frame.members[name].i, frame.members[name].j)])  # fmt: skip
+    own = sum(
+        float(q[2]) * math.dist(*(frame.nodes[n].position for n in ends))
+        for name, q in frame.uniform_loads.items()
+        for ends in [(frame.members[name].i, frame.members[name].j)]
+    )
     assert_allclose(found.loads, (0.0, 5e3, own - 20e3), rtol=1e-9, atol=1e-6)
     assert_allclose(found.weight, mass * G + 20e3 - own, rtol=1e-9)
     assert_allclose(sum(load.axial_force for load in found.bearings), found.weight, rtol=1e-5)

@@ -21,7 +21,7 @@ from frames import (
     time_history,
 )
 from frames.design import HISTORY_RULES, history_demands
-from frames.design.histories.suite import names_of, reached
+from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.report.numbers import bearing_table
 from frames.plots import storey_profiles
 from frames.results.summary import ROWS, summary_of, table_of
@@ -56,9 +56,13 @@ def motion() -> GroundMotion:
 @pytest.fixture(scope="module")
 def frame() -> Frame:
     bearing = LIRBearing(
-        radius=1.2, slider_height=0.12, slider_radius=0.15, capacity=0.15,
-        friction=CoulombFriction(0.05), interface_friction=0.11,
-    )  # fmt: skip
+        radius=1.2,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.15,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.11,
+    )
     return shear_building(bearing, [80e3, 60e3], 60e6, base_mass=60e3, plan=(1, 6.0))
 
 
@@ -158,6 +162,6 @@ def test_what_a_batch_reached_has_the_names_of_the_single_run(
     data: xr.Dataset, batch: xr.Dataset
 ) -> None:
     for name in ("displacement", "slip", "drift", "line_drift", "floor_plan", "storey_shear"):
-        one, many = reached(data, name), reached(batch, name)
+        one, many = peaks_of_runs(data, name), peaks_of_runs(batch, name)
         assert many == pytest.approx(one, rel=1e-9, abs=1e-12), name
         assert names_of(data, name) == names_of(batch, name)

@@ -16,9 +16,13 @@ G = 9.80665
 
 def device(**options) -> LIRBearing:
     given = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": math.inf,
-        "friction": CoulombFriction(0.05), "interface_friction": math.inf,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": math.inf,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": math.inf,
+    }
     return LIRBearing(**(given | options))
 
 

@@ -25,10 +25,16 @@ PERIOD = 5.0
 def device(radius: float, **changes: Any) -> LIRBearing:
     """Return a plain bearing whose two surfaces slide alike, each as a single one does."""
     return LIRBearing(
-        radius=0.5 * 3.7465 + 0.1, slider_height=0.2, slider_radius=radius, capacity=math.inf,
-        friction=CoulombFriction(0.06), interface_friction=math.inf, design_load=LOAD,
-        torsional_friction=False, **changes,
-    )  # fmt: skip
+        radius=0.5 * 3.7465 + 0.1,
+        slider_height=0.2,
+        slider_radius=radius,
+        capacity=math.inf,
+        friction=CoulombFriction(0.06),
+        interface_friction=math.inf,
+        design_load=LOAD,
+        torsional_friction=False,
+        **changes,
+    )
 
 
 def theirs(reach: float, dt: float, end: float) -> np.ndarray:
@@ -84,8 +90,12 @@ def test_temperature_is_that_of_fpbearingptv(reach: float, close: float) -> None
     expected = 2.0 * fine[:, 0] - coarse[:, 0]  # every 20 ms
     law = FrictionHeating(share=math.pi / 4.0)
     smaller = device(RADIUS * math.sqrt(math.pi) / 2.0, friction_heating=law)
-    found = ours(smaller if reach > 0.3 else device(RADIUS, friction_heating=FrictionHeating()),
-                 reach, 0.005, 6.0)[3::4]  # fmt: skip
+    found = ours(
+        smaller if reach > 0.3 else device(RADIUS, friction_heating=FrictionHeating()),
+        reach,
+        0.005,
+        6.0,
+    )[3::4]
     rise = expected.max() - 20.0
     assert rise > 70.0
     assert_allclose(found[5:, 0], expected[5:], rtol=0.0, atol=close * rise)
@@ -95,8 +105,9 @@ def test_temperature_is_that_of_fpbearingptv(reach: float, close: float) -> None
 
 def test_other_elements_of_opensees_refuse_it() -> None:
     for name, law in (
-        ("friction_heating", FrictionHeating()), ("pressure_dependence", PressureDependence()),
-    ):  # fmt: skip
+        ("friction_heating", FrictionHeating()),
+        ("pressure_dependence", PressureDependence()),
+    ):
         with pytest.raises(ValueError, match=f"elements of OpenSees does not know {name}: take be"):
             builtin_values(device(RADIUS, **{name: law}), LOAD)
 

@@ -233,9 +233,15 @@ def test_uplift_stops_newton_and_not_the_fallback(worker, algorithms, status):
     case = vertical("uplift", 20.0, 0.3, 8.0)
     kind = kinds()[2]
     how, done = worker.run(
-        shake, make=macro, bearing=kind.bearing, mass=MASS, motion=case.motion,
-        duration=1.2, dt=1e-3, algorithms=algorithms,
-    )  # fmt: skip
+        shake,
+        make=macro,
+        bearing=kind.bearing,
+        mass=MASS,
+        motion=case.motion,
+        duration=1.2,
+        dt=1e-3,
+        algorithms=algorithms,
+    )
     assert how == "ok"
     assert done.status == status
 
@@ -244,9 +250,14 @@ def test_balance_and_energy_of_an_impact(worker):
     case = impact(0.3, oblique=False)
     kind = kinds()[0]
     _, done = worker.run(
-        shake, make=DEVICES["singleFPBearing"], bearing=kind.bearing, mass=MASS,
-        motion=case.motion, duration=2.0, dt=5e-3,
-    )  # fmt: skip
+        shake,
+        make=DEVICES["singleFPBearing"],
+        bearing=kind.bearing,
+        mass=MASS,
+        motion=case.motion,
+        duration=2.0,
+        dt=5e-3,
+    )
     gap, made = energies(done, case.motion, kind.bearing)
     assert gap < 1e-4
     assert made < 1e-2

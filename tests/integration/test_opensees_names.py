@@ -31,9 +31,24 @@ def beside_a_single_pendulum(stand: Any, unit: float = 1.0, newton: float = 1.0)
     ops.uniaxialMaterial("Elastic", 2, 0.0)
     ops.frictionModel("Coulomb", 1, 0.033 * 1.5 / 1.415)  # of the spheres, at the pendulum
     ops.element(
-        "singleFPBearing", 2, 1, 2, 1, 1.415 / unit, 1e9 * unit / newton, "-P", 1, "-T", 2,
-        "-My", 2, "-Mz", 2, "-orient", *orient,
-    )  # fmt: skip
+        "singleFPBearing",
+        2,
+        1,
+        2,
+        1,
+        1.415 / unit,
+        1e9 * unit / newton,
+        "-P",
+        1,
+        "-T",
+        2,
+        "-My",
+        2,
+        "-Mz",
+        2,
+        "-orient",
+        *orient,
+    )
     moved = LOCAL.T @ np.array([-2.5e-4, 0.004, 0.002]) / unit  # hardly a rise
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
@@ -136,9 +151,12 @@ def test_a_printed_model_is_json(stand: Any, tmp_path: Path) -> None:
     elements = found["StructuralAnalysisModel"]["geometry"]["elements"]
     assert [each["name"] for each in elements] == [1, 2, 9]
     assert elements[1] == {
-        "name": 2, "type": "LIRBearing", "nodes": [1, 3], "level": "pendulum",
+        "name": 2,
+        "type": "LIRBearing",
+        "nodes": [1, 3],
+        "level": "pendulum",
         "route": stand.route,
-    }  # fmt: skip
+    }
     assert elements[2]["nodes"] == [1, 2]
 
 

@@ -109,8 +109,14 @@ def test_a_recording_is_the_dataset_of_frames(stand: Any) -> None:
         assert variable.dims == ours[name].dims, name
         assert variable.attrs == ours[name].attrs or name == "base_shear", name
         peak = np.abs(theirs).max()
-        if name in {"bearing_displacement", "bearing_force", "interface_slip", "axial_force",
-                    "slider_displacement", "friction_coefficient"}:  # fmt: skip
+        if name in {
+            "bearing_displacement",
+            "bearing_force",
+            "interface_slip",
+            "axial_force",
+            "slider_displacement",
+            "friction_coefficient",
+        }:
             assert np.abs(variable.to_numpy() - theirs[1:]).max() < 0.005 * peak, name
     attributes = data.attrs
     assert attributes["status"] == "ok"

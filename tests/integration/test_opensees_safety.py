@@ -62,9 +62,12 @@ def start(script: str, route: str) -> "subprocess.Popen[str]":
     """Start a script in the background."""
     return subprocess.Popen(  # noqa: S603
         [sys.executable, "-c", PREAMBLE + textwrap.dedent(script), route],
-        env={**os.environ, "PYTHONPATH": str(ROOT)}, cwd=ROOT, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-    )  # fmt: skip
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        cwd=ROOT,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
 
 
 def finish(process: "subprocess.Popen[str]") -> tuple[str, str]:
@@ -300,9 +303,13 @@ def test_beyond_a_limit_the_next_step_fails(
     stand: Any, capfd: Any, changes: dict[str, Any], peak: float, message: str, code: int
 ) -> None:
     options = {
-        "radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08, "capacity": 0.175,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.126,
-    }  # fmt: skip
+        "radius": 0.75,
+        "slider_height": 0.085,
+        "slider_radius": 0.08,
+        "capacity": 0.175,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.126,
+    }
     stand.fresh_server()
     stand.build(LIRBearing(**{**options, **changes}))
     stand.gravity()

@@ -16,9 +16,13 @@ def orbit(friction: CoulombFriction | VelocityFriction, dt: float, level: Level)
     t = np.arange(0.0, 3.0, 0.01)
     motion = GroundMotion(x=1.5 * np.sin(4.0 * t), y=0.6 * np.sin(5.0 * t), dt=0.01)
     bearing = LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=np.inf,
-        friction=friction, interface_friction=0.126,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=np.inf,
+        friction=friction,
+        interface_friction=0.126,
+    )
     data = time_history(
         lumped_mass(bearing, mass=6e4), motion, dt=dt, record_every=round(0.01 / dt), level=level
     )

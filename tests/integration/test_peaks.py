@@ -28,16 +28,21 @@ from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 TIME = np.arange(0.0, 4.0, 0.005)
 BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
 MOTION = GroundMotion(
-    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4), y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
+    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4),
+    y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
     dt=0.005,
-)  # fmt: skip
+)
 
 
 def bearing(**changes):
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.13,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.13,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -56,8 +61,10 @@ def test_values_times_and_places(data):
     row = table.loc["bearing displacement"]
     assert row["value"] == u.max()
     assert (row["time"], row["where"], row["unit"]) == (
-        data["time"].to_numpy()[step], data["bearing"].to_numpy()[place], "m",
-    )  # fmt: skip
+        data["time"].to_numpy()[step],
+        data["bearing"].to_numpy()[place],
+        "m",
+    )
     capacity = bearing().lateral_capacity
     over = table.loc["bearing displacement over capacity", "value"]
     assert over == pytest.approx(u.max() / capacity, rel=1e-12)

@@ -74,9 +74,13 @@ def test_converges_to_the_exact_pendulum_with_second_order(run, pulse, integrato
     errors, steps = [], [1e-3, 5e-4, 2.5e-4]
     for dt in steps:
         data = run(
-            lumped_mass(frictionless(), MASS), motion, dt=dt, integrator=integrator,
-            record_every=round(base / dt), duration=times[-1],
-        )  # fmt: skip
+            lumped_mass(frictionless(), MASS),
+            motion,
+            dt=dt,
+            integrator=integrator,
+            record_every=round(base / dt),
+            duration=times[-1],
+        )
         moves = data["bearing_displacement"][:, 0].to_numpy()
         errors.append(np.abs(moves[:, :2] - expected[:, :2]).max())
     order = np.polyfit(np.log(steps), np.log(errors), 1)[0]

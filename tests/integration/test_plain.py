@@ -37,8 +37,10 @@ def test_the_compiled_loop_is_plain_python() -> None:
         done = subprocess.run(  # noqa: S603
             [sys.executable, "-c", SCRIPT],
             env={**os.environ, "NUMBA_DISABLE_JIT": plain},
-            capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         found.append(json.loads(done.stdout))
     compiled, python = found
     assert compiled[:2] == python[:2]

@@ -69,9 +69,13 @@ UP = 6.0 * np.exp(-((TIME - 2.0) ** 2)) * np.sin(12.0 * TIME)
 
 def device(**changes) -> LIRBearing:
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.13,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.13,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -258,8 +262,9 @@ def test_parts_go_together(whole, small_buffer):
 
 def test_chosen_bearings_and_nodes(whole, small_buffer):
     full = whole("impacts")
-    recording = Recording(bearings=["bearing-1-1", "bearing-0-0"], nodes=["base-0-0"],
-                          levels=["floor-1"], every=10)  # fmt: skip
+    recording = Recording(
+        bearings=["bearing-1-1", "bearing-0-0"], nodes=["base-0-0"], levels=["floor-1"], every=10
+    )
     data = analyse("impacts", recording=recording)
     nodes = ["base-0-0", *(str(n) for n in full["node"].to_numpy() if "floor-1" in str(n))]
     assert sorted(data["node"].to_numpy()) == sorted(nodes)

@@ -40,16 +40,22 @@ from validation.opensees.model import (
 TIME = np.arange(0.0, 4.0, 0.005)
 BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
 MOTION = GroundMotion(
-    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4), y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    z=1.5 * BELL * np.sin(2 * np.pi * TIME / 0.2), dt=0.005,
-)  # fmt: skip
+    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4),
+    y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
+    z=1.5 * BELL * np.sin(2 * np.pi * TIME / 0.2),
+    dt=0.005,
+)
 
 
 def bearing(**changes):
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.13,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.13,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -212,9 +218,12 @@ def test_end_forces_are_those_of_opensees():
     """The same frame on the same bearings in OpenSees, whose columns know P-Delta by the chord."""
     parts = {"column": DEFAULT_COLUMN, "beam": DEFAULT_BEAM, "base_beam": DEFAULT_BASE_BEAM}
     frame = moment_frame(
-        (1, 1), 2, bearing=bearing(capacity=math.inf), damping=None,
+        (1, 1),
+        2,
+        bearing=bearing(capacity=math.inf),
+        damping=None,
         **{name: slender(section) for name, section in parts.items()},
-    )  # fmt: skip
+    )
     frame.add_mass("floor-2-1-1", 1e4)
     motion = MOTION.scaled([1.0, 1.0, 0.0]).trimmed(0.0, 2.5)
     data = time_history(frame, motion, dt=0.005)

@@ -44,16 +44,23 @@ DT = 0.005
 T = np.arange(0.0, 5.0, DT)
 BELL = np.exp(-(((T - 2.0) / 1.2) ** 2))
 MOTION = GroundMotion(
-    x=1.5 * BELL * np.sin(2 * np.pi * T / 1.6), y=0.9 * BELL * np.sin(2 * np.pi * T / 0.9),
-    z=0.4 * BELL * np.sin(2 * np.pi * T / 0.4), dt=DT,
-)  # fmt: skip
+    x=1.5 * BELL * np.sin(2 * np.pi * T / 1.6),
+    y=0.9 * BELL * np.sin(2 * np.pi * T / 0.9),
+    z=0.4 * BELL * np.sin(2 * np.pi * T / 0.4),
+    dt=DT,
+)
 
 
 def bearing(capacity=0.25, load=1.5e6):
     return LIRBearing(
-        radius=1.5, slider_height=0.25, slider_radius=0.3, capacity=capacity,
-        friction=CoulombFriction(0.05), interface_friction=0.16, design_load=load,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.25,
+        slider_radius=0.3,
+        capacity=capacity,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.16,
+        design_load=load,
+    )
 
 
 def uneven():
@@ -70,9 +77,14 @@ def yielding():
         return Bilinear(stiffness=stiffness, yield_force=8e4, hardening=0.03)
 
     return shear_building(
-        bearing(load=1.24e7), 4e4, 6e7, storeys=30, base_mass=6e4, storey_law=law,
+        bearing(load=1.24e7),
+        4e4,
+        6e7,
+        storeys=30,
+        base_mass=6e4,
+        storey_law=law,
         damping=RayleighDamping(0.02, (2.0, 0.2)),
-    )  # fmt: skip
+    )
 
 
 BUILDINGS = {

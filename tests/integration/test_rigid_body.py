@@ -15,7 +15,7 @@ from frames import Frame, GroundMotion, energy_error, gravity, lumped_mass, time
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.bundles.rigid_data import rigid_input, rigid_run, rigid_setup
 from lir_element.device.sliders import slider_record
-from lir_element.kernels.rigid_body.integrate import march, start
+from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
 
 # Such bearings are meant here.
 pytestmark = pytest.mark.meant("slider_density")
@@ -258,9 +258,14 @@ def tilting(inertia: float, push: np.ndarray, dt: float) -> tuple[Any, Any, Any,
     assert state.contacts is not None
     free = np.array([1, 1, 1, 1, 1, 0])
     run = rigid_run(
-        state.model.props, state.contacts, state.run.old.copy(), np.full(3, MASS),
-        np.full(3, inertia), free, driven=False,
-    )  # fmt: skip
+        state.model.props,
+        state.contacts,
+        state.run.old.copy(),
+        np.full(3, MASS),
+        np.full(3, inertia),
+        free,
+        driven=False,
+    )
     count = len(push)
     load = np.zeros((count, 6))
     load[:, 0], load[:, 2] = push, -MASS * G
@@ -269,7 +274,7 @@ def tilting(inertia: float, push: np.ndarray, dt: float) -> tuple[Any, Any, Any,
     )
     run.clock["step"] = 1e-4
     start(run, given)
-    code = march(run, given, rigid_setup(bearing().effective_radius, dt), count, 10**9)
+    code = integrate_bodies(run, given, rigid_setup(bearing().effective_radius, dt), count, 10**9)
     return out.states, out.bodies, out.energy, code
 
 
@@ -300,9 +305,14 @@ def test_spinning_plate_in_flight() -> None:
     assert state.contacts is not None
     inertia = np.array([10.0, 20.0, 26.0])
     run = rigid_run(
-        state.model.props, state.contacts, state.run.old.copy(), np.full(3, MASS), inertia,
-        np.ones(6, np.int64), driven=False,
-    )  # fmt: skip
+        state.model.props,
+        state.contacts,
+        state.run.old.copy(),
+        np.full(3, MASS),
+        inertia,
+        np.ones(6, np.int64),
+        driven=False,
+    )
     run.bodies["displacement"][:, 2, 2] += 0.5
     run.bodies["spin"][:, 2] = (0.8, 1.5, 0.6)
     run.bodies["velocity"][:, 2] = (0.2, -0.1, 0.3)
@@ -315,7 +325,9 @@ def test_spinning_plate_in_flight() -> None:
     bodies = out.bodies
     run.clock["step"] = 1e-4
     start(run, given)
-    assert march(run, given, rigid_setup(bearing().effective_radius, dt), count, 10**9) == 0
+    assert (
+        integrate_bodies(run, given, rigid_setup(bearing().effective_radius, dt), count, 10**9) == 0
+    )
     t = given.times
     expected = np.array([0.2, -0.1, 0.3]) * t[:, None]
     expected[:, 2] -= 0.5 * G * t**2
@@ -324,8 +336,9 @@ def test_spinning_plate_in_flight() -> None:
     q = Rotation.from_quat(bodies["turn"][:, 2], scalar_first=True).as_matrix()
     momentum = np.einsum("tij,j,tkj,tk->ti", q, inertia, q, bodies["spin"][:, 2])
     scale = np.linalg.norm(momentum[0])
-    assert_allclose(momentum / scale, np.broadcast_to(momentum[0] / scale, momentum.shape),
-                    rtol=0.0, atol=1e-3)  # fmt: skip
+    assert_allclose(
+        momentum / scale, np.broadcast_to(momentum[0] / scale, momentum.shape), rtol=0.0, atol=1e-3
+    )
     energy = 0.5 * np.einsum("ti,ti->t", momentum, bodies["spin"][:, 2])
     assert_allclose(energy, energy[0], rtol=5e-4, atol=0.0)
 
@@ -334,8 +347,13 @@ def test_spinning_plate_in_flight() -> None:
         w, r = y[:3], y[3:].reshape(3, 3)
         return np.concatenate([np.cross(inertia * w, w) / inertia, (r @ skew(w)).ravel()])
 
-    y = solve_ivp(rates, (0.0, t[-1]), np.concatenate([[0.8, 1.5, 0.6], np.eye(3).ravel()]),
-                  rtol=1e-10, atol=1e-12).y[:, -1]  # fmt: skip
+    y = solve_ivp(
+        rates,
+        (0.0, t[-1]),
+        np.concatenate([[0.8, 1.5, 0.6], np.eye(3).ravel()]),
+        rtol=1e-10,
+        atol=1e-12,
+    ).y[:, -1]
     assert_allclose(q[-1] @ q[0].T, y[3:].reshape(3, 3), rtol=0.0, atol=1e-4)
 
 

@@ -15,9 +15,13 @@ WALL = {(0.0, 0.0), (0.0, 1.5), (0.0, 3.0), (6.0, 0.0)}  # its panels: x, and y 
 
 def bearing():
     return LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-        friction=CoulombFriction(0.066), interface_friction=0.126,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.066),
+        interface_friction=0.126,
+    )
 
 
 def eccentric_box(ops):
@@ -64,9 +68,13 @@ def reactions_under_weight(ops, places, corners):
     for node, force in weight.items():
         ops.load(node, 0.0, 0.0, -force, 0.0, 0.0, 0.0)
     for command, *options in (
-        ("system", "BandGeneral"), ("numberer", "RCM"), ("constraints", "Plain"),
-        ("integrator", "LoadControl", 1), ("algorithm", "Linear"), ("analysis", "Static"),
-    ):  # fmt: skip
+        ("system", "BandGeneral"),
+        ("numberer", "RCM"),
+        ("constraints", "Plain"),
+        ("integrator", "LoadControl", 1),
+        ("algorithm", "Linear"),
+        ("analysis", "Static"),
+    ):
         getattr(ops, command)(*options)
     assert ops.analyze(1) == 0
     ops.reactions()

@@ -11,10 +11,14 @@ from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, VelocityFr
 
 def bearing(**options) -> LIRBearing:
     given = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.12,
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": VelocityFriction(0.06, 0.03, 20.0),
+        "interface_friction": 0.12,
         "yield_displacement": 1e-4,
-    }  # fmt: skip
+    }
     return LIRBearing(**(given | options))
 
 
@@ -61,8 +65,10 @@ def test_chosen_steps_are_accurate_and_turn(run, scene, seed):
 
 
 BARELY = {
-    "friction": CoulombFriction(0.1), "interface_friction": 0.2, "yield_displacement": 3e-4,
-}  # fmt: skip
+    "friction": CoulombFriction(0.1),
+    "interface_friction": 0.2,
+    "yield_displacement": 3e-4,
+}
 BOUC_WEN = {"friction_law": "bouc-wen", "bouc_wen_exponent": 1.0}
 
 

@@ -25,9 +25,14 @@ TERMS = ["kinetic", "elastic", "gravity", "rims", "contact", "friction_elastic"]
 def sticking_building():
     """Two storeys on a bearing that small motions find elastic."""
     bearing = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
-        friction=CoulombFriction(0.5), interface_friction=math.inf, yield_displacement=2e-3,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=math.inf,
+        friction=CoulombFriction(0.5),
+        interface_friction=math.inf,
+        yield_displacement=2e-3,
+    )
     return shear_building(
         bearing, [4e4, 3e4], [5e7, 4e7], base_mass=3e4, damping=RayleighDamping(0.2, (0.4, 0.1))
     )
@@ -76,9 +81,13 @@ def test_second_order_for_a_linear_building(run, integrator, radius):
     errors, steps = [], [0.005, 0.0025, 0.00125]
     for dt in steps:
         data = run(
-            sticking_building(), GroundMotion(x=waves, dt=base), dt=dt, integrator=integrator,
-            spectral_radius=radius, record_every=round(base / dt),
-        )  # fmt: skip
+            sticking_building(),
+            GroundMotion(x=waves, dt=base),
+            dt=dt,
+            integrator=integrator,
+            spectral_radius=radius,
+            record_every=round(base / dt),
+        )
         u = data["node_displacement"].sel(node=["base", "floor-1", "floor-2"], dof="ux")
         errors.append(np.abs(u - expected).max() / np.abs(expected).max())
     order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
@@ -90,18 +99,26 @@ def test_second_order_for_a_linear_building(run, integrator, radius):
 def test_spectral_radius_at_infinite_frequency(run, radius):
     """Kick a mass on a stiff vertical contact, a thousand periods a step; all roots are -radius."""
     bearing = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=math.inf,
-        friction=CoulombFriction(0.5), interface_friction=math.inf, axial_stiffness=1e13,
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=math.inf,
+        friction=CoulombFriction(0.5),
+        interface_friction=math.inf,
+        axial_stiffness=1e13,
         axial_damping=0.0,
-    )  # fmt: skip
+    )
     wave = np.zeros(40)
     wave[1] = 1.0
     names = ["generalised-alpha"] + (["newmark"] if radius == 1.0 else [])
     for name in names:
         data = run(
-            lumped_mass(bearing, MASS), GroundMotion(z=wave, dt=0.1), dt=0.1, integrator=name,
+            lumped_mass(bearing, MASS),
+            GroundMotion(z=wave, dt=0.1),
+            dt=0.1,
+            integrator=name,
             spectral_radius=radius,
-        )  # fmt: skip
+        )
         a = data["bearing_velocity"].sel(bearing="bearing", axis="z").to_numpy()[4:14]
         left = a[3:] + 3.0 * radius * a[2:-1] + 3.0 * radius**2 * a[1:-2] + radius**3 * a[:-3]
         assert np.abs(a).min() > 0.0
@@ -233,10 +250,16 @@ def test_peak_of_an_impact_converges(run, pulse, newhall_bearing):
 def test_undamped_rims_never_make_energy(run, pulse, dt, oblique):
     """Bounce without friction and damping: what is stored afterwards stays what it is."""
     bearing = LIRBearing(
-        radius=(1.0, 0.8), slider_height=0.1, slider_radius=0.1, capacity=0.1,
-        friction=CoulombFriction(0.0), interface_friction=math.inf, rim_damping=0.0,
-        axial_damping=0.0, rim_overrun=1.0,
-    )  # fmt: skip
+        radius=(1.0, 0.8),
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.1,
+        friction=CoulombFriction(0.0),
+        interface_friction=math.inf,
+        rim_damping=0.0,
+        axial_damping=0.0,
+        rim_overrun=1.0,
+    )
     x = pulse(2.0, 1.5, 0.01, cycles=1.0, rest=0.0)
     motion = GroundMotion(x=x, y=oblique * np.roll(x, 30), dt=0.01)
     data = run(lumped_mass(bearing, 1e5), motion, dt=dt, duration=15.0)

@@ -8,9 +8,13 @@ from frames.design import Superstructure
 from lir_element import CoulombFriction, LIRBearing
 
 BEARING = LIRBearing(
-    radius=2.5, slider_height=0.225, slider_radius=0.225, capacity=0.356,
-    friction=CoulombFriction(0.05), interface_friction=0.105,
-)  # fmt: skip
+    radius=2.5,
+    slider_height=0.225,
+    slider_radius=0.225,
+    capacity=0.356,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.105,
+)
 HEIGHT, WIDTH = 3.5, 6.0
 
 
@@ -38,9 +42,14 @@ def alike(frame: Frame, **options: object) -> Frame:
     chain = 2.0 * np.sin(np.pi / (4 * n + 2))
     stiffness = floors.mean() * (2.0 * np.pi / above.fixed_base_period / chain) ** 2
     return shear_building(
-        BEARING, floors, stiffness, storey_height=HEIGHT, base_mass=float(base),
-        plan=((2, 2), WIDTH), **options,  # type: ignore[arg-type]
-    )  # fmt: skip
+        BEARING,
+        floors,
+        stiffness,
+        storey_height=HEIGHT,
+        base_mass=float(base),
+        plan=((2, 2), WIDTH),
+        **options,  # type: ignore[arg-type]
+    )
 
 
 def swings(frame: Frame) -> tuple[np.ndarray, float]:

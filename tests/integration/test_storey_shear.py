@@ -40,9 +40,13 @@ MASSES = (60e3, 50e3)
 @pytest.fixture(scope="module")
 def frame() -> Frame:
     bearing = LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.4,
-        friction=CoulombFriction(0.06), interface_friction=0.25,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.4,
+        friction=CoulombFriction(0.06),
+        interface_friction=0.25,
+    )
     return shear_building(
         bearing, list(MASSES), 60e6, base_mass=60e3, plan=((1, 1), (6.0, 6.0)), damping=None
     )
@@ -67,10 +71,11 @@ def runs(frame: Frame) -> xr.Dataset:
 def linear(frame: Frame, **above: Any) -> EquivalentLinear:
     system = IsolationSystem.from_frame(frame)
     return equivalent_linear(
-        system, Spectrum.asce7(s_ms=0.9, s_m1=0.5),
+        system,
+        Spectrum.asce7(s_ms=0.9, s_m1=0.5),
         bounds=PropertyBounds(PropertyModificationFactors(0.8, 1.2)),
         superstructure=Superstructure.from_frame(frame, R=4.0, **above),
-    )  # fmt: skip
+    )
 
 
 def test_storey_shears_are_the_inertia_above(frame: Frame, run: xr.Dataset) -> None:
@@ -98,9 +103,13 @@ def test_batches_keep_the_same_peaks(frame: Frame, runs: xr.Dataset, run: xr.Dat
 def test_bearings_between_storeys_carry_the_shear_there() -> None:
     """A mass on a bearing on a column: through the upper storey passes the bearing's force."""
     bearing = LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.4,
-        friction=CoulombFriction(0.06), interface_friction=0.25,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.4,
+        friction=CoulombFriction(0.06),
+        interface_friction=0.25,
+    )
     frame = Frame("isolated head")
     frame.add_node("foot", 0.0, 0.0, 0.0)
     frame.add_node("head", 0.0, 0.0, 3.0)

@@ -16,9 +16,13 @@ G = 9.80665
 
 def device() -> LIRBearing:
     return LIRBearing(
-        radius=(1.0, 0.8), slider_height=0.1, slider_radius=0.12, capacity=0.08,
-        friction=VelocityFriction(0.06, 0.03, 20.0), interface_friction=0.14,
-    )  # fmt: skip
+        radius=(1.0, 0.8),
+        slider_height=0.1,
+        slider_radius=0.12,
+        capacity=0.08,
+        friction=VelocityFriction(0.06, 0.03, 20.0),
+        interface_friction=0.14,
+    )
 
 
 def ground(pulse) -> np.ndarray:

@@ -9,9 +9,13 @@ from frames import GroundMotion, energy_error, lumped_mass, time_history
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 
 ONE_PIECE = LIRBearing(
-    radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.25,
-    friction=CoulombFriction(0.05), interface_friction=math.inf,
-)  # fmt: skip
+    radius=1.185,
+    slider_height=0.12,
+    slider_radius=0.15,
+    capacity=0.25,
+    friction=CoulombFriction(0.05),
+    interface_friction=math.inf,
+)
 TIME = np.arange(0.0, 4.0, 0.005)
 
 

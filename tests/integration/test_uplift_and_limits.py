@@ -27,9 +27,13 @@ def pulse(size: float) -> GroundMotion:
 @pytest.fixture(scope="module")
 def bearing() -> LIRBearing:
     return LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.2,
-        friction=VelocityFriction(0.065, 0.0325, 15.0), interface_friction=0.14,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.15,
+        capacity=0.2,
+        friction=VelocityFriction(0.065, 0.0325, 15.0),
+        interface_friction=0.14,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -97,8 +101,10 @@ def test_a_slider_that_leaves_its_rims_is_no_pass(alone: Frame, lifted: xr.Datas
     assert (one(checks, RIMS).limit, one(checks, RIMS).passed) == (0.13, True)
     own = one(checks, "gap of uplift")
     assert (own.demand, own.limit, own.clause) == (
-        pytest.approx(0.12), 0.05, "no code: limit of the project",
-    )  # fmt: skip
+        pytest.approx(0.12),
+        0.05,
+        "no code: limit of the project",
+    )
     assert not own.passed
     landing = one(checks, "axial force with a landing")
     assert (landing.demand, landing.limit) == (25.9e6, 30e6)

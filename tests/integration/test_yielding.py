@@ -40,9 +40,13 @@ MASS, STIFFNESS = 2e5, 1.2e8
 
 def bearing(friction=0.05, capacity=0.2):
     return LIRBearing(
-        radius=1.5, slider_height=0.25, slider_radius=0.3, capacity=capacity,
-        friction=CoulombFriction(friction), interface_friction=0.16,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.25,
+        slider_radius=0.3,
+        capacity=capacity,
+        friction=CoulombFriction(friction),
+        interface_friction=0.16,
+    )
 
 
 def waves(size=2.2, axes="xy"):

@@ -25,9 +25,16 @@ from lir_element.layout import STATE_BY_NAME
 
 STILL = np.zeros(12)
 NAMES = (
-    "coulomb", "velocity", "bouc_wen_velocity", "fused", "one_rim", "thick_plates", "random-1",
-    "random-2", "pressed_and_heated",
-)  # fmt: skip
+    "coulomb",
+    "velocity",
+    "bouc_wen_velocity",
+    "fused",
+    "one_rim",
+    "thick_plates",
+    "random-1",
+    "random-2",
+    "pressed_and_heated",
+)
 EACH = pytest.mark.parametrize("name", NAMES)
 UPSIDE = 8e-4  # of N: elastic slip of 0.4 mm, as the axial force swings
 pytestmark = pytest.mark.meant("slider_density")
@@ -185,10 +192,16 @@ def tilted(points: int, load: float, angle: float, way: float, friction: float =
     Over a microsecond, so that they stay where they are.
     """
     bearing = LIRBearing(
-        radius=(0.9, 0.9), slider_height=0.11, slider_radius=0.08, capacity=0.2,
-        friction=CoulombFriction(friction), interface_friction=0.3, axial_stiffness=1e8,
-        axial_damping=0.0, contact_points=points,
-    )  # fmt: skip
+        radius=(0.9, 0.9),
+        slider_height=0.11,
+        slider_radius=0.08,
+        capacity=0.2,
+        friction=CoulombFriction(friction),
+        interface_friction=0.3,
+        axial_stiffness=1e8,
+        axial_damping=0.0,
+        contact_points=points,
+    )
     element = Element(bearing, "contact")
     u = np.zeros(12)
     u[8] = -load / 1e8
@@ -247,11 +260,17 @@ def test_sliders_rock_under_a_tilted_plate() -> None:
     rest = 1e-7  # of the load: round-off under a way to slip of 0.1 micrometres
     for reach, elastic, tilt in product((1.0, 3.0), (1e-4, 1e-7), (1e-5, 1e-4, 3e-4, 1e-3)):
         bearing = LIRBearing(
-            radius=reach, slider_height=0.1, slider_radius=radius, capacity=0.2,
-            friction=CoulombFriction(0.08), interface_friction=0.2, yield_displacement=elastic,
-            interface_yield_displacement=min(elastic, 1e-5), axial_stiffness=2e9,
+            radius=reach,
+            slider_height=0.1,
+            slider_radius=radius,
+            capacity=0.2,
+            friction=CoulombFriction(0.08),
+            interface_friction=0.2,
+            yield_displacement=elastic,
+            interface_yield_displacement=min(elastic, 1e-5),
+            axial_stiffness=2e9,
             **WEIGHTLESS,
-        )  # fmt: skip
+        )
         element, u = Element(bearing, "contact"), np.zeros(12)
         u[6], u[8], u[9] = 1e-5, -closure, tilt
         element.set_trial(u, STILL, 0.0)
@@ -445,9 +464,11 @@ def test_whole_bearing_is_in_equilibrium(name: str, lab: SimpleNamespace) -> Non
             own = mass[b] * (after["velocity"][b] - before["velocity"][b]) / dt
             own = own + mass[b] * np.array([0.0, 0.0, 9.80665])
             assert_allclose(
-                after["velocity"][b], (after["displacement"][b] - before["displacement"][b]) / dt,
-                rtol=1e-12, atol=1e-15,
-            )  # fmt: skip
+                after["velocity"][b],
+                (after["displacement"][b] - before["displacement"][b]) / dt,
+                rtol=1e-12,
+                atol=1e-15,
+            )
             forces = forces - own
             moments = moments - np.cross(after["displacement"][b] + place[b + 1] - at_i, own)
             moments = moments - (momentum(after, b) - momentum(before, b)) / dt
@@ -559,12 +580,14 @@ def test_rigid_motion_of_the_whole_bearing(name: str, lab: SimpleNamespace) -> N
     turn = Rotation.from_rotvec(share * [0.3, -0.2, 0.9])
     shift = share * [0.4, -0.3, 0.2]
     top = np.array([0.0, 0.0, bearing.height])
-    moved = np.hstack([
-        turn.apply(u[:, :3]) + shift,
-        (turn * Rotation.from_rotvec(u[:, 3:6])).as_rotvec(),
-        turn.apply(u[:, 6:9] + top) - top + shift,
-        (turn * Rotation.from_rotvec(u[:, 9:12])).as_rotvec(),
-    ])  # fmt: skip
+    moved = np.hstack(
+        [
+            turn.apply(u[:, :3]) + shift,
+            (turn * Rotation.from_rotvec(u[:, 3:6])).as_rotvec(),
+            turn.apply(u[:, 6:9] + top) - top + shift,
+            (turn * Rotation.from_rotvec(u[:, 9:12])).as_rotvec(),
+        ]
+    )
     one, two = walk(bearing, u, time), walk(bearing, moved, time)
     expected = np.hstack([turn.apply(one.resisting[:, k : k + 3]) for k in (0, 3, 6, 9)])
     scale = np.abs(one.resisting).max()
@@ -622,9 +645,14 @@ def test_weight_and_flight_of_lifted_sliders(lab: SimpleNamespace) -> None:
 # ------------------------------------------------------------------------------- works
 
 WORKS = (
-    "work_friction", "work_interface", "work_elastic", "work_owed", "work_rim", "work_contact",
+    "work_friction",
+    "work_interface",
+    "work_elastic",
+    "work_owed",
+    "work_rim",
+    "work_contact",
     "work_sliders",
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("name", ["coulomb", "velocity", "bouc_wen_velocity", "fused"])
@@ -661,11 +689,22 @@ def test_work_of_the_sliders_weight(lab: SimpleNamespace) -> None:
 
 RESPONSES = {
     # name: difference over its largest value
-    "axial_force": 0.01, "friction_force": 0.02, "hysteresis": 0.02, "interface_force": 0.02,
-    "sliding_increment": 0.02, "slider_displacement": 0.01, "friction_coefficient": 0.01,
-    "sliding_speed": 0.02, "eccentricity": 0.01, "axis": 1e-3, "axis_top": 1e-3, "centres": 1e-12,
-    "string": 1e-4, "travel": 0.02, "torque": None,
-}  # fmt: skip
+    "axial_force": 0.01,
+    "friction_force": 0.02,
+    "hysteresis": 0.02,
+    "interface_force": 0.02,
+    "sliding_increment": 0.02,
+    "slider_displacement": 0.01,
+    "friction_coefficient": 0.01,
+    "sliding_speed": 0.02,
+    "eccentricity": 0.01,
+    "axis": 1e-3,
+    "axis_top": 1e-3,
+    "centres": 1e-12,
+    "string": 1e-4,
+    "travel": 0.02,
+    "torque": None,
+}
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -703,9 +742,14 @@ def test_twist_under_load(points: int, lever: float, sign: float, weak: int) -> 
     friction = [CoulombFriction(0.08), CoulombFriction(0.08)]
     friction[weak] = CoulombFriction(0.05)
     bearing = LIRBearing(
-        radius=(0.9, 0.9), slider_height=0.11, slider_radius=0.08, capacity=math.inf,
-        friction=tuple(friction), interface_friction=0.3, contact_points=points,
-    )  # fmt: skip
+        radius=(0.9, 0.9),
+        slider_height=0.11,
+        slider_radius=0.08,
+        capacity=math.inf,
+        friction=tuple(friction),
+        interface_friction=0.3,
+        contact_points=points,
+    )
     element, u = Element(bearing, "contact"), np.zeros(12)
     load = bearing.resolved()["axial_stiffness"] * 2e-4
     u[8] = -2e-4
@@ -750,10 +794,16 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 120)
     steps = slice(0, 4)
     common = {
-        "radius": (0.75, 1.1), "slider_height": 0.11, "slider_radius": 0.08, "rims": (0.005, 0.009),
-        "axial_stiffness": 1e8, "rim_stiffness": 2e7, "slip_capacity": 0.08, "rim_overrun": 0.05,
+        "radius": (0.75, 1.1),
+        "slider_height": 0.11,
+        "slider_radius": 0.08,
+        "rims": (0.005, 0.009),
+        "axial_stiffness": 1e8,
+        "rim_stiffness": 2e7,
+        "slip_capacity": 0.08,
+        "rim_overrun": 0.05,
         "friction": [(0.07, 0.03, 12.0), (0.09, 0.05, 6.0)],
-    }  # fmt: skip
+    }
     bearings = [
         common | {"interface_friction": 0.15, "contact_points": 5},
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen", "contact_points": 4},
@@ -765,8 +815,12 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
         environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
         done = subprocess.run(  # noqa: S603
             [sys.executable, "-c", SCRIPT],
-            input=given, env=environment, capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            input=given,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         results.append(np.array(json.loads(done.stdout)))
     compiled, python = results
     scale = np.abs(compiled).max(axis=0)

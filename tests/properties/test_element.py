@@ -28,9 +28,17 @@ HISTORY = {"rtol": 0.0, "atol": 1e-9}
 
 
 WORKS = (
-    "work_friction", "work_interface", "work_elastic", "work_owed", "work_step", "work_rim",
-    "work_contact", "travel", "interface_travel", "largest_slip",
-)  # fmt: skip
+    "work_friction",
+    "work_interface",
+    "work_elastic",
+    "work_owed",
+    "work_step",
+    "work_rim",
+    "work_contact",
+    "travel",
+    "interface_travel",
+    "largest_slip",
+)
 
 
 def snapshot(element: Element, without: tuple[str, ...] = ()) -> bytes:
@@ -455,9 +463,18 @@ def test_friction_and_contact_stay_within_bounds(
     bearing = lab.make(variant)
     u, time = lab.smooth_path(bearing, seed, 250, swing=1.6)
     names = (
-        "axial_force", "friction_force", "friction_coefficient", "interface_force", "rim_force",
-        "hysteresis", "interface_hysteresis", "torque", "closure", "string", "temperature",
-    )  # fmt: skip
+        "axial_force",
+        "friction_force",
+        "friction_coefficient",
+        "interface_force",
+        "rim_force",
+        "hysteresis",
+        "interface_hysteresis",
+        "torque",
+        "closure",
+        "string",
+        "temperature",
+    )
     r = lab.walk(bearing, u, time, names)
     start = Element(bearing).response("temperature")
     warm = np.vstack([start, r.temperature[:-1]])  # that of its start governs a step
@@ -723,9 +740,12 @@ def test_steepest_tilt(sign: float, lab: SimpleNamespace) -> None:
 def test_slip_that_friction_cannot_hold(sign: float, lab: SimpleNamespace) -> None:
     """Beyond L mu_h + mu_1 R_1 + mu_2 R_2 the axial force drives the slip on: a failure."""
     bearing = lab.make(
-        "coulomb", friction=CoulombFriction(0.01), interface_friction=0.03, slip_capacity=10.0,
+        "coulomb",
+        friction=CoulombFriction(0.01),
+        interface_friction=0.03,
+        slip_capacity=10.0,
         rim_overrun=1.0,
-    )  # fmt: skip
+    )
     held = 0.03 * bearing.effective_radius + 0.01 * sum(bearing.radii)
     element, u, slip = Element(bearing), np.zeros(12), 0.0
     with pytest.raises(AnalysisError) as caught:  # noqa: PT012
@@ -1080,10 +1100,16 @@ json.dump(out, sys.stdout)
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 90)
     common = {
-        "radius": (0.75, 1.1), "slider_height": 0.11, "slider_radius": 0.08, "rims": (0.07, 0.11),
-        "axial_stiffness": 1e8, "rim_stiffness": 2e7, "slip_capacity": 0.08, "rim_overrun": 0.05,
+        "radius": (0.75, 1.1),
+        "slider_height": 0.11,
+        "slider_radius": 0.08,
+        "rims": (0.07, 0.11),
+        "axial_stiffness": 1e8,
+        "rim_stiffness": 2e7,
+        "slip_capacity": 0.08,
+        "rim_overrun": 0.05,
         "friction": [(0.07, 0.03, 12.0), (0.09, 0.05, 6.0)],
-    }  # fmt: skip
+    }
     bearings = [
         common | {"interface_friction": 0.15},
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen"},
@@ -1095,8 +1121,12 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
         environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
         done = subprocess.run(  # noqa: S603
             [sys.executable, "-c", SCRIPT],
-            input=given_, env=environment, capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            input=given_,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         results.append(np.array(json.loads(done.stdout)))
     compiled, python = results
     scale = np.abs(compiled).max(axis=0)

@@ -11,8 +11,13 @@ from lir_element import CoulombFriction, Element, Features, cyclic_test
 
 STILL = np.zeros(12)
 WORKS = (
-    "work_friction", "work_interface", "work_elastic", "work_owed", "work_rim", "work_contact",
-)  # fmt: skip
+    "work_friction",
+    "work_interface",
+    "work_elastic",
+    "work_owed",
+    "work_rim",
+    "work_contact",
+)
 OUT = {
     "uplift": ("uplift",),
     "uplift, interface": ("uplift", "interface"),
@@ -21,9 +26,13 @@ OUT = {
     "rims, velocity dependence": ("rims", "velocity_dependence"),
 }
 DEVICES = [
-    "coulomb", "bouc_wen_velocity", "fused_velocity_torsion", "thick_plates", "random-1",
+    "coulomb",
+    "bouc_wen_velocity",
+    "fused_velocity_torsion",
+    "thick_plates",
+    "random-1",
     "pressed_and_heated",
-]  # fmt: skip
+]
 
 left_out = pytest.mark.parametrize("out", OUT)
 device = pytest.mark.parametrize("name", DEVICES)
@@ -131,9 +140,14 @@ def test_without_vertical_coupling_the_lateral_force_is_that_under_a_held_load(
     """A testing rig that holds the vertical load, rims and slip included, gives the same force."""
     load = 3e5
     bearing = lab.make(
-        "coulomb", radius=1.0, friction=CoulombFriction(0.05), design_load=load, rims=(0.08, 0.08),
-        axial_stiffness=1e10, rim_stiffness=1e8,
-    )  # fmt: skip
+        "coulomb",
+        radius=1.0,
+        friction=CoulombFriction(0.05),
+        design_load=load,
+        rims=(0.08, 0.08),
+        axial_stiffness=1e10,
+        rim_stiffness=1e8,
+    )
     x = np.interp(np.linspace(0.0, 3.0, 601), np.arange(4), [0.0, 0.19, -0.19, 0.1])
     rig = cyclic_test(bearing, x, load)
     assert float(rig["interface_slip_size"].max()) > 5e-3

@@ -30,9 +30,14 @@ LAWS = {
 def device(lab: SimpleNamespace, name: str) -> LIRBearing:
     """Return a bearing without dampers and rims, of which nothing but friction dissipates."""
     return lab.make(
-        name, axial_damping=0.0, rims=None, capacity=math.inf, torsional_friction=True,
-        design_load=LOAD, slider_density=1.0,
-    )  # fmt: skip
+        name,
+        axial_damping=0.0,
+        rims=None,
+        capacity=math.inf,
+        torsional_friction=True,
+        design_load=LOAD,
+        slider_density=1.0,
+    )
 
 
 def walk(
@@ -62,8 +67,9 @@ def strokes(cycles: int, reach: float, low: float, high: float) -> tuple[np.ndar
     x = np.concatenate(
         [np.linspace(0.0, 1.0, 6), np.ones(5), np.linspace(1.0, 0.0, 6), np.zeros(5)]
     )
-    n = np.concatenate([np.full(6, low), np.linspace(low, high, 5), np.full(6, high),
-                        np.linspace(high, low, 5)])  # fmt: skip
+    n = np.concatenate(
+        [np.full(6, low), np.linspace(low, high, 5), np.full(6, high), np.linspace(high, low, 5)]
+    )
     x, n = np.tile(x, cycles), np.tile(n, cycles)
     path = np.column_stack([0.8 * reach * x, 0.6 * reach * x, 20.0 * reach * x])
     return np.vstack([np.zeros((1, 3)), path]), np.concatenate([[LOAD], n])
@@ -108,10 +114,13 @@ def test_friction_never_gives_more_than_it_has(
     count = 240
     reach = rng.choice([0.1e-3, 1e-3])
     t = np.linspace(0.0, 12.0 * np.pi, count)
-    path = reach * np.column_stack([
-        np.sin(1.3 * t) + 0.5 * np.sin(2.9 * t), np.sin(0.7 * t + 1.0) - math.sin(1.0),
-        20.0 * np.sin(1.9 * t),
-    ])  # fmt: skip
+    path = reach * np.column_stack(
+        [
+            np.sin(1.3 * t) + 0.5 * np.sin(2.9 * t),
+            np.sin(0.7 * t + 1.0) - math.sin(1.0),
+            20.0 * np.sin(1.9 * t),
+        ]
+    )
     swing = 1.2 if level == "pendulum" else 0.7
     loads = LOAD * (1.0 + swing * np.sin(t * rng.uniform(0.8, 4.0)) * np.minimum(t, 1.0))
     bearing = device(lab, name)

@@ -15,8 +15,13 @@ from scipy.spatial.transform import Rotation
 
 COUNT = 1000
 WORKS = (
-    "work_friction", "work_interface", "work_elastic", "work_owed", "work_rim", "work_contact",
-)  # fmt: skip
+    "work_friction",
+    "work_interface",
+    "work_elastic",
+    "work_owed",
+    "work_rim",
+    "work_contact",
+)
 
 
 def work_of_nodes(u: np.ndarray, force: np.ndarray) -> np.ndarray:

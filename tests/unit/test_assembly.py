@@ -103,8 +103,12 @@ def test_portal_under_beam_load() -> None:
     k = height / span
     head = q * span**2 / (6.0 * (k + 2.0))
     axial = 1e-5  # the members are not quite rigid along their axes
-    assert_allclose(np.abs(ends[:, [4, 10]]), [[head / 2, head], [head] * 2, [head / 2, head]],
-                    rtol=axial, atol=0.0)  # fmt: skip
+    assert_allclose(
+        np.abs(ends[:, [4, 10]]),
+        [[head / 2, head], [head] * 2, [head / 2, head]],
+        rtol=axial,
+        atol=0.0,
+    )
     # Beam: hogging at both ends, moment -head about local y (global y) on the left end.
     assert_allclose(ends[1, [4, 10]], [-head, head], rtol=axial, atol=0.0)
     thrust = 1.5 * head / height

@@ -40,9 +40,14 @@ MASS = 3e4
 
 def device(**changes) -> LIRBearing:
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.2,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.12, "design_load": 3e5,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.2,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.12,
+        "design_load": 3e5,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -205,8 +210,12 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
     """Return the eccentricity from moment equilibrium of one slider, with vectors in space."""
     n, p = element.response("axis"), bearing.to_record()[0]
     k = 1.0 / (1.0 + n[2])
-    t = np.array([[1.0 - k * n[0] ** 2, -k * n[0] * n[1], -n[0]],
-                  [-k * n[0] * n[1], 1.0 - k * n[1] ** 2, -n[1]]])  # fmt: skip
+    t = np.array(
+        [
+            [1.0 - k * n[0] ** 2, -k * n[0] * n[1], -n[0]],
+            [-k * n[0] * n[1], 1.0 - k * n[1] ** 2, -n[1]],
+        ]
+    )
     load, sliders = element.response("axial_force"), slider_record(bearing)
     height = abs(sliders["vertex"] - sliders["plane"])[0, int(top)]  # of the bodies themselves
     pushed = -load * n + element.response("interface_force") @ t  # down on the bottom slider
@@ -226,9 +235,12 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
 @pytest.mark.parametrize("lateral", [0.02, 0.09, 0.115])
 def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
     bearing = device(
-        radius=(1.4, 0.5), slider_radius=0.12, capacity=0.1, axial_stiffness=1e9,
+        radius=(1.4, 0.5),
+        slider_radius=0.12,
+        capacity=0.1,
+        axial_stiffness=1e9,
         friction=(CoulombFriction(0.03), CoulombFriction(0.06)),
-    )  # fmt: skip
+    )
     element = Element(bearing)
     length = bearing.effective_radius + 2e5 / bearing.resolved()["axial_stiffness"]
     for share in np.linspace(0.0, 1.0, 200):
@@ -258,8 +270,12 @@ def test_full_contact_levels():
     data = run(device(capacity=0.08))
     share = found(data)["full_contact"].number
     assert_allclose(share, 5.0 * float(data["interface_slip_size"].max()), rtol=0.05)
-    for factor, text in ((0.2, "full contact holds"), (0.4, "no tipping"), (0.8, "edge contact"),
-                         (1.2, "the slider tips")):  # fmt: skip
+    for factor, text in (
+        (0.2, "full contact holds"),
+        (0.4, "no tipping"),
+        (0.8, "edge contact"),
+        (1.2, "the slider tips"),
+    ):
         other = data.copy()
         other["interface_eccentricity"] = data["interface_eccentricity"] * (factor / share)
         finding = found(other)["full_contact"]

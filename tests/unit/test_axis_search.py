@@ -12,9 +12,14 @@ from lir_element import CoulombFriction, Element, LIRBearing
 from lir_element.kernels.levels import bearing_trial
 
 BEARING = LIRBearing(
-    radius=1.185, slider_height=0.12, slider_radius=0.15, capacity=0.25, design_load=286.73e3,
-    friction=CoulombFriction(0.065), interface_friction=0.13,
-)  # fmt: skip
+    radius=1.185,
+    slider_height=0.12,
+    slider_radius=0.15,
+    capacity=0.25,
+    design_load=286.73e3,
+    friction=CoulombFriction(0.065),
+    interface_friction=0.13,
+)
 COMMITTED: dict[str, Any] = {
     "step": 0.005,
     "axis": (0.10804290204869181, -0.02594252458763105, 0.993807685991066),
@@ -32,14 +37,26 @@ COMMITTED: dict[str, Any] = {
     "rim_closure": (3.222138296093968e-06, 4.0102995615909354e-05),
     "rim_force": (4072.352229187957, 47028.266031859996),
 }
-PLACE = np.array([
-    -0.25575437965619113, 0.015602400439296263, 0.014155442057758542,
-    1.0326979783295602e-05, -3.468594079369063e-05, 6.559672319663562e-05,
-])  # fmt: skip
-MOVE = np.array([
-    -9.89697630e-04, -5.17927206e-04, 1.25944642e-04,
-    -3.85570252e-06, 2.04426567e-05, 4.13880239e-06,
-])  # fmt: skip
+PLACE = np.array(
+    [
+        -0.25575437965619113,
+        0.015602400439296263,
+        0.014155442057758542,
+        1.0326979783295602e-05,
+        -3.468594079369063e-05,
+        6.559672319663562e-05,
+    ]
+)
+MOVE = np.array(
+    [
+        -9.89697630e-04,
+        -5.17927206e-04,
+        1.25944642e-04,
+        -3.85570252e-06,
+        2.04426567e-05,
+        4.13880239e-06,
+    ]
+)
 
 
 def test_a_search_that_runs_in_circles_begins_anew() -> None:

@@ -37,8 +37,9 @@ def test_integration_is_exact_between_samples() -> None:
     for k in range(1, 5):
         breaks = list(time[1:k]) or None
         v = quad(lambda t: np.interp(t, time, a), 0.0, time[k], points=breaks)[0]
-        d = quad(lambda t, end=time[k]: (end - t) * np.interp(t, time, a), 0.0, time[k],
-                 points=breaks)[0]  # fmt: skip
+        d = quad(
+            lambda t, end=time[k]: (end - t) * np.interp(t, time, a), 0.0, time[k], points=breaks
+        )[0]
         assert_allclose((velocity[k], displacement[k]), (v, d), atol=1e-13)
 
 

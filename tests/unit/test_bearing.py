@@ -52,16 +52,27 @@ def refused(error: type[Exception], *words: str, **changes: object) -> None:
 
 
 POSITIVE = [
-    "slider_height", "slider_radius", "interface_friction", "capacity", "axial_stiffness",
-    "rim_stiffness", "rim_overrun", "slip_capacity", "design_load", "yield_displacement",
+    "slider_height",
+    "slider_radius",
+    "interface_friction",
+    "capacity",
+    "axial_stiffness",
+    "rim_stiffness",
+    "rim_overrun",
+    "slip_capacity",
+    "design_load",
+    "yield_displacement",
     "interface_yield_displacement",
-]  # fmt: skip
+]
 NOT_NEGATIVE = ["axial_damping", "rim_damping", "plate_thickness"]
 MAY_BE_INFINITE = {"interface_friction", "capacity"}
 UNITS = {
-    "axial_stiffness": "N/m", "rim_stiffness": "N/m", "axial_damping": "N s/m",
-    "rim_damping": "N s/m", "design_load": "N",
-}  # fmt: skip
+    "axial_stiffness": "N/m",
+    "rim_stiffness": "N/m",
+    "axial_damping": "N s/m",
+    "rim_damping": "N s/m",
+    "design_load": "N",
+}
 
 
 @pytest.mark.parametrize("value", [-1.0, -1e-12, 0.0, math.nan, -math.inf, math.inf])
@@ -193,9 +204,11 @@ def test_slow_friction_must_not_exceed_fast_friction() -> None:
 
 
 @given(
-    f_max=st.floats(0.01, 0.99), share=st.floats(0.0, 1.0), rate=st.floats(0.0, 100.0),
+    f_max=st.floats(0.01, 0.99),
+    share=st.floats(0.0, 1.0),
+    rate=st.floats(0.0, 100.0),
     speed=st.floats(-2.0, 2.0),
-)  # fmt: skip
+)
 def test_velocity_friction(f_max: float, share: float, rate: float, speed: float) -> None:
     """Eq. (1) of the paper with |v|."""
     law = VelocityFriction(f_max, share * f_max, rate)
@@ -359,9 +372,13 @@ def test_derived_values(r_1: float, r_2: float, share_1: float, share_2: float) 
     rise = sum(r - math.sqrt(r**2 - edge**2) for r in (r_1, r_2))
     h, t = max(0.12, 1.1 * rise), (0.02, 0.05)
     b = bearing(
-        radius=(r_1, r_2), slider_height=h, capacity=None, rims=(share_1 * r_1, share_2 * r_2),
-        plate_thickness=t, interface_friction=0.3,
-    )  # fmt: skip
+        radius=(r_1, r_2),
+        slider_height=h,
+        capacity=None,
+        rims=(share_1 * r_1, share_2 * r_2),
+        plate_thickness=t,
+        interface_friction=0.3,
+    )
     length = r_1 + r_2 - h
     assert_allclose(b.effective_radius, length, rtol=1e-14, atol=0.0)
     assert_allclose(b.lateral_capacity, length * min(share_1, share_2), rtol=1e-13, atol=0.0)
@@ -421,17 +438,34 @@ def test_equality_and_hash() -> None:
     assert hash(bearing()) == hash(bearing())
     assert len({bearing(), bearing(), bearing(radius=0.8)}) == 2
     changes: dict[str, object] = {
-        "radius": 0.76, "slider_height": 0.09, "slider_radius": 0.07, "capacity": 0.18,
-        "friction": CoulombFriction(0.067), "interface_friction": 0.127, "axial_stiffness": 1e8,
-        "axial_damping": 1e5, "rim_stiffness": 1e7, "rim_damping": 0.0, "rim_overrun": 0.01,
-        "slip_capacity": 0.05, "design_load": 1e5, "yield_displacement": 1e-3,
-        "interface_yield_displacement": 2e-4, "friction_law": "bouc-wen",
-        "bouc_wen_exponent": 3.0, "torsional_friction": False, "plate_thickness": 0.02,
-        "allow_weak_interface": True, "rims": (0.75 * 0.175 / 1.415,) * 2,
-        "slider_density": 7000.0, "slider_mass": (3.0, 4.0), "contact_points": 12,
+        "radius": 0.76,
+        "slider_height": 0.09,
+        "slider_radius": 0.07,
+        "capacity": 0.18,
+        "friction": CoulombFriction(0.067),
+        "interface_friction": 0.127,
+        "axial_stiffness": 1e8,
+        "axial_damping": 1e5,
+        "rim_stiffness": 1e7,
+        "rim_damping": 0.0,
+        "rim_overrun": 0.01,
+        "slip_capacity": 0.05,
+        "design_load": 1e5,
+        "yield_displacement": 1e-3,
+        "interface_yield_displacement": 2e-4,
+        "friction_law": "bouc-wen",
+        "bouc_wen_exponent": 3.0,
+        "torsional_friction": False,
+        "plate_thickness": 0.02,
+        "allow_weak_interface": True,
+        "rims": (0.75 * 0.175 / 1.415,) * 2,
+        "slider_density": 7000.0,
+        "slider_mass": (3.0, 4.0),
+        "contact_points": 12,
         "slider_inertia": ((0.1, 0.2), (0.1, 0.2)),
-        "pressure_dependence": PressureDependence(), "friction_heating": FrictionHeating(),
-    }  # fmt: skip
+        "pressure_dependence": PressureDependence(),
+        "friction_heating": FrictionHeating(),
+    }
     assert set(changes) == {f.name for f in dataclasses.fields(LIRBearing)}
     for name, value in changes.items():
         other = dataclasses.replace(bearing(), **{name: value})
@@ -461,33 +495,64 @@ def test_record_is_complete() -> None:
             UNEQUAL
             | {
                 "friction": (VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.05)),
-                "axial_stiffness": 3e8, "axial_damping": 2e5, "rim_stiffness": 4e7,
-                "rim_damping": 5e4, "rim_overrun": 0.006, "slip_capacity": 0.05,
-                "design_load": 2e5, "yield_displacement": 3e-4,
-                "interface_yield_displacement": 2e-4, "friction_law": "bouc-wen",
-                "bouc_wen_exponent": 3.0, "plate_thickness": (0.01, 0.04),
+                "axial_stiffness": 3e8,
+                "axial_damping": 2e5,
+                "rim_stiffness": 4e7,
+                "rim_damping": 5e4,
+                "rim_overrun": 0.006,
+                "slip_capacity": 0.05,
+                "design_load": 2e5,
+                "yield_displacement": 3e-4,
+                "interface_yield_displacement": 2e-4,
+                "friction_law": "bouc-wen",
+                "bouc_wen_exponent": 3.0,
+                "plate_thickness": (0.01, 0.04),
                 "pressure_dependence": PressureDependence(reference_pressure=1e7, rate=2e-9),
                 "friction_heating": heating,
             }
         )
-    )  # fmt: skip
+    )
     record = b.to_record()
     assert record.shape == (1,)
     assert record.dtype.names == tuple(f.name for f in PROPS_FIELDS)
     expected = {
-        "radius": (0.75, 1.1), "lever": (0.76, 1.14), "length": 1.765,
-        "friction_max": (0.07, 0.05), "friction_drop": (0.04, 0.0), "friction_rate": (12.0, 0.0),
-        "interface_friction": 0.126, "fused": 0, "bouc_wen": 1, "exponent": 3.0,
-        "yield_displacement": (3e-4, 3e-4), "interface_yield": 2e-4, "axial_stiffness": 3e8,
-        "axial_damping": 2e5, "axial_floor": 200.0, "rim_displacement": (0.07, 0.12),
-        "rim_stiffness": 4e7, "rim_damping": 5e4, "rim_overrun": 0.006, "slip_capacity": 0.05,
-        "torsion_lever": 2 / 3 * 0.08, "torsion_yield": 3e-4 / (2 / 3 * 0.08),
-        "slider_radius": 0.08, "bilateral": 0, "fixed_load": 0.0,
-        "pressure_rate": 2e-9 / area, "pressure_load": 1e7 * area, "softens": 1, "heats": 1,
-        "softening_scale": 1.0 / (0.22 + 0.7**0.58), "softening_rate": -0.029 * math.log(0.7),
-        "softening_rest": 0.22, "initial_temperature": 5.0, "heat_rate": heating.parts()[0],
-        "heat_gain": heating.parts()[1], "heat_skin": heating.parts()[2],
-    }  # fmt: skip
+        "radius": (0.75, 1.1),
+        "lever": (0.76, 1.14),
+        "length": 1.765,
+        "friction_max": (0.07, 0.05),
+        "friction_drop": (0.04, 0.0),
+        "friction_rate": (12.0, 0.0),
+        "interface_friction": 0.126,
+        "fused": 0,
+        "bouc_wen": 1,
+        "exponent": 3.0,
+        "yield_displacement": (3e-4, 3e-4),
+        "interface_yield": 2e-4,
+        "axial_stiffness": 3e8,
+        "axial_damping": 2e5,
+        "axial_floor": 200.0,
+        "rim_displacement": (0.07, 0.12),
+        "rim_stiffness": 4e7,
+        "rim_damping": 5e4,
+        "rim_overrun": 0.006,
+        "slip_capacity": 0.05,
+        "torsion_lever": 2 / 3 * 0.08,
+        "torsion_yield": 3e-4 / (2 / 3 * 0.08),
+        "slider_radius": 0.08,
+        "bilateral": 0,
+        "fixed_load": 0.0,
+        "pressure_rate": 2e-9 / area,
+        "pressure_load": 1e7 * area,
+        "softens": 1,
+        "heats": 1,
+        "softening_scale": 1.0 / (0.22 + 0.7**0.58),
+        "softening_rate": -0.029 * math.log(0.7),
+        "softening_rest": 0.22,
+        "initial_temperature": 5.0,
+        "heat_rate": heating.parts()[0],
+        "heat_gain": heating.parts()[1],
+        "heat_skin": heating.parts()[2],
+    }
     assert set(expected) == set(record.dtype.names)
     for name, value in expected.items():
         assert_allclose(record[name][0], value, rtol=1e-14, atol=0.0, err_msg=name)
@@ -505,9 +570,14 @@ def test_record_of_the_neutral_values() -> None:
 
 def test_explicit_values_are_not_overruled() -> None:
     given_ = {
-        "axial_stiffness": 1e8, "axial_damping": 0.0, "rim_stiffness": 2e7, "rim_damping": 0.0,
-        "rim_overrun": 0.02, "slip_capacity": 0.03, "design_load": 1e5,
-    }  # fmt: skip
+        "axial_stiffness": 1e8,
+        "axial_damping": 0.0,
+        "rim_stiffness": 2e7,
+        "rim_damping": 0.0,
+        "rim_overrun": 0.02,
+        "slip_capacity": 0.03,
+        "design_load": 1e5,
+    }
     assert bearing(**given_).resolved() == given_
 
 
@@ -518,11 +588,14 @@ def test_defaults() -> None:
     axial = 20e9 * area / 0.085
     mass = 30e6 * area / 9.80665
     expected = {
-        "design_load": 30e6 * area, "axial_stiffness": axial, "rim_stiffness": 0.1 * axial,
+        "design_load": 30e6 * area,
+        "axial_stiffness": axial,
+        "rim_stiffness": 0.1 * axial,
         "axial_damping": 0.05 * 2 * math.sqrt(axial * mass),
         "rim_damping": 0.10 * 2 * math.sqrt(0.1 * axial * mass),
-        "rim_overrun": 0.008, "slip_capacity": 0.08,
-    }  # fmt: skip
+        "rim_overrun": 0.008,
+        "slip_capacity": 0.08,
+    }
     assert set(o) == set(expected)
     for name, value in expected.items():
         assert_allclose(o[name], value, rtol=1e-13, atol=0.0, err_msg=name)

@@ -87,20 +87,27 @@ def kept(ratio):
         "rescued": 0,
     }
     run = asdict(Run(0.01, 1200, 0.01, 0.1, 0.2))
-    here = {"direct": {"runs": [run], "errors": [1e-3], "dt": 0.01, "reference": 0.2},
-            "reduced": {"refused": "refused: not here"}}  # fmt: skip
+    here = {
+        "direct": {"runs": [run], "errors": [1e-3], "dt": 0.01, "reference": 0.2},
+        "reduced": {"refused": "refused: not here"},
+    }
     pairs = {
-        "direct": 0.1, "usual": 0.2 * ratio, "best": 0.1 * ratio, "window": 8.0,
+        "direct": 0.1,
+        "usual": 0.2 * ratio,
+        "best": 0.1 * ratio,
+        "window": 8.0,
         "ratios": {"usual over direct": 2.0 * ratio, "best over direct": ratio},
-    }  # fmt: skip
+    }
     kinds = ("singleFPBearing", "TripleFrictionPendulum", "LIR-DCFP, fast route")
     found = {
-        "state": "ok", "key": "a", "when": "2026-01-01",
+        "state": "ok",
+        "key": "a",
+        "when": "2026-01-01",
         "sizes": {"bearings": 1, "unknowns": 3, "bearing_unknowns": 3},
         "here": {"plain DCFP": here, "LIR-DCFP": here},
         "there": {k: {"usual": there, "best": there, "tried": {"x": 1.0}} for k in kinds},
         "pairs": {**dict.fromkeys(kinds, pairs), kinds[1]: {**pairs, "best": 0.05 * ratio}},
-    }  # fmt: skip
+    }
     return {"a": found, "machine": "a machine"}
 
 

@@ -98,8 +98,12 @@ BUNDLE = "class Bundle(NamedTuple):\n    {}: float\n    {}: float\n"
 HELD = "class Held(NamedTuple):\n    inner: Bundle\n"
 INNER = "@kernel\ndef inner(held):\n    return held.inner.right - held.inner.left\n"
 OUTER = "@kernel\ndef outer(held):\n    return 2.0 * inner(held)\n"
-ORDERS = ((("left", "right"), 1), (("left", "right"), 0), (("right", "left"), 1),
-          (("left", "right"), 0))  # fmt: skip
+ORDERS = (
+    (("left", "right"), 1),
+    (("left", "right"), 0),
+    (("right", "left"), 1),
+    (("left", "right"), 0),
+)
 
 
 @pytest.mark.parametrize(("called", "factor"), [("inner", 1.0), ("outer", 2.0)])
@@ -131,13 +135,18 @@ def test_fields_of_a_record_that_change_places_compile_a_kernel_anew(package: Pa
 
 LINES = {
     "kernels/law.py": (
-        "from package.a import f as g, h", "from other.x import X", "import package.e",
-        "if TYPE_CHECKING:", "    from package.bundle import (", "        Bundle,  # of", "    )",
+        "from package.a import f as g, h",
+        "from other.x import X",
+        "import package.e",
+        "if TYPE_CHECKING:",
+        "    from package.bundle import (",
+        "        Bundle,  # of",
+        "    )",
     ),
     "a.py": ("from package.b import LEAST", "from package.c import make", "from .room import d"),
     "b.py": ("from package import room",),
     "bundle.py": ("if TYPE_CHECKING:", "    from package.f import F", "", "from .room.g import G"),
-}  # fmt: skip
+}
 
 
 def test_sources_are_found_by_what_kernels_import(tmp_path: Path) -> None:
@@ -150,9 +159,16 @@ def test_sources_are_found_by_what_kernels_import(tmp_path: Path) -> None:
         (folder / name).write_text(text, encoding="utf-8")
     found = [path.relative_to(folder).as_posix() for _, path in compiled_sources(folder)]
     assert found == [
-        "_jit.py", "a.py", "b.py", "bundle.py", "e.py", "kernels/law.py",
-        "room/__init__.py", "room/d.py", "room/g.py",
-    ]  # fmt: skip
+        "_jit.py",
+        "a.py",
+        "b.py",
+        "bundle.py",
+        "e.py",
+        "kernels/law.py",
+        "room/__init__.py",
+        "room/d.py",
+        "room/g.py",
+    ]
 
 
 def as_a_file(cache: Path, _: pytest.MonkeyPatch) -> None:

@@ -30,9 +30,13 @@ from lir_element.errors import AnalysisWarning
 zarr = pytest.importorskip("zarr")
 
 BEARING = LIRBearing(
-    radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-    friction=CoulombFriction(0.066), interface_friction=0.16,
-)  # fmt: skip
+    radius=0.75,
+    slider_height=0.085,
+    slider_radius=0.08,
+    capacity=0.175,
+    friction=CoulombFriction(0.066),
+    interface_friction=0.16,
+)
 TIME = np.linspace(0.0, 1.0, 101)
 PULSES = {
     name: GroundMotion(x=size * np.sin(2.0 * np.pi * TIME), dt=0.01, name=name)
@@ -234,8 +238,10 @@ def test_histories_are_kept_on_request(tmp_path: Path) -> None:
     row = campaign.results().isel(run=7)
     own = time_histories(
         with_parameters(structure(), {n: float(row[n]) for n in SETS.names}),
-        PULSES[str(row["motion"].item())], scales=float(row["scale"]), record=Recording(every=5),
-    ).isel(run=0)  # fmt: skip
+        PULSES[str(row["motion"].item())],
+        scales=float(row["scale"]),
+        record=Recording(every=5),
+    ).isel(run=0)
     np.testing.assert_array_equal(mine["bearing_displacement"], own["bearing_displacement"])
     with pytest.raises(CampaignError, match="no histories of run 99"):
         campaign.store.histories(99)
@@ -268,8 +274,10 @@ def test_differences_are_told() -> None:
     old = {"a": 1, "b": {"x": 1, "y": 2}}
     assert differences(old, {"a": 1, "b": {"x": 1, "y": 2}}) == []
     assert differences(old, {"a": 2, "b": {"x": 1, "z": 3}}) == [
-        "a was 1, is 2", 'b: "y" is missing', 'b: "z" is new',
-    ]  # fmt: skip
+        "a was 1, is 2",
+        'b: "y" is missing',
+        'b: "z" is new',
+    ]
 
 
 def test_a_model_has_the_fingerprint_of_its_content() -> None:

@@ -40,9 +40,13 @@ def cluster() -> Iterator[Any]:
 
 def small(store: Path, sets: int = 12) -> Campaign:
     bearing = LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-        friction=CoulombFriction(0.066), interface_friction=0.16,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.066),
+        interface_friction=0.16,
+    )
     pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
     sample = full_grid({"friction": np.linspace(0.04, 0.08, sets)})
     return Campaign(lumped_mass(bearing, 5e4), pulse, store=store, batch=2, sample=sample)

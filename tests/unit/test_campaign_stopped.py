@@ -75,10 +75,14 @@ def test_kills_at_random_moments_change_nothing(tmp_path: Path) -> None:
     import json
 
     done = subprocess.run(  # noqa: S603  # this interpreter, this text
-        [sys.executable, "-W", "ignore", "-c", DRIVER], cwd=tmp_path, capture_output=True,
-        text=True, timeout=patience(), check=False,
+        [sys.executable, "-W", "ignore", "-c", DRIVER],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=patience(),
+        check=False,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"},
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout.splitlines()[-1])
     assert found["kills"] >= 3
@@ -89,9 +93,13 @@ def test_kills_at_random_moments_change_nothing(tmp_path: Path) -> None:
 
 def small(store: Path) -> Campaign:
     bearing = LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-        friction=CoulombFriction(0.066), interface_friction=0.16,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.066),
+        interface_friction=0.16,
+    )
     pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
     sample = full_grid({"friction": [0.04, 0.05, 0.06, 0.07]})
     return Campaign(lumped_mass(bearing, 5e4), pulse, store=store, batch=2, sample=sample)

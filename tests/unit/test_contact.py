@@ -104,9 +104,14 @@ def plain_sphere(
     slip = b.yield_displacement * max(on, 0.0)
     mu = law.at_speed(slip / dt if dt > 0.0 else static)
     return SimpleNamespace(
-        normal=-push * m, tangential=-push * mu * z @ t, push=push, friction=mu, slid=slip, dw=dw,
+        normal=-push * m,
+        tangential=-push * mu * z @ t,
+        push=push,
+        friction=mu,
+        slid=slip,
+        dw=dw,
         z=z,
-    )  # fmt: skip
+    )
 
 
 def point_case(b: LIRBearing, side: int, seed: int, regime: str) -> tuple[np.ndarray, Any]:
@@ -363,10 +368,14 @@ class Bodies:
         assert_allclose(turn.apply([0.0, 0.0, 1.0]), n, rtol=0.0, atol=1e-14)
         length = self.bearing.effective_radius + 3e-4
         place = self.c.place
-        self.x = np.array([
-            place[0], turn.apply(place[1]) - 1e-4 * n, turn.apply(place[2]) - 2e-4 * n,
-            -length * n + [0.0, 0.0, self.p.lever[1]],
-        ])  # fmt: skip
+        self.x = np.array(
+            [
+                place[0],
+                turn.apply(place[1]) - 1e-4 * n,
+                turn.apply(place[2]) - 2e-4 * n,
+                -length * n + [0.0, 0.0, self.p.lever[1]],
+            ]
+        )
         self.q = np.array([np.eye(3), turn.as_matrix(), turn.as_matrix(), np.eye(3)])
         self.jolt(rng, 0.1 * noise)
         self.press()

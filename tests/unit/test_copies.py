@@ -22,9 +22,13 @@ from lir_element import (
 from tests.patience import patience
 
 DEVICE = LIRBearing(
-    radius=(0.75, 1.1), slider_height=0.11, slider_radius=0.08, rims=(0.07, 0.11),
-    friction=(VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.08)), interface_friction=0.15,
-)  # fmt: skip
+    radius=(0.75, 1.1),
+    slider_height=0.11,
+    slider_radius=0.08,
+    rims=(0.07, 0.11),
+    friction=(VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.08)),
+    interface_friction=0.15,
+)
 COPIES: dict[str, Callable[[Any], Any]] = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,

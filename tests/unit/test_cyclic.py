@@ -307,9 +307,11 @@ def test_axial_load_history(sign: float) -> None:
     between = cyclic_test(bearing(), sign * np.array([-0.1, -0.05, 0.0]), [1e5, 2e5, 3e5])
     direct = cyclic_test(bearing(), sign * np.array([-0.1, 0.0]), [1e5, 3e5])
     assert_allclose(
-        along_x(between, "bearing_force")[-1], along_x(direct, "bearing_force")[-1],
-        rtol=1e-6, atol=0.0,
-    )  # fmt: skip
+        along_x(between, "bearing_force")[-1],
+        along_x(direct, "bearing_force")[-1],
+        rtol=1e-6,
+        atol=0.0,
+    )
 
 
 def test_axial_force_on_the_tilted_slider() -> None:

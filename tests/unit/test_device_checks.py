@@ -39,9 +39,12 @@ def test_overlap_is_what_integration_over_the_strips_gives(share: float) -> None
 def test_static_bearing_by_hand() -> None:
     """mu_e = 0.066 * 1.5 / 1.415; s* = 1.415 * 0.126 - 0.066 * 1.5; overlap of circles."""
     limits = DesignLimits(
-        margin=1.2, rim_strength=20e3, interface_pressure=15e6, liner_pressure=15e6,
+        margin=1.2,
+        rim_strength=20e3,
+        interface_pressure=15e6,
+        liner_pressure=15e6,
         lateral_force=40e3,
-    )  # fmt: skip
+    )
     checks = device_checks(bearing(), (100e3, 150e3), slip=0.01, limits=limits)
     by = {(c.title, c.subject): c for c in checks}
     held = by["interface holds until a rim is met", "N_min"]
@@ -75,9 +78,13 @@ def test_lateral_force_is_the_limit_that_the_bearing_tells() -> None:
 
 @pytest.mark.parametrize(
     ("other", "pressed"),
-    [({}, (0, 1)), ({"rims": (0.0928, 0.12)}, (0,)), ({"rims": (0.12, 0.0928)}, (1,)),
-     ({"radius": (0.75, 1.0)}, (0, 1))],
-)  # fmt: skip
+    [
+        ({}, (0, 1)),
+        ({"rims": (0.0928, 0.12)}, (0,)),
+        ({"rims": (0.12, 0.0928)}, (1,)),
+        ({"radius": (0.75, 1.0)}, (0, 1)),
+    ],
+)
 def test_rim_force_at_the_first_slip_is_that_of_the_rig(
     other: dict[str, object], pressed: tuple[int, ...]
 ) -> None:

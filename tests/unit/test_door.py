@@ -96,9 +96,13 @@ def test_kinds_and_choices() -> None:
 def test_results_and_devices_of_another_kind_are_told() -> None:
     """What a user tries first: a list of results, one result, an array as motion, an element."""
     bearing = LIRBearing(
-        radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-        friction=CoulombFriction(0.05), interface_friction=0.15,
-    )  # fmt: skip
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.15,
+    )
     model = lumped_mass(bearing, 15e3)
     data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
     with pytest.raises(TypeError, match=r"for several, summary\(\{name: data"):

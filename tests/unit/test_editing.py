@@ -19,9 +19,14 @@ from lir_element import CoulombFriction, LIRBearing
 
 def bearing(**changes):
     options = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.12,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.13, "plate_thickness": 0.05,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.12,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.13,
+        "plate_thickness": 0.05,
+    }
     return LIRBearing(**(options | changes))
 
 

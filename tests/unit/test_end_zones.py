@@ -16,17 +16,34 @@ from frames.assembly.end_zones import arms_geometric_stiffness
 from frames.plots.model_geometry import member_lines
 
 PLAIN = Section(
-    area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=200e9,
-    shear_modulus=77e9, density=0.0,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-5,
+    inertia_z=3e-5,
+    torsion_constant=2e-5,
+    elastic_modulus=200e9,
+    shear_modulus=77e9,
+    density=0.0,
+)
 SHEAR = Section(
-    area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=200e9,
-    shear_modulus=77e9, density=0.0, shear_area_y=5e-3, shear_area_z=4e-3,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-5,
+    inertia_z=3e-5,
+    torsion_constant=2e-5,
+    elastic_modulus=200e9,
+    shear_modulus=77e9,
+    density=0.0,
+    shear_area_y=5e-3,
+    shear_area_z=4e-3,
+)
 STIFF = Section(
-    area=1e2, inertia_y=1e2, inertia_z=1e2, torsion_constant=1e2, elastic_modulus=2e11,
-    shear_modulus=1e11, density=0.0,
-)  # fmt: skip
+    area=1e2,
+    inertia_y=1e2,
+    inertia_z=1e2,
+    torsion_constant=1e2,
+    elastic_modulus=2e11,
+    shear_modulus=1e11,
+    density=0.0,
+)
 AT_I, AT_J = (0.3, 0.1, -0.2), (-0.25, 0.15, -0.4)
 RELEASES = [None, {"j": ("My", "Mz")}, {"i": ("My",), "j": ("T", "Mz")}]
 
@@ -171,9 +188,13 @@ def test_as_opensees_joint_offsets():
             ops.pattern("Plain", 1, 1)
             ops.load(built.nodes["b"], *(1.0 if k == dof else 0.0 for k in range(6)))
             for command, *options in (
-                ("system", "FullGeneral"), ("numberer", "Plain"), ("constraints", "Plain"),
-                ("integrator", "LoadControl", 1), ("algorithm", "Linear"), ("analysis", "Static"),
-            ):  # fmt: skip
+                ("system", "FullGeneral"),
+                ("numberer", "Plain"),
+                ("constraints", "Plain"),
+                ("integrator", "LoadControl", 1),
+                ("algorithm", "Linear"),
+                ("analysis", "Static"),
+            ):
                 getattr(ops, command)(*options)
             assert ops.analyze(1) == 0
             flexibility[:, dof] = ops.nodeDisp(built.nodes["b"])
@@ -201,11 +222,14 @@ def test_rigid_turns_of_the_nodes_bend_nothing():
 
 @pytest.mark.parametrize(
     ("offsets", "words"),
-    [({"k": (0, 0, 1)}, "'k' is no end"), ({"i": (1.0, 0.0)}, "shape"),
-     ({"i": (2.5, 0, 0), "j": (-2.5, 0, 0)}, "backwards"),
-     ({"i": (2, 0, 0), "j": (-2, 0, 0)}, "less its offsets is 0 m long"),
-     ({"i": (250.0, 0, 0)}, r"250 m long, at most 20 m.*mm")],
-)  # fmt: skip
+    [
+        ({"k": (0, 0, 1)}, "'k' is no end"),
+        ({"i": (1.0, 0.0)}, "shape"),
+        ({"i": (2.5, 0, 0), "j": (-2.5, 0, 0)}, "backwards"),
+        ({"i": (2, 0, 0), "j": (-2, 0, 0)}, "less its offsets is 0 m long"),
+        ({"i": (250.0, 0, 0)}, r"250 m long, at most 20 m.*mm"),
+    ],
+)
 def test_offsets_that_cannot_be(offsets, words):
     frame = Frame("beam")
     frame.add_node("a", 0.0, 0.0, 0.0)

@@ -31,17 +31,28 @@ BOUNDS = PropertyBounds(PropertyModificationFactors(0.7, 1.6))
 PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
 LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
 BEARING = LIRBearing(
-    radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    friction=CoulombFriction(0.06), interface_friction=0.25,
-)  # fmt: skip
+    radius=1.5,
+    slider_height=0.3,
+    slider_radius=0.2,
+    capacity=0.45,
+    friction=CoulombFriction(0.06),
+    interface_friction=0.25,
+)
 SYSTEM = IsolationSystem(
-    bearings=(BEARING,) * 6, positions=PLACES, loads=LOADS, plan=(14.0, 10.0),
+    bearings=(BEARING,) * 6,
+    positions=PLACES,
+    loads=LOADS,
+    plan=(14.0, 10.0),
     combinations={"maximum": (2.8e6,) * 6, "minimum": (0.9e6,) * 6},
-)  # fmt: skip
+)
 ABOVE = Superstructure(
-    fixed_base_period=0.6, storey_weights=(2.0e6, 2.0e6, 1.8e6), storey_heights=(3.5, 3.0, 3.0),
-    R=5.0, storey_stiffness=(4e8, 3e8, 2e8), vertical_period=0.05,
-)  # fmt: skip
+    fixed_base_period=0.6,
+    storey_weights=(2.0e6, 2.0e6, 1.8e6),
+    storey_heights=(3.5, 3.0, 3.0),
+    R=5.0,
+    storey_stiffness=(4e8, 3e8, 2e8),
+    vertical_period=0.05,
+)
 
 
 class Asce:
@@ -91,9 +102,13 @@ class NCh:
 
 def one(mu: float, radius: float = 2.5, weight: float = 1500e3, **more: object) -> IsolationSystem:
     return IsolationSystem(
-        bearings=(FrictionPendulum((radius,), (mu,)),), positions=((0.0, 0.0),), loads=(weight,),
-        plan=(20.0, 20.0), gravity=G, **more,
-    )  # fmt: skip
+        bearings=(FrictionPendulum((radius,), (mu,)),),
+        positions=((0.0, 0.0),),
+        loads=(weight,),
+        plan=(20.0, 20.0),
+        gravity=G,
+        **more,
+    )
 
 
 def nominal(system: IsolationSystem, spectrum: object, **more: object) -> EquivalentLinear:
@@ -219,9 +234,12 @@ def test_total_displacement_of_a_square_plan() -> None:
     """b = d = 20 m, e = 1 m, y = 10 m, P_T = 1: D_TM / D_M = 1.15."""
     p = FrictionPendulum((2.5,), (0.06,))
     system = IsolationSystem(
-        bearings=(p,) * 4, loads=(375e3,) * 4, plan=(20.0, 20.0), gravity=G,
+        bearings=(p,) * 4,
+        loads=(375e3,) * 4,
+        plan=(20.0, 20.0),
+        gravity=G,
         positions=((0.0, -10.0), (0.0, 10.0), (-1.0, 0.0), (1.0, 0.0)),
-    )  # fmt: skip
+    )
     code = ASCE7(least_torsion=1.0)
     found = nominal(system, Asce(0.9), code=code)["nominal"]
     assert found.trace.value("P_T") == 1.0
@@ -301,9 +319,12 @@ def test_drifts_and_overturning_by_hand() -> None:
 
 def test_a_row_of_bearings_has_no_lever_across() -> None:
     row = replace(
-        SYSTEM, bearings=(BEARING,) * 2, positions=((-5.0, 0.0), (5.0, 0.0)), loads=(4.5e6,) * 2,
+        SYSTEM,
+        bearings=(BEARING,) * 2,
+        positions=((-5.0, 0.0), (5.0, 0.0)),
+        loads=(4.5e6,) * 2,
         combinations={"minimum": (3e6, 3e6)},
-    )  # fmt: skip
+    )
     t = nominal(row, Asce(0.6), superstructure=ABOVE)["nominal"].trace
     assert t.values("N_E") == pytest.approx([t.value("M_o") / 10.0] * 2)
     assert "N_Ey" not in t
@@ -332,14 +353,34 @@ def test_scope_of_checks_and_their_table() -> None:
     load = "pressure on the slider"
     assert titles["demand"] == {"storey drift", f"{load}, maximum", f"{load}, minimum"}
     assert {c.title for c in asce if c.scope == "procedure"} == {
-        "rims free at the total displacement", "effective period", "effective damping",
-        "stiffness over that at 0.2 D_M", "period over fixed base", "storeys", "height",
-        "no uplift, maximum", "no uplift, minimum",
-    }  # fmt: skip
+        "rims free at the total displacement",
+        "effective period",
+        "effective damping",
+        "stiffness over that at 0.2 D_M",
+        "period over fixed base",
+        "storeys",
+        "height",
+        "no uplift, maximum",
+        "no uplift, minimum",
+    }
     assert list(asce.to_dataframe()) == [
-        "clause", "title", "demand", "limit", "symbol", "unit", "relation", "standing", "bound",
-        "subject", "note", "void", "level", "ratio", "passed", "verdict",
-    ]  # fmt: skip
+        "clause",
+        "title",
+        "demand",
+        "limit",
+        "symbol",
+        "unit",
+        "relation",
+        "standing",
+        "bound",
+        "subject",
+        "note",
+        "void",
+        "level",
+        "ratio",
+        "passed",
+        "verdict",
+    ]
     assert {c.level for c in asce} == {"MCE_R"}
     with pytest.raises(CheckError, match="scope"):
         replace(asce[0], scope="all")

@@ -13,9 +13,13 @@ from lir_element.layout import PROPS_FIELDS
 
 def device(**changes) -> LIRBearing:
     options = {
-        "radius": (1.0, 0.8), "slider_height": 0.1, "slider_radius": 0.1, "capacity": 0.1,
-        "friction": VelocityFriction(0.06, 0.03, 20.0), "interface_friction": 0.12,
-    }  # fmt: skip
+        "radius": (1.0, 0.8),
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "capacity": 0.1,
+        "friction": VelocityFriction(0.06, 0.03, 20.0),
+        "interface_friction": 0.12,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -100,9 +104,11 @@ def test_an_element_refuses_what_is_not_its_own(name):
 def test_pendulum_without_vertical_coupling():
     """H = W U / sqrt(l^2 - U^2), whatever the height; the spring answers the height alone."""
     bearing = device(
-        friction=CoulombFriction(0.0), interface_friction=math.inf, capacity=math.inf,
+        friction=CoulombFriction(0.0),
+        interface_friction=math.inf,
+        capacity=math.inf,
         design_load=2e5,
-    )  # fmt: skip
+    )
     element = Element(bearing, features=Features(vertical_coupling=False))
     k = bearing.resolved()["axial_stiffness"]
     for lateral, down in ((0.05, 1e-4), (0.2, 1e-4), (0.2, -3e-4)):

@@ -10,12 +10,17 @@ from frames import Frame, ModelError, Section
 from frames.assembly.assemble import assemble
 from frames.model.applied_loads import applied_loads
 from frames.model.panels import nearest_edges, one_way, turning
-from frames.model.sanity_checks import doubts
+from frames.model.sanity_checks import sanity_warnings
 
 BEAM = Section(
-    area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=200e9,
-    shear_modulus=77e9, density=0.0,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-5,
+    inertia_z=3e-5,
+    torsion_constant=2e-5,
+    elastic_modulus=200e9,
+    shear_modulus=77e9,
+    density=0.0,
+)
 Q = 5e3  # N/m2
 PANELS = {
     "rectangle": [(0, 0), (8, 0), (8, 5), (0, 5)],
@@ -215,7 +220,7 @@ def test_two_beams_along_one_edge_and_beams_that_have_gone():
 def test_a_load_in_kilonewtons_is_a_doubt():
     frame, names = floor([(0, 0), (4, 0), (4, 4), (0, 4)])
     frame.add_floor_load("slab", names, 5.0)
-    (doubt,) = [d for d in doubts(frame) if "slab" in d]
+    (doubt,) = [d for d in sanity_warnings(frame) if "slab" in d]
     assert "5 kN/m2 are 5000 N/m2" in doubt
 
 

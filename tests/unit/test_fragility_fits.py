@@ -36,9 +36,9 @@ def test_stripes_are_a_regression_of_probits() -> None:
     curve = fit_stripes(im, over, records, resamples=20)
     probit = models.families.Binomial(models.families.links.Probit())
     fit = models.GLM(over, models.add_constant(np.log(im)), family=probit).fit(
-        cov_type="cluster", cov_kwds={"groups": pd.factorize(np.array(records))[0],
-                                      "use_correction": False},
-    )  # fmt: skip
+        cov_type="cluster",
+        cov_kwds={"groups": pd.factorize(np.array(records))[0], "use_correction": False},
+    )
     b0, b1 = fit.params
     assert curve.median == pytest.approx(math.exp(-b0 / b1), rel=1e-6)
     assert curve.dispersion == pytest.approx(1.0 / b1, rel=1e-6)
@@ -101,8 +101,10 @@ def test_censored_capacities_give_the_curve_that_all_would() -> None:
     censored = values > 1.0
     curve = fit_capacities(np.minimum(values, 1.0), names(400), censored=censored, resamples=2)
     assert "likelihood" in curve.method
-    for found, true, place in ((math.log(curve.median), math.log(0.8), 0),
-                               (curve.dispersion, 0.4, 1)):  # fmt: skip
+    for found, true, place in (
+        (math.log(curve.median), math.log(0.8), 0),
+        (curve.dispersion, 0.4, 1),
+    ):
         assert found == pytest.approx(true, abs=3.0 * math.sqrt(curve.covariance[place, place]))
     whole = fit_capacities(values, names(400), method="likelihood", resamples=2)
     assert whole.dispersion == pytest.approx(np.log(values).std(), rel=1e-5)  # of n
@@ -184,9 +186,11 @@ def test_tables() -> None:
 def test_what_determines_no_curve_is_refused() -> None:
     im, over, records = striped(drawn(3))
     for outcome, words in (
-        (np.zeros_like(over), "no run exceeds"), (np.ones_like(over), "all runs exceed"),
-        ((im > 0.8).astype(float), "must overlap"), (1.0 - over, "grow with the intensity"),
-    ):  # fmt: skip
+        (np.zeros_like(over), "no run exceeds"),
+        (np.ones_like(over), "all runs exceed"),
+        ((im > 0.8).astype(float), "must overlap"),
+        (1.0 - over, "grow with the intensity"),
+    ):
         with pytest.raises(FragilityError, match=words):
             fit_stripes(im, outcome, records)
     with pytest.raises(FragilityError, match="one length"):

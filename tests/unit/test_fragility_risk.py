@@ -165,9 +165,11 @@ def test_sobol_indices_of_ishigami() -> None:
 
 def test_what_makes_no_sense_is_refused() -> None:
     for im, rate, words in (
-        ([1.0], [0.1], "2 at least"), ([1.0, 2.0], [0.1, 0.2], "fall"),
-        ([2.0, 1.0], [0.2, 0.1], "rise"), ([1.0, 2.0], [0.1, 0.0], "positive"),
-    ):  # fmt: skip
+        ([1.0], [0.1], "2 at least"),
+        ([1.0, 2.0], [0.1, 0.2], "fall"),
+        ([2.0, 1.0], [0.2, 0.1], "rise"),
+        ([1.0, 2.0], [0.1, 0.0], "positive"),
+    ):
         with pytest.raises(FragilityError, match=words):
             HazardCurve(im, rate)
     with pytest.raises(FragilityError, match="one unit"):

@@ -44,9 +44,14 @@ DT = 0.005
 
 def device(**changes: Any) -> LIRBearing:
     options: dict[str, Any] = {
-        "radius": 1.0, "slider_height": 0.1, "slider_radius": 0.2, "capacity": math.inf,
-        "friction": CoulombFriction(MU), "interface_friction": math.inf, "design_load": LOAD,
-    }  # fmt: skip
+        "radius": 1.0,
+        "slider_height": 0.1,
+        "slider_radius": 0.2,
+        "capacity": math.inf,
+        "friction": CoulombFriction(MU),
+        "interface_friction": math.inf,
+        "design_load": LOAD,
+    }
     return LIRBearing(**(options | changes))
 
 
@@ -198,9 +203,14 @@ def held(bearing: LIRBearing, x: np.ndarray, level: Any = "pendulum", **options:
     element = Element(bearing, level, **options)
     length = bearing.effective_radius + LOAD / bearing.resolved()["axial_stiffness"]
     names = (
-        "temperature", "friction_coefficient", "friction_force", "work_friction", "eccentricity",
-        "axial_force", "force",
-    )  # fmt: skip
+        "temperature",
+        "friction_coefficient",
+        "friction_force",
+        "work_friction",
+        "eccentricity",
+        "axial_force",
+        "force",
+    )
     kept: dict[str, list[Any]] = {name: [] for name in names}
     u = np.zeros(12)
     for k, place in enumerate(x):

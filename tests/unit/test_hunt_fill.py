@@ -82,10 +82,11 @@ def test_the_hunt_ends_at_the_highest() -> None:
 
 def test_what_makes_no_sense_is_refused() -> None:
     for wrong, words in (
-        ({"first": 0.0}, "first"), ({"first": 1.0, "runs": 1}, "runs"),
+        ({"first": 0.0}, "first"),
+        ({"first": 1.0, "runs": 1}, "runs"),
         ({"first": 1.0, "resolution": 1.5}, "resolution"),
         ({"first": 2.0, "highest": 1.0}, "below"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(FragilityError, match=words):
             HuntFill(**wrong)
     with pytest.raises(FragilityError, match="one length"):

@@ -29,22 +29,31 @@ SCALE = Intensity(kind="scale")
 def runs(rows: list[tuple[str, float, float | str]]) -> IntensityRuns:
     """Return runs by motion, intensity, and demand [m] or status."""
     statuses = [value if isinstance(value, str) else "ok" for *_, value in rows]
-    table = pd.DataFrame({
-        "motion": [motion for motion, *_ in rows],
-        "scale": [im for _, im, _ in rows],
-        "im": [im for _, im, _ in rows],
-        "outcome": [outcome_of(status) for status in statuses],
-        "status": statuses,
-        "message": "",
-        "bearing displacement": [0.5 if isinstance(v, str) else v for *_, v in rows],
-    })  # fmt: skip
+    table = pd.DataFrame(
+        {
+            "motion": [motion for motion, *_ in rows],
+            "scale": [im for _, im, _ in rows],
+            "im": [im for _, im, _ in rows],
+            "outcome": [outcome_of(status) for status in statuses],
+            "status": statuses,
+            "message": "",
+            "bearing displacement": [0.5 if isinstance(v, str) else v for *_, v in rows],
+        }
+    )
     return IntensityRuns(table, SCALE, {"bearing displacement": "m"})
 
 
-TWO = runs([
-    ("a", 1.0, 0.1), ("b", 1.0, 0.2), ("a", 2.0, 0.3), ("b", 2.0, "slip_exceeded"),
-    ("a", 4.0, "rim_overrun"), ("b", 4.0, "slip_exceeded"), ("a", 3.0, "newton_failed"),
-])  # fmt: skip
+TWO = runs(
+    [
+        ("a", 1.0, 0.1),
+        ("b", 1.0, 0.2),
+        ("a", 2.0, 0.3),
+        ("b", 2.0, "slip_exceeded"),
+        ("a", 4.0, "rim_overrun"),
+        ("b", 4.0, "slip_exceeded"),
+        ("a", 3.0, "newton_failed"),
+    ]
+)
 TWO_IDA = IDA(TWO, LimitState.bearing_failure(), HuntFill(first=1.0))
 
 
@@ -79,9 +88,12 @@ def test_intensities_that_make_no_sense_are_refused() -> None:
 def test_every_status_has_a_meaning(status: RunStatus) -> None:
     """Only what fails physically is collapse; what is doubtful went to its end."""
     expected = (
-        "complete" if status in {RunStatus.OK, RunStatus.INACCURATE}
-        else "bearing failure" if status.is_bearing_failure else "numerical failure"
-    )  # fmt: skip
+        "complete"
+        if status in {RunStatus.OK, RunStatus.INACCURATE}
+        else "bearing failure"
+        if status.is_bearing_failure
+        else "numerical failure"
+    )
     assert outcome_of(status.name.lower()) == expected
 
 
@@ -98,8 +110,13 @@ def test_limit_states() -> None:
         LimitState.interface_slip(bearing.as_dcfp())
     with pytest.raises(FragilityError, match="or neither"):
         LimitState("drift", "storey drift, mean")
-    for make in (LimitState.drift, LimitState.ductility, LimitState.displacement,
-                 LimitState.plastic_rotation, LimitState.residual_displacement):  # fmt: skip
+    for make in (
+        LimitState.drift,
+        LimitState.ductility,
+        LimitState.displacement,
+        LimitState.plastic_rotation,
+        LimitState.residual_displacement,
+    ):
         with pytest.raises(FragilityError, match="limit"):
             make(-1.0)
 
@@ -128,10 +145,18 @@ def test_capacities_by_hand() -> None:
 
 def test_capacities_that_are_not_reached_or_reached_twice() -> None:
     found = IDA(
-        runs([("a", 1.0, 0.1), ("a", 2.0, 0.2), ("b", 1.0, 0.3), ("b", 2.0, 0.1),
-              ("c", 2.0, "slip_exceeded")]),
-        LimitState.displacement(0.25), HuntFill(first=1.0),
-    ).capacities()  # fmt: skip
+        runs(
+            [
+                ("a", 1.0, 0.1),
+                ("a", 2.0, 0.2),
+                ("b", 1.0, 0.3),
+                ("b", 2.0, 0.1),
+                ("c", 2.0, "slip_exceeded"),
+            ]
+        ),
+        LimitState.displacement(0.25),
+        HuntFill(first=1.0),
+    ).capacities()
     assert found["censored"].tolist() == [True, False, False]
     assert found["capacity"].tolist() == pytest.approx([2.0, 0.25 / 0.3, 1.0])
     assert found["resurrects"].tolist() == [False, True, False]
@@ -186,10 +211,16 @@ def test_figures_hold_what_they_show() -> None:
 def test_figure_of_fragility() -> None:
     capacities = np.array([1.0, 2.0, 2.5, 3.0, 4.0])
     found = IDA(
-        runs([(f"r{k}", c * f, v) for k, c in enumerate(capacities)
-              for f, v in ((0.99, 0.1), (1.01, "slip_exceeded"))]),
-        LimitState.bearing_failure(), HuntFill(first=1.0),
-    )  # fmt: skip
+        runs(
+            [
+                (f"r{k}", c * f, v)
+                for k, c in enumerate(capacities)
+                for f, v in ((0.99, 0.1), (1.01, "slip_exceeded"))
+            ]
+        ),
+        LimitState.bearing_failure(),
+        HuntFill(first=1.0),
+    )
     curve = fragility_of(found, LimitState.bearing_failure(), resamples=50)
     assert curve.median == pytest.approx(np.exp(np.log(capacities).mean()), rel=1e-4)
     figure = fragility_curves({"device": curve})

@@ -41,9 +41,11 @@ def fixed_base_periods(system: System) -> Array:
     # Condense the DOFs without mass.
     heavy = np.diag(m) > 0.0
     light = ~heavy
-    schur = k[np.ix_(heavy, light)] @ np.linalg.solve(
-        k[np.ix_(light, light)], k[np.ix_(light, heavy)]
-    ) if light.any() else 0.0  # fmt: skip
+    schur = (
+        k[np.ix_(heavy, light)] @ np.linalg.solve(k[np.ix_(light, light)], k[np.ix_(light, heavy)])
+        if light.any()
+        else 0.0
+    )
     squares = scipy.linalg.eigh(
         k[np.ix_(heavy, heavy)] - schur, m[np.ix_(heavy, heavy)], eigvals_only=True
     )
@@ -211,9 +213,16 @@ def test_library_refuses(make: Callable[[], Frame], words: str) -> None:
 def test_floors_are_eccentric_as_far_as_asked(off: tuple[float, float]) -> None:
     light = Section.box(0.4, 0.4, 0.025, density=0.0)
     frame = moment_frame(
-        (3, 2), 2, bearing=bearing(), bay_width=(6.0, 8.0), floor_mass=1.2e5, eccentricity=off,
-        column=light, beam=light, base_beam=light,
-    )  # fmt: skip
+        (3, 2),
+        2,
+        bearing=bearing(),
+        bay_width=(6.0, 8.0),
+        floor_mass=1.2e5,
+        eccentricity=off,
+        column=light,
+        beam=light,
+        base_beam=light,
+    )
     system = assemble(frame)
     middle = np.array([9.0, 8.0])
     for level in frame.levels:
@@ -240,8 +249,14 @@ def test_shear_building_with_eccentric_masses_twists() -> None:
     """The first coupled periods of a one-storey building on held bearings, in closed form."""
     plan, mass, stiffness = ((2, 1), (6.0, 8.0)), 1e5, 4e7
     frame = shear_building(
-        bearing(), mass, stiffness, storeys=1, plan=plan, eccentricity=(0.1, 0.0), gravity=0.0,
-    )  # fmt: skip
+        bearing(),
+        mass,
+        stiffness,
+        storeys=1,
+        plan=plan,
+        eccentricity=(0.1, 0.0),
+        gravity=0.0,
+    )
     system = assemble(frame)
     assert "floor-1-mass" in system.node_names
     off = 0.1 * 12.0

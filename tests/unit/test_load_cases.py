@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from frames import Frame, ModelError, Section, gravity, moment_frame
 from frames.assembly.assemble import assemble
 from frames.design import isolator_combinations
-from frames.model.sanity_checks import doubts
+from frames.model.sanity_checks import sanity_warnings
 from lir_element import CoulombFriction, LIRBearing
 
 SECTION = Section.box(0.3, 0.3, 0.02)
@@ -19,9 +19,13 @@ CASES = {"D": 1.2, "L": 0.5, "S": 0.0}
 
 def bearing():
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.12,
-        friction=CoulombFriction(0.05), interface_friction=0.13,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.12,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.13,
+    )
 
 
 def table(loaded=("D", "L", "S")):
@@ -85,9 +89,12 @@ def test_weights_may_belong_to_another_case():
 
 @pytest.mark.parametrize(
     ("factors", "words"),
-    [({"D": 1.0, "L": 1.0}, 'load case "S".*has no factor'), ({"L": 1.0}, 'load case "D".*weigh'),
-     ({"D": float("inf"), "L": 1.0, "S": 1.0}, 'factor of load case "D"')],
-)  # fmt: skip
+    [
+        ({"D": 1.0, "L": 1.0}, 'load case "S".*has no factor'),
+        ({"L": 1.0}, 'load case "D".*weigh'),
+        ({"D": float("inf"), "L": 1.0, "S": 1.0}, 'factor of load case "D"'),
+    ],
+)
 def test_combinations_that_leave_something_open(factors, words):
     with pytest.raises(ModelError, match=words):
         table().combined(factors)
@@ -163,11 +170,11 @@ def test_what_cannot_be_mass():
 def test_a_mass_source_without_loads_is_a_doubt():
     frame = table(("D", "L"))
     frame.set_mass_source({"D": 1.0, "LL": 0.25, "S": 0.0})
-    (doubt,) = [note for note in doubts(frame) if "set_mass_source" in note]
+    (doubt,) = [note for note in sanity_warnings(frame) if "set_mass_source" in note]
     assert '"LL"' in doubt
     assert "there are D, L" in doubt
     frame.set_mass_source({"D": 1.0, "L": 0.25})
-    assert not [note for note in doubts(frame) if "set_mass_source" in note]
+    assert not [note for note in sanity_warnings(frame) if "set_mass_source" in note]
 
 
 def test_superelements_count_as_weight():
@@ -212,8 +219,10 @@ def test_what_bearings_carry_in_the_combinations_of_asce_7():
     frame.add_floor_load("live", corners, 2e3, case="L")
     weight = frame.gravity * assemble(frame).node_mass[:, 0].sum()
     for name, (dead, live) in {
-        "average": (1.0, 0.5), "maximum": (1.2 + 0.2 * 1.5, 1.0), "minimum": (0.9 - 0.2 * 1.5, 0.0),
-    }.items():  # fmt: skip
+        "average": (1.0, 0.5),
+        "maximum": (1.2 + 0.2 * 1.5, 1.0),
+        "minimum": (0.9 - 0.2 * 1.5, 0.0),
+    }.items():
         combined = frame.combined(isolator_combinations(1.5)[name])
         forces = gravity(combined).axial_forces
         assert forces.sum() == pytest.approx(dead * weight + live * 2e3 * area, rel=1e-6)

@@ -35,13 +35,19 @@ def linear(system: IsolationSystem) -> EquivalentLinear:
 @pytest.fixture(scope="module")
 def system() -> IsolationSystem:
     bearing = LIRBearing(
-        radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-        friction=CoulombFriction(0.06), interface_friction=0.25,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.3,
+        slider_radius=0.2,
+        capacity=0.45,
+        friction=CoulombFriction(0.06),
+        interface_friction=0.25,
+    )
     return IsolationSystem(
-        bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+        bearings=(bearing,) * 4,
+        loads=(1.5e6,) * 4,
+        plan=(9.0, 9.0),
         positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
-    )  # fmt: skip
+    )
 
 
 def motions(count: int = 7, **facts: Any) -> MotionSet:
@@ -82,7 +88,7 @@ def test_the_mean_spectrum_is_least_where_it_is_said(linear: EquivalentLinear) -
     assert check.passed == (check.demand >= check.limit)
     doubled = motion_checks(
         MotionSet({n: m.scaled(2.0) for n, m in given.items()}), TARGET, linear
-    )[1]  # fmt: skip
+    )[1]
     assert doubled.demand == pytest.approx(2.0 * check.demand)
 
 
@@ -90,9 +96,7 @@ def test_pairs_are_counted(linear: EquivalentLinear) -> None:
     assert motion_checks(motions(), TARGET, linear)[0].passed
     few = motions(6)
     assert not motion_checks(few, TARGET, linear)[0].passed
-    single = MotionSet(
-        {n: GroundMotion(x=m.x, dt=m.dt, name=n) for n, m in motions().items()}
-    )  # fmt: skip
+    single = MotionSet({n: GroundMotion(x=m.x, dt=m.dt, name=n) for n, m in motions().items()})
     assert motion_checks(single, TARGET, linear)[0].demand == 0.0
 
 

@@ -52,9 +52,12 @@ def test_rotd_is_that_of_the_rotated_motion() -> None:
     )
     x, y = (motion.response_spectrum(PERIODS, 0.10, c)["pseudo_acceleration"] for c in "xy")
     for measure, value in {
-        "x": x, "y": y, "SRSS": np.hypot(x, y), "geometric mean": np.sqrt(x * y),
+        "x": x,
+        "y": y,
+        "SRSS": np.hypot(x, y),
+        "geometric mean": np.sqrt(x * y),
         "arithmetic mean": 0.5 * (x + y),
-    }.items():  # fmt: skip
+    }.items():
         np.testing.assert_allclose(pair_spectrum(motion, PERIODS, 0.10, measure), value, rtol=1e-12)
 
 
@@ -75,8 +78,14 @@ def test_measures_of_a_motion_on_one_line() -> None:
     with pytest.raises(MotionError, match="periods hold -1"):
         pair_spectrum(line, [-1.0])
     assert set(MEASURES) == {
-        "RotD100", "RotD50", "SRSS", "geometric mean", "arithmetic mean", "x", "y",
-    }  # fmt: skip
+        "RotD100",
+        "RotD50",
+        "SRSS",
+        "geometric mean",
+        "arithmetic mean",
+        "x",
+        "y",
+    }
 
 
 def test_measures_of_a_constant_and_of_a_sine() -> None:
@@ -155,9 +164,12 @@ def test_amplitudes_fit_the_shape_of_the_target() -> None:
     alike = MotionSet({str(s): shaken(5, s) for s in strengths})
     with pytest.warns(MotionWarning, match="identical or proportional"):
         scaled = alike.scaled_to(
-            Spectrum.nch2745("II"), rule="NCh2745", periods=(1.0, 3.0), limits=(0.01, 100.0),
+            Spectrum.nch2745("II"),
+            rule="NCh2745",
+            periods=(1.0, 3.0),
+            limits=(0.01, 100.0),
             least=3,
-        )  # fmt: skip
+        )
     assert scaled.scaling is not None
     products = [scaled.scaling.factors[str(s)] * s for s in strengths]
     assert products == pytest.approx([products[0]] * 3)

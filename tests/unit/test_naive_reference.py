@@ -24,11 +24,18 @@ LENGTH = sum(RADII) - HEIGHT
 
 def bearing() -> LIRBearing:
     return LIRBearing(
-        radius=RADII, slider_height=HEIGHT, slider_radius=0.1, rims=RIMS,
-        friction=(CoulombFriction(MU[0]), CoulombFriction(MU[1])), interface_friction=MU_H,
-        yield_displacement=U_Y, interface_yield_displacement=U_YH, rim_stiffness=K_RIM,
-        axial_stiffness=5e9, rim_overrun=0.05,
-    )  # fmt: skip
+        radius=RADII,
+        slider_height=HEIGHT,
+        slider_radius=0.1,
+        rims=RIMS,
+        friction=(CoulombFriction(MU[0]), CoulombFriction(MU[1])),
+        interface_friction=MU_H,
+        yield_displacement=U_Y,
+        interface_yield_displacement=U_YH,
+        rim_stiffness=K_RIM,
+        axial_stiffness=5e9,
+        rim_overrun=0.05,
+    )
 
 
 def naive(path: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

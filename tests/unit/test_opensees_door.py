@@ -100,10 +100,17 @@ def test_without_a_model(ops: Any) -> None:
 @pytest.mark.parametrize(
     ("orient", "ndm"),
     [
-        (None, 3), (None, 2), ((0, 1, 0), 3), ((1, 0, 0), 3), ((1, 0, 0), 2), ((3, 4, 0), 2),
-        ((0, -2, 0), 2), ((1, 2, 3, 1, 0, 0), 3), ((0.95, 0.3, 0), 3),
+        (None, 3),
+        (None, 2),
+        ((0, 1, 0), 3),
+        ((1, 0, 0), 3),
+        ((1, 0, 0), 2),
+        ((3, 4, 0), 2),
+        ((0, -2, 0), 2),
+        ((1, 2, 3, 1, 0, 0), 3),
+        ((0.95, 0.3, 0), 3),
     ],
-)  # fmt: skip
+)
 def test_axes_are_right_handed_and_z_is_the_bearings(orient: Any, ndm: int) -> None:
     axes = bearing_axes(orient, ndm)
     assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-12)

@@ -20,9 +20,13 @@ pytestmark = pytest.mark.skipif(
 )
 
 BEARING = LIRBearing(
-    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-    friction=CoulombFriction(0.05), interface_friction=0.12,
-)  # fmt: skip
+    radius=1.0,
+    slider_height=0.1,
+    slider_radius=0.1,
+    capacity=0.2,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.12,
+)
 BEAM = (0.02, 2e11, 8e10, 1e-4, 3e-4, 3e-4)
 
 
@@ -169,18 +173,28 @@ def spare_node(ops):
 @pytest.mark.parametrize(
     ("leave", "message", "cure"),
     [
-        (lambda ops: ops.fix(101, 1, 1, 0, 0, 0, 1),
-         r"nodes 101 were removed, but their fix was not: .*remove\('sp', 101, dof\) .* 1, 2, 6",
-         lambda ops: [ops.remove("sp", 101, dof) for dof in (1, 2, 6)]),
-        (lambda ops: ops.equalDOF(11, 101, 1), r"constraints of nodes 101 .*remove\('mp', 101\)",
-         lambda ops: ops.remove("mp", 101)),
-        (lambda ops: ops.equalDOF(101, 12, 1), r"constraints of nodes 12 .*remove\('mp', 12\)",
-         lambda ops: ops.remove("mp", 12)),
-        (lambda ops: ops.element("elasticBeamColumn", 77, 101, 11, *BEAM, 1),
-         r"elements 77 end at a node that was removed: .*remove\('element', 77\)",
-         lambda ops: ops.remove("element", 77)),
+        (
+            lambda ops: ops.fix(101, 1, 1, 0, 0, 0, 1),
+            r"nodes 101 were removed, but their fix was not: .*remove\('sp', 101, dof\) .* 1, 2, 6",
+            lambda ops: [ops.remove("sp", 101, dof) for dof in (1, 2, 6)],
+        ),
+        (
+            lambda ops: ops.equalDOF(11, 101, 1),
+            r"constraints of nodes 101 .*remove\('mp', 101\)",
+            lambda ops: ops.remove("mp", 101),
+        ),
+        (
+            lambda ops: ops.equalDOF(101, 12, 1),
+            r"constraints of nodes 12 .*remove\('mp', 12\)",
+            lambda ops: ops.remove("mp", 12),
+        ),
+        (
+            lambda ops: ops.element("elasticBeamColumn", 77, 101, 11, *BEAM, 1),
+            r"elements 77 end at a node that was removed: .*remove\('element', 77\)",
+            lambda ops: ops.remove("element", 77),
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_removed_nodes_leave_behind_is_refused(ops, leave, message, cure):
     """OpenSees would end the process; with the remedy that the message gives the model is taken."""
     portal(ops, loaded=False)

@@ -20,9 +20,13 @@ pytestmark = pytest.mark.skipif(
 )
 
 BEARING = LIRBearing(
-    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-    friction=CoulombFriction(0.05), interface_friction=0.12,
-)  # fmt: skip
+    radius=1.0,
+    slider_height=0.1,
+    slider_radius=0.1,
+    capacity=0.2,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.12,
+)
 STEEL = (0.02, 2.1e11, 8.1e10, 1e-4, 2e-4, 3e-4)
 
 
@@ -180,8 +184,24 @@ def swinging(ops, *options, kinds=("Elastic",), stiffness=(4e6, 9e6)):
     for k, value in enumerate(stiffness):
         ops.uniaxialMaterial("Elastic", 10 + k, value, 1e4)
     mats = [10 + k for k in range(len(stiffness))]
-    ops.element("zeroLength", 1, 1, 2, "-mat", *mats, "-dir", *range(1, 1 + len(mats)),
-                "-orient", c, s, 0.0, -s, c, 0.0, *options)  # fmt: skip
+    ops.element(
+        "zeroLength",
+        1,
+        1,
+        2,
+        "-mat",
+        *mats,
+        "-dir",
+        *range(1, 1 + len(mats)),
+        "-orient",
+        c,
+        s,
+        0.0,
+        -s,
+        c,
+        0.0,
+        *options,
+    )
 
 
 @pytest.mark.parametrize("options", [(), ("-doRayleigh", 1)])

@@ -9,9 +9,13 @@ from lir_element.opensees.placement import place
 pytest.importorskip("openseespy")
 
 BEARING = LIRBearing(
-    radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-    friction=CoulombFriction(0.05), interface_friction=0.12,
-)  # fmt: skip
+    radius=1.0,
+    slider_height=0.1,
+    slider_radius=0.1,
+    capacity=0.2,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.12,
+)
 
 
 def nodes(ops, rise):

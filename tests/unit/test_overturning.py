@@ -19,9 +19,14 @@ from lir_element import CoulombFriction, LIRBearing
 Array = npt.NDArray[np.float64]
 
 BEARING = LIRBearing(
-    radius=2.5, slider_height=0.225, slider_radius=0.225, capacity=0.356,
-    friction=CoulombFriction(0.05), interface_friction=0.105, design_load=5e5,
-)  # fmt: skip
+    radius=2.5,
+    slider_height=0.225,
+    slider_radius=0.225,
+    capacity=0.356,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.105,
+    design_load=5e5,
+)
 PLAN = ((2, 1), (6.0, 5.0))
 MASS, STIFFNESS, HEIGHT = 5e4, 8e7, 3.5
 G = 9.80665
@@ -77,9 +82,14 @@ def test_beams_and_columns_resist_that_a_bearing_leaves_the_plane_of_the_others(
     # without friction plates hold the base's nodes by N R alone, 1e-4 of what columns do
     smooth = replace(BEARING, axial_stiffness=axial, friction=CoulombFriction(1e-9))
     frame = shear_building(
-        smooth, MASS, stiff, storeys=3, storey_height=HEIGHT, plan=((1, 1), side),
+        smooth,
+        MASS,
+        stiff,
+        storeys=3,
+        storey_height=HEIGHT,
+        plan=((1, 1), side),
         base_stiffness=bending,
-    )  # fmt: skip
+    )
     push = 2e4
     for ix in (0, 1):
         for iy in (0, 1):
@@ -135,7 +145,7 @@ def plane() -> Frame:
         (lambda: stick(overturning=False), "carry 0 % of an overturning moment"),
         (lambda: stick(plan=None), "one bearing carries the whole model"),
     ],
-)  # fmt: skip
+)
 def test_whether_bearings_follow_overturning_is_told_by_the_model(
     make: Callable[[], Frame], words: str
 ) -> None:

@@ -67,9 +67,12 @@ def test_torsion_divides_by_the_product() -> None:
 def test_one_and_fifteen_per_cent_are_1_15() -> None:
     """One guide adds 1 + 0.150 to 1.125."""
     square = replace(
-        SYSTEM, bearings=(PENDULUM,) * 4, loads=(1.5e6,) * 4, plan=(20.0, 20.0),
+        SYSTEM,
+        bearings=(PENDULUM,) * 4,
+        loads=(1.5e6,) * 4,
+        plan=(20.0, 20.0),
         positions=((0.0, -10.0), (0.0, 10.0), (-1.0, 0.0), (1.0, 0.0)),
-    )  # fmt: skip
+    )
     t = calculation(square, ASCE7(least_torsion=1.0))
     assert t.value("D_TM") / t.value("D_M") == pytest.approx(1.15, rel=1e-12)
 
@@ -116,8 +119,14 @@ def test_stiffness_has_no_factor_of_units() -> None:
 
 def test_a_double_pendulum_is_shorter_than_both_radii() -> None:
     """The same programs take 2 R: the slider's height goes off, and friction acts on R, not L."""
-    bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-                         friction=CoulombFriction(0.06), interface_friction=0.25)  # fmt: skip
+    bearing = LIRBearing(
+        radius=1.5,
+        slider_height=0.3,
+        slider_radius=0.2,
+        capacity=0.45,
+        friction=CoulombFriction(0.06),
+        interface_friction=0.25,
+    )
     p = FrictionPendulum.of(bearing)
     assert p.effective_radius == pytest.approx(2.7)
     assert p.effective_friction == pytest.approx(0.06 * 3.0 / 2.7)

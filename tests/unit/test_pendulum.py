@@ -38,10 +38,14 @@ def series_loop(radii: list[float], frictions: list[float], peak: float) -> tupl
     Each surface slides where the force is off its restoring force by more than its friction: a
     play operator of the force.
     """
-    force = np.concatenate([np.linspace(0, peak, 4000)] + 2 * [
-        peak * np.interp(np.arange(12000), [0, 4000, 12000], [1.0, 0.0, -1.0]),
-        peak * np.interp(np.arange(12000), [0, 4000, 12000], [-1.0, 0.0, 1.0]),
-    ])  # fmt: skip
+    force = np.concatenate(
+        [np.linspace(0, peak, 4000)]
+        + 2
+        * [
+            peak * np.interp(np.arange(12000), [0, 4000, 12000], [1.0, 0.0, -1.0]),
+            peak * np.interp(np.arange(12000), [0, 4000, 12000], [-1.0, 0.0, 1.0]),
+        ]
+    )
     u = np.zeros(len(force))
     for radius, mu in zip(radii, frictions, strict=True):
         x = 0.0
@@ -84,14 +88,21 @@ def test_unlike_radii_and_frictions() -> None:
 def test_the_bearing_of_the_element_is_a_pendulum_below_its_rims() -> None:
     """Its rigid slider slides on both surfaces at once, whatever their frictions: no corner."""
     friction = (CoulombFriction(0.04), CoulombFriction(0.08))
-    bearing = LIRBearing(radius=(1.0, 1.5), slider_height=0.2, slider_radius=0.2, capacity=0.4,
-                         friction=friction, interface_friction=0.2)  # fmt: skip
+    bearing = LIRBearing(
+        radius=(1.0, 1.5),
+        slider_height=0.2,
+        slider_radius=0.2,
+        capacity=0.4,
+        friction=friction,
+        interface_friction=0.2,
+    )
     p = FrictionPendulum.of(bearing)
     assert p.effective_radius == pytest.approx(2.3)
     assert p.effective_friction == pytest.approx((0.04 * 1.0 + 0.08 * 1.5) / 2.3)
     assert (p.corner, p.capacity) == (0.0, pytest.approx(0.4))
-    path = 0.2 * np.concatenate([np.linspace(0, 1, 50), np.linspace(1, -1, 100)[1:],
-                                 np.linspace(-1, 1, 100)[1:]])  # fmt: skip
+    path = 0.2 * np.concatenate(
+        [np.linspace(0, 1, 50), np.linspace(1, -1, 100)[1:], np.linspace(-1, 1, 100)[1:]]
+    )
     data = cyclic_test(bearing, path, axial_load=1e6)
     force = np.asarray(data.bearing_force.sel(axis="x")).ravel()
     # Small angles in the formula: (U/L)^2 / 2 = 0.4 %, and mu U/L = 0.6 % of the axial force.

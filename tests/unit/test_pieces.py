@@ -7,7 +7,7 @@ import pytest
 
 from frames._jit import kernel
 from lir_element import RunStatus
-from lir_element.interruptible import in_pieces, ready
+from lir_element.interruptible import interruptible, ready
 
 
 class Loop:
@@ -37,21 +37,21 @@ class Loop:
 
 def test_to_the_end() -> None:
     loop = Loop(work=17)
-    assert in_pieces(loop.advance, lambda: loop.done, 1000) is RunStatus.OK
+    assert interruptible(loop.advance, lambda: loop.done, 1000) is RunStatus.OK
     assert (loop.done, loop.left) == (1000, 17)
     assert loop.calls[1] > loop.calls[0]  # the loop is fast: larger pieces
 
 
 def test_slow_work_makes_small_pieces() -> None:
     loop = Loop(work=100, pause=0.1)
-    in_pieces(loop.advance, lambda: loop.done, 1)
+    interruptible(loop.advance, lambda: loop.done, 1)
     assert min(loop.calls) < 20
 
 
 def test_progress_goes_to_one() -> None:
     shares: list[float] = []
     loop = Loop(work=7)
-    in_pieces(loop.advance, lambda: loop.done, 333, shares.append)
+    interruptible(loop.advance, lambda: loop.done, 333, shares.append)
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     assert 40 <= len(shares) <= 50
@@ -59,9 +59,9 @@ def test_progress_goes_to_one() -> None:
 
 def test_failure_and_interrupt() -> None:
     failed = Loop(end=int(RunStatus.RIM_OVERRUN))
-    assert in_pieces(failed.advance, lambda: failed.done, 10**6) is RunStatus.RIM_OVERRUN
+    assert interruptible(failed.advance, lambda: failed.done, 10**6) is RunStatus.RIM_OVERRUN
     stopped = Loop(end=KeyboardInterrupt())
-    assert in_pieces(stopped.advance, lambda: stopped.done, 10**6) is RunStatus.INTERRUPTED
+    assert interruptible(stopped.advance, lambda: stopped.done, 10**6) is RunStatus.INTERRUPTED
 
 
 def test_ready_compiles_without_calling() -> None:
@@ -84,7 +84,7 @@ def test_ready_compiles_without_calling() -> None:
 def test_every_total(total: int) -> None:
     shares: list[float] = []
     loop = Loop(work=1)
-    in_pieces(loop.advance, lambda: loop.done, total, shares.append)
+    interruptible(loop.advance, lambda: loop.done, total, shares.append)
     assert loop.done == total
     assert shares[-1] == 1.0
 
@@ -106,7 +106,7 @@ def test_no_piece_goes_beyond_its_room() -> None:
     def done() -> int:
         return loop.done
 
-    assert in_pieces(advance, done, 1000, seen.append, room=room) is RunStatus.OK
+    assert interruptible(advance, done, 1000, seen.append, room=room) is RunStatus.OK
     assert loop.done == 1000
     assert first[0] == 994
     assert max(loop.calls) <= 8 * 50  # the first pieces alone spend their work

@@ -109,9 +109,12 @@ def test_the_step_is_the_closest_point_of_the_elastic_trial(seed):
 
     begin = np.concatenate([0.5 * s, np.zeros(6)]) / scale
     done = minimize(
-        energy, begin, constraints={"type": "ineq", "fun": inside}, method="SLSQP",
+        energy,
+        begin,
+        constraints={"type": "ineq", "fun": inside},
+        method="SLSQP",
         options={"maxiter": 500, "ftol": 1e-14},
-    )  # fmt: skip
+    )
     ours = np.concatenate([s, hard * new[:6]]) / scale
     assert min(inside(ours)) > -1e-8
     assert energy(ours) <= energy(done.x) * (1.0 + 1e-5) + 1e-9

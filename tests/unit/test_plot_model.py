@@ -21,9 +21,13 @@ MOTION = GroundMotion(x=1.5 * np.sin(2 * np.pi * TIME), y=0.4 * np.sin(9.0 * TIM
 
 def bearing():
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.12,
-        friction=CoulombFriction(0.05), interface_friction=0.13,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.12,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.13,
+    )
 
 
 @pytest.fixture(scope="module")

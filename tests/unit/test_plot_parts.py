@@ -31,17 +31,24 @@ GAP = 0.06
 
 def bearing():
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.3,
-        friction=CoulombFriction(0.05), interface_friction=0.13,
-    ).as_dcfp(rims=False)  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.3,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.13,
+    ).as_dcfp(rims=False)
 
 
 def building():
     """Return a small frame that yields, in a moat, with a brace, a rod and a damper."""
     frame = moment_frame(
-        (1, 1), 1, bearing=bearing(), name="small",
+        (1, 1),
+        1,
+        bearing=bearing(),
+        name="small",
         hinges={"column": PlasticHinge(moment_y=1.2e5, moment_z=1.2e5)},
-    )  # fmt: skip
+    )
     frame.add_moat("moat", ["base-0-0"], {"x+": Gap(gap=GAP, stiffness=1e8, damping=1e5)})
     brace = Bilinear(stiffness=2e7, yield_force=4e4, hardening=0.02)
     frame.add_link("brace", "base-0-0", "floor-1-1-0", brace)
@@ -224,9 +231,11 @@ def test_energies_of_parts_are_drawn_where_there_are_any(run):
 def test_a_stick_without_members(tmp_path):
     """Springs and links alone: storeys that yield stand beside their axial springs."""
     stick = shear_building(
-        bearing(), [3e4] * 2, [3e7] * 2,
+        bearing(),
+        [3e4] * 2,
+        [3e7] * 2,
         storey_law=lambda k: Bilinear(stiffness=k, yield_force=3e4),
-    )  # fmt: skip
+    )
     data = time_history(stick, MOTION, dt=0.01)
     for figure in (
         plots.model_view(stick),

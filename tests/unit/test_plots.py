@@ -204,8 +204,11 @@ def test_posture_at_the_contact_closes_the_gap(results: dict[str, xr.Dataset]) -
     bearing = SYSTEMS["rims"]
     when = impact_instants(data, NAME)
     assert list(when) == [
-        "before the impact", "rim contact", "largest displacement", "after the impact",
-    ]  # fmt: skip
+        "before the impact",
+        "rim contact",
+        "largest displacement",
+        "after the impact",
+    ]
     assert list(when.values()) == sorted(when.values())
     plane = impact_direction(data, NAME, when["rim contact"])
     now = posture(data, bearing, NAME, when["rim contact"], plane)
@@ -228,8 +231,12 @@ def test_slip_of_the_section_is_that_of_the_results(results: dict[str, xr.Datase
 
 
 def test_the_dataset_has_the_geometry_of_its_bearings() -> None:
-    devices = {"uneven": UNEVEN, "thick": replace(UNEVEN, plate_thickness=(0.03, 0.05)),
-               "one": BEARING.as_dcfp(), "free": BEARING.as_dcfp(rims=False)}  # fmt: skip
+    devices = {
+        "uneven": UNEVEN,
+        "thick": replace(UNEVEN, plate_thickness=(0.03, 0.05)),
+        "one": BEARING.as_dcfp(),
+        "free": BEARING.as_dcfp(rims=False),
+    }
     records = np.concatenate([device.to_record() for device in devices.values()])
     data = xr.Dataset(device_variables(records), bearing_coordinates(list(devices)))
     for name, device in devices.items():
@@ -305,8 +312,11 @@ def test_loops_show_the_data_with_units(results: dict[str, xr.Dataset]) -> None:
 
 
 def test_capacity_is_drawn_to_scale(results: dict[str, xr.Dataset]) -> None:
-    figure = plots.orbits({"LIR": results["LIR"], "free": results["free"]}, NAME,
-                          capacity={"LIR": 0.10, "free": math.inf})  # fmt: skip
+    figure = plots.orbits(
+        {"LIR": results["LIR"], "free": results["free"]},
+        NAME,
+        capacity={"LIR": 0.10, "free": math.inf},
+    )
     with_rim, without = figure.axes
     factor = 1e3 if "mm" in with_rim.get_xlabel() else 1.0
     assert_allclose(with_rim.patches[0].get_radius(), 0.10 * factor, rtol=1e-12, atol=0.0)
@@ -318,9 +328,8 @@ def test_energy_areas_add_up_to_the_input(results: dict[str, xr.Dataset]) -> Non
     energy = results["LIR"]["energy"]
     total = energy.sel(term="input").to_numpy()
     drawn = sum(
-        energy.sel(term=list(terms)).sum("term").to_numpy()
-        for terms, _, _ in _groups().values()
-    )  # fmt: skip
+        energy.sel(term=list(terms)).sum("term").to_numpy() for terms, _, _ in _groups().values()
+    )
     assert_allclose(drawn, total, rtol=0.0, atol=1e-4 * np.abs(total).max())
     assert len(panel.collections) == len(_groups())
 
@@ -420,8 +429,10 @@ def test_a_window_shows_its_part_alone(results: dict[str, xr.Dataset]) -> None:
     data = results["LIR"]
     part = data.sel(time=slice(0.2, 0.6))
     u = part["bearing_displacement"].sel(bearing=NAME, axis="x").to_numpy()
-    for figure in (plots.hysteresis(data, NAME, start=0.2, end=0.6),
-                   plots.orbits(data, NAME, start=0.2, end=0.6)):  # fmt: skip
+    for figure in (
+        plots.hysteresis(data, NAME, start=0.2, end=0.6),
+        plots.orbits(data, NAME, start=0.2, end=0.6),
+    ):
         drawn = figure.axes[0].lines[0].get_xdata()
         assert len(drawn) == len(u)
         assert_allclose(drawn / drawn[0], u / u[0], rtol=1e-12, atol=0.0)
@@ -483,8 +494,13 @@ def test_sections_show_the_largest_displacement(results: dict[str, xr.Dataset]) 
     assert when["largest displacement"] == float(data["time"][-5])
     assert when["rim contact"] < when["turn of the swing"] < when["largest displacement"]
     figure = plots.bearing_sections(data, NAME, direction=[2.0, 0.0])
-    shown = dict(zip([ax.get_title(loc="left") for ax in figure.axes],
-                     [ax.texts[0].get_text() for ax in figure.axes], strict=True))  # fmt: skip
+    shown = dict(
+        zip(
+            [ax.get_title(loc="left") for ax in figure.axes],
+            [ax.texts[0].get_text() for ax in figure.axes],
+            strict=True,
+        )
+    )
     (text,) = (text for title, text in shown.items() if title.startswith("largest displacement"))
     assert text.startswith("displacement 501 mm")
 
@@ -516,8 +532,9 @@ def test_only_the_bearing_of_the_dataset_is_drawn(results: dict[str, xr.Dataset]
 
 def test_long_names_fit(results: dict[str, xr.Dataset]) -> None:
     assert wrapped("one two three four", 1.0, 9.0) == "one two three\nfour"
-    long = {f"an isolation system with a rather long name, number {k}": results["LIR"]
-            for k in range(3)}  # fmt: skip
+    long = {
+        f"an isolation system with a rather long name, number {k}": results["LIR"] for k in range(3)
+    }
     for draw in (plots.hysteresis, plots.histories, plots.orbits, plots.energy):
         figure = draw(long)
         figure.draw_without_rendering()

@@ -37,20 +37,27 @@ L, MU, MU_H, U_CAP = 2.25, 0.06 * 2.37 / 2.25, 0.20, 0.25
 
 def bearing(**changed: Any) -> LIRBearing:
     given: dict[str, Any] = {
-        "radius": 1.185, "slider_height": 0.12, "slider_radius": 0.15, "capacity": U_CAP,
-        "friction": CoulombFriction(0.06), "interface_friction": MU_H,
-    }  # fmt: skip
+        "radius": 1.185,
+        "slider_height": 0.12,
+        "slider_radius": 0.15,
+        "capacity": U_CAP,
+        "friction": CoulombFriction(0.06),
+        "interface_friction": MU_H,
+    }
     return LIRBearing(**given | changed)
 
 
 def system(*bearings: LIRBearing | FrictionPendulum) -> IsolationSystem:
     return IsolationSystem(
-        bearings=bearings or (bearing(),) * 4, loads=(450e3, 500e3, 550e3, 600e3),
-        positions=((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)), plan=(12.0, 12.0),
+        bearings=bearings or (bearing(),) * 4,
+        loads=(450e3, 500e3, 550e3, 600e3),
+        positions=((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)),
+        plan=(12.0, 12.0),
         combinations={
-            "maximum": (700e3, 750e3, 800e3, 880e3), "minimum": (320e3, 330e3, 340e3, 350e3),
+            "maximum": (700e3, 750e3, 800e3, 880e3),
+            "minimum": (320e3, 330e3, 340e3, 350e3),
         },
-    )  # fmt: skip
+    )
 
 
 def programme(code: Any, spectrum: Spectrum, **demands: Any) -> tuple[Any, pd.DataFrame]:
@@ -153,8 +160,16 @@ def test_type_tests_of_en15129_by_hand() -> None:
     most, speed = result.total_displacement, 2.0 * math.pi / result.period
     own = table[table["clause"] == "EN 15129 8.3.4"].set_index("what")
     assert [name.split(",")[0] for name in own.index] == [
-        "S", "P1", "D1", "D2", "D3", "P2", "D4", "D5", "B",
-    ]  # fmt: skip
+        "S",
+        "P1",
+        "D1",
+        "D2",
+        "D3",
+        "P2",
+        "D4",
+        "D5",
+        "B",
+    ]
     assert own["displacement [m]"].to_numpy() == pytest.approx(
         [0.01, *(np.array([1.0, 0.25, 0.5, 1.0, 1.0, 1.0, 1.0, 1.0]) * most)]
     )
@@ -189,10 +204,12 @@ def test_tests_of_nch2745_by_hand() -> None:
     periods = own.set_index("what")["period [s]"]
     assert t.value("T_M") > 1.02 * t.value("T_D")
     for what, period in (
-        ("increments, average load, 0.5 D_D", "T_D"), ("increments, largest load, D_D", "T_D"),
-        ("many cycles, D_TD", "T_D"), ("increments, least load, D_M", "T_M"),
+        ("increments, average load, 0.5 D_D", "T_D"),
+        ("increments, largest load, D_D", "T_D"),
+        ("many cycles, D_TD", "T_D"),
+        ("increments, least load, D_M", "T_M"),
         ("maximum displacement, D_TM", "T_M"),
-    ):  # fmt: skip
+    ):
         assert periods[what] == pytest.approx(t.value(period)), what
 
 
@@ -200,9 +217,12 @@ def test_programmes_that_cannot_be_are_refused() -> None:
     own = system()
     found = equivalent_linear(own, Spectrum.asce7(s_ms=0.9, s_m1=0.6), bounds=BOUNDS)
     lifted = IsolationSystem(
-        bearings=own.bearings, loads=own.loads, positions=own.positions, plan=own.plan,
+        bearings=own.bearings,
+        loads=own.loads,
+        positions=own.positions,
+        plan=own.plan,
         combinations={"minimum": (-5e3, 1e5, 1e5, 1e5)},
-    )  # fmt: skip
+    )
     with pytest.raises(CheckError, match=r"least axial load.*loads=\(least, largest\)"):
         prototype_tests(found, lifted)
     with pytest.raises(CheckError, match="least first"):
@@ -232,9 +252,11 @@ def loop(
     force = load * (moved / radius + now * np.sign(start * np.cos(phase)))
     random = np.random.default_rng(5)
     return PrototypeTest(
-        name=f"{1e3 * amplitude:g} mm", displacement=moved,
-        force=force + noise * random.normal(size=len(force)), load=load,
-    )  # fmt: skip
+        name=f"{1e3 * amplitude:g} mm",
+        displacement=moved,
+        force=force + noise * random.normal(size=len(force)),
+        load=load,
+    )
 
 
 @pytest.mark.parametrize("start", [1.0, -1.0])
@@ -353,9 +375,11 @@ def test_specimens_of_one_set_are_judged_together() -> None:
 def test_cycles_of_unlike_displacement_are_refused() -> None:
     one, two = loop(0.1), loop(0.2)
     both = PrototypeTest(
-        name="steps", displacement=np.append(one.displacement, two.displacement),
-        force=np.append(one.force, two.force), load=500e3,
-    )  # fmt: skip
+        name="steps",
+        displacement=np.append(one.displacement, two.displacement),
+        force=np.append(one.force, two.force),
+        load=500e3,
+    )
     assert len(both.cycles) == 6
     with pytest.raises(CheckError, match=r"cycles from 100 to 200 mm"):
         judged(both)
@@ -364,9 +388,12 @@ def test_cycles_of_unlike_displacement_are_refused() -> None:
 def interface(friction: float) -> PrototypeTest:
     phase = 2.0 * math.pi * np.linspace(0.0, 3.0, 2401)
     return PrototypeTest(
-        name="alone", displacement=0.05 * np.sin(phase), load=300e3, kind="interface",
+        name="alone",
+        displacement=0.05 * np.sin(phase),
+        load=300e3,
+        kind="interface",
         force=300e3 * friction * np.sign(np.cos(phase)),
-    )  # fmt: skip
+    )
 
 
 def test_the_interface_alone_goes_by_its_own_bounds() -> None:
@@ -400,8 +427,10 @@ def test_limits_are_the_engineers() -> None:
 )
 def test_loops_that_cannot_be_judged_are_refused(changed: dict[str, Any], message: str) -> None:
     given: dict[str, Any] = {
-        "name": "short", "displacement": [0.0, 1.0, 0.0, -1.0, 0.0], "force": np.ones(5),
+        "name": "short",
+        "displacement": [0.0, 1.0, 0.0, -1.0, 0.0],
+        "force": np.ones(5),
         "load": 1e5,
-    }  # fmt: skip
+    }
     with pytest.raises(CheckError, match=message):
         PrototypeTest(**given | changed)

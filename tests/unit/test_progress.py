@@ -78,9 +78,14 @@ def test_progress_on_a_terminal(compiler: Compiler, written: Any) -> None:
     assert stream.getvalue().startswith(SAID)
     shown = [part.rstrip() for part in stream.getvalue()[len(SAID) :].split("\r")]
     assert shown == [
-        "", "  1 compiled, 1 s: trial", "  2 compiled, 4 s: run", "  2 compiled, 4 s: commit",
-        "  3 compiled, 6 s: run", "", "",
-    ]  # fmt: skip
+        "",
+        "  1 compiled, 1 s: trial",
+        "  2 compiled, 4 s: run",
+        "  2 compiled, 4 s: commit",
+        "  3 compiled, 6 s: run",
+        "",
+        "",
+    ]
 
 
 def test_a_small_kernel_is_not_worth_a_word(compiler: Compiler, written: Any) -> None:
@@ -118,8 +123,13 @@ def test_the_compiler_is_followed(tmp_path: Path) -> None:
         "from lir_element._compile import progress; progress.PATIENCE = 0.0; "
         "from lir_element.kernels.rotation import coefficients; coefficients(1.0)"
     )
-    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(tmp_path), "LIR_QUIET": "0",
-           "NUMBA_DISABLE_JIT": "0"}  # fmt: skip
+    env = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "LIR_CACHE_DIR": str(tmp_path),
+        "LIR_QUIET": "0",
+        "NUMBA_DISABLE_JIT": "0",
+    }
     told = [
         subprocess.run(  # noqa: S603
             [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True

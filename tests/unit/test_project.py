@@ -22,7 +22,7 @@ from frames.command.app import app
 from frames.design import ProjectError, with_property_bounds
 from frames.design.project import design_run
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.preliminary import groundwork
+from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way
@@ -78,13 +78,23 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("text", "unit", "value"),
     [
-        ("175 mm", "m", 0.175), ("175mm", "m", 0.175), ("-3.5e-1 m", "m", -0.35),
-        ("12 in", "m", 0.3048), ("150 kN", "N", 150e3), ("1 kip", "N", 4448.2216152605),
-        ("1450 kg/m2", "kg/m^2", 1450.0), ("30 MPa", "Pa", 30e6), ("1 t", "kg", 1000.0),
-        ("100 s/m", "s/m", 100.0), ("0.3 s/in", "s/m", 0.3 / 0.0254), ("5 %", "", 0.05),
-        (0.05, "", 0.05), ("0.05", "", 0.05), ("0.35 m/s^2", "m/s^2", 0.35),
+        ("175 mm", "m", 0.175),
+        ("175mm", "m", 0.175),
+        ("-3.5e-1 m", "m", -0.35),
+        ("12 in", "m", 0.3048),
+        ("150 kN", "N", 150e3),
+        ("1 kip", "N", 4448.2216152605),
+        ("1450 kg/m2", "kg/m^2", 1450.0),
+        ("30 MPa", "Pa", 30e6),
+        ("1 t", "kg", 1000.0),
+        ("100 s/m", "s/m", 100.0),
+        ("0.3 s/in", "s/m", 0.3 / 0.0254),
+        ("5 %", "", 0.05),
+        (0.05, "", 0.05),
+        ("0.05", "", 0.05),
+        ("0.35 m/s^2", "m/s^2", 0.35),
     ],
-)  # fmt: skip
+)
 def test_units_are_si(text: object, unit: str, value: float) -> None:
     assert si(text, unit, "1 m") == pytest.approx(value, rel=1e-12)
 
@@ -93,11 +103,16 @@ def test_units_are_si(text: object, unit: str, value: float) -> None:
 @pytest.mark.parametrize(
     ("text", "unit", "words"),
     [
-        (175, "m", 'write "175 mm"'), ("175", "m", "no unit"), ("175 kN", "m", "no unit of m"),
-        ("175 furz", "m", "unknown unit"), ("mm", "m", "no number"), (True, "", "no number"),
-        (math.inf, "", "not finite"), ("3 m", "", "a pure number"),
+        (175, "m", 'write "175 mm"'),
+        ("175", "m", "no unit"),
+        ("175 kN", "m", "no unit of m"),
+        ("175 furz", "m", "unknown unit"),
+        ("mm", "m", "no number"),
+        (True, "", "no number"),
+        (math.inf, "", "not finite"),
+        ("3 m", "", "a pure number"),
     ],
-)  # fmt: skip
+)
 def test_what_is_no_quantity_is_refused(text: object, unit: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         si(text, unit, "175 mm")
@@ -169,7 +184,7 @@ def test_the_schema_knows_all_sections() -> None:
 
 def test_the_example_is_a_project(folder: Path) -> None:
     file = read_project(folder / "project.toml")
-    ground = groundwork(ProjectInputs(file, folder))
+    ground = preliminary(ProjectInputs(file, folder))
     assert len(ground.frame.bearings) == 12
     assert ground.motions.scaling is not None
     assert ground.motions.scaling.least_ratio == pytest.approx(1.0)
@@ -192,7 +207,7 @@ def test_each_code_has_an_example(tmp_path: Path, code: str) -> None:
         reached = motion.response_spectrum(periods)["pseudo_acceleration"].to_numpy()
         assert reached == pytest.approx(wanted, rel=0.2)
         assert np.mean(reached / wanted) == pytest.approx(1.0, abs=0.04)
-    scaling = groundwork(parts).motions.scaling
+    scaling = preliminary(parts).motions.scaling
     assert scaling is not None
     assert all(0.7 < factor < 1.3 for factor in scaling.factors.values())
 

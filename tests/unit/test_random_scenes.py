@@ -40,10 +40,14 @@ def result():
     scene = next(
         s
         for s in (random_scene(SEED, n) for n in range(CALM, 400))
-        if s.model == "mass" and s.level == "pendulum" and s.is_newmark
-        and s.options["dt"] is not None and s.options["dt"] <= s.motion.dt
-        and s.motion.z is None and "x" in s.describe().split("motion ")[1][:3]
-    )  # fmt: skip
+        if s.model == "mass"
+        and s.level == "pendulum"
+        and s.is_newmark
+        and s.options["dt"] is not None
+        and s.options["dt"] <= s.motion.dt
+        and s.motion.z is None
+        and "x" in s.describe().split("motion ")[1][:3]
+    )
     model, data, _ = run(scene, scene.motion)
     assert data.attrs["halvings"] == 0
     return scene, model, data
@@ -127,8 +131,11 @@ def test_a_run_that_calls_itself_inaccurate_may_have_an_open_ledger(result):
     data = result[2].copy(deep=True)
     shifted("numerical", "kinetic", 2e-3)(data)
     data.attrs = {
-        **data.attrs, **FAILED, "status": "inaccurate", "failed_at": float(data["time"][-1]),
-    }  # fmt: skip
+        **data.attrs,
+        **FAILED,
+        "status": "inaccurate",
+        "failed_at": float(data["time"][-1]),
+    }
     data.attrs["message"] = f"at t = {data.attrs['failed_at']:.6g} s: so. What to try: less."
     assert "numerical" not in kinds(result, data)
 
@@ -274,8 +281,12 @@ def test_scenes_have_everything_in_them():
     scenes = [random_scene(SEED, number) for number in range(300)]
     bearings = [link.bearing for s in scenes for link in s.build(False).bearings.values()]
     assert {s.model for s in scenes} == {
-        "mass", "tilting mass", "stick", "stick on a grid", "frame",
-    }  # fmt: skip
+        "mass",
+        "tilting mass",
+        "stick",
+        "stick on a grid",
+        "frame",
+    }
     assert {s.level for s in scenes} == {"pendulum", "contact", "rigid_body", "auto", "mixed"}
     assert {s.options["integrator"] for s in scenes} == {None, "newmark", "generalised-alpha"}
     assert {s.options["dt"] is None for s in scenes} == {True, False}
@@ -285,8 +296,9 @@ def test_scenes_have_everything_in_them():
     assert max(s.length for s in scenes) > 7.0
     assert {b.friction_law for b in bearings} == {"elastic-plastic", "bouc-wen"}
     assert {type(law).__name__ for b in bearings for law in b.frictions} == {
-        "CoulombFriction", "VelocityFriction",
-    }  # fmt: skip
+        "CoulombFriction",
+        "VelocityFriction",
+    }
     assert any(b.is_dcfp for b in bearings)
     assert any(np.isinf(b.lateral_capacity) for b in bearings)
     assert any(not np.isclose(*np.divide(b.rim_displacement, b.radii)) for b in bearings)
@@ -296,9 +308,13 @@ def test_scenes_have_everything_in_them():
 @pytest.mark.parametrize(("lift", "is_found"), [(0.5, True), (1.5, False)])
 def test_uplift_is_believed_where_springs_pull(lift, is_found):
     bearing = LIRBearing(
-        radius=1.185, slider_height=0.12, slider_radius=0.1, capacity=0.25,
-        friction=CoulombFriction(0.05), interface_friction=0.1,
-    )  # fmt: skip
+        radius=1.185,
+        slider_height=0.12,
+        slider_radius=0.1,
+        capacity=0.25,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.1,
+    )
     model = moment_frame(bays=(1, 1), storeys=1, bearing=bearing)
     own = forces_on_springs(model)
     assert_allclose(own, own.mean(), rtol=1e-9, atol=0.0)  # four corners alike

@@ -14,9 +14,14 @@ from lir_element import CoulombFriction, LIRBearing
 
 LONG, E = 4.0, 200e9
 SECTION = Section(
-    area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=E,
-    shear_modulus=77e9, density=0.0,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-5,
+    inertia_z=3e-5,
+    torsion_constant=2e-5,
+    elastic_modulus=E,
+    shear_modulus=77e9,
+    density=0.0,
+)
 HINGE = ("My", "Mz")
 
 
@@ -40,8 +45,9 @@ def table_of(releases, section=SECTION, load=(0.0, 0.0, 0.0)):
 def test_lateral_stiffness(releases, factor):
     stiffness = table_of(releases).members.stiffness[0]
     assert_allclose(stiffness[8, 8], factor * E * 8e-5 / LONG**3, rtol=1e-12, atol=1e-3)
-    freed = [3 + ["T", "My", "Mz"].index(p) + 6 * "ij".index(e) for e, ps in releases.items()
-             for p in ps]  # fmt: skip
+    freed = [
+        3 + ["T", "My", "Mz"].index(p) + 6 * "ij".index(e) for e, ps in releases.items() for p in ps
+    ]
     assert not stiffness[freed].any()
     assert not stiffness[:, freed].any()
     assert_allclose(stiffness, stiffness.T, rtol=0.0, atol=1e-6)
@@ -69,9 +75,13 @@ def portal(hinged):
     """Return a portal with a hinged beam: by releases, or by nodes of its own at the hinges."""
     frame = Frame("portal")
     device = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-        friction=CoulombFriction(0.05), interface_friction=0.13,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.2,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.13,
+    )
     shear = Section.box(0.3, 0.3, 0.012, density=0.0)
     for x, name in ((0.0, "left"), (6.0, "right")):
         frame.add_node(f"ground-{name}", x, 0.0, 0.0)
@@ -133,9 +143,16 @@ def test_a_hinged_line_is_drawn_straight():
 def test_end_forces_go_with_the_nodes():
     """Of a released member in space: in equilibrium, and free of the moments released."""
     frame = portal("releases")
-    frame.add_member("tie", "foot-left", "head-right", Section.circle(0.1), releases={
-        "i": ("T", "My", "Mz"), "j": HINGE,
-    })  # fmt: skip
+    frame.add_member(
+        "tie",
+        "foot-left",
+        "head-right",
+        Section.circle(0.1),
+        releases={
+            "i": ("T", "My", "Mz"),
+            "j": HINGE,
+        },
+    )
     system = assemble(frame)
     u = np.random.default_rng(1).normal(size=6 * len(system.node_names)) * 1e-3
     place = system.members.names.index("tie")

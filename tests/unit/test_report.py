@@ -170,11 +170,22 @@ def test_a_browser_shows_it_whole(page: str, tmp_path: Path, width: int) -> None
     file = tmp_path / "report.html"
     file.write_text(page.replace("</body>", probe + "</body>"), encoding="utf-8")
     done = subprocess.run(  # noqa: S603
-        [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
-         f"--window-size={width},900", f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom",
-         file.as_uri()],
-        capture_output=True, text=True, timeout=patience(), check=True,
-    )  # fmt: skip
+        [
+            str(CHROMIUM),
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--enable-logging=stderr",
+            f"--window-size={width},900",
+            f"--user-data-dir={tmp_path / 'profile'}",
+            "--dump-dom",
+            file.as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=patience(),
+        check=True,
+    )
     assert "CONSOLE" not in done.stderr
     found = re.search(r"<title>probe (\d+) (-?\d+) (\d+) (\d+) (\d+)</title>", done.stdout)
     assert found is not None
@@ -188,11 +199,19 @@ def test_a_browser_shows_it_whole(page: str, tmp_path: Path, width: int) -> None
 def test_it_prints(results: Path, tmp_path: Path) -> None:
     paper = tmp_path / "report.pdf"
     subprocess.run(  # noqa: S603
-        [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu",
-         f"--user-data-dir={tmp_path / 'profile'}", f"--print-to-pdf={paper}",
-         (results / "report.html").as_uri()],
-        capture_output=True, timeout=patience(), check=True,
-    )  # fmt: skip
+        [
+            str(CHROMIUM),
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            f"--user-data-dir={tmp_path / 'profile'}",
+            f"--print-to-pdf={paper}",
+            (results / "report.html").as_uri(),
+        ],
+        capture_output=True,
+        timeout=patience(),
+        check=True,
+    )
     data = paper.read_bytes()
     assert data.startswith(b"%PDF")
     assert 5 <= data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") <= 60
@@ -269,9 +288,13 @@ def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> Non
 def test_masses_of_modes_along_both_axes() -> None:
     """A frame of unlike bays moves along x or along y: each mode has mass along one axis alone."""
     bearing = LIRBearing(
-        radius=1.5, slider_height=0.2, slider_radius=0.2, capacity=0.18, friction=0.05,
+        radius=1.5,
+        slider_height=0.2,
+        slider_radius=0.2,
+        capacity=0.18,
+        friction=0.05,
         interface_friction=0.15,
-    )  # fmt: skip
+    )
     frame = moment_frame((3, 1), 2, bearing=bearing)
     table = mode_table(SimpleNamespace(frame=frame))
     for title in ("sliding", "held"):

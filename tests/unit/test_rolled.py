@@ -66,10 +66,13 @@ def test_fillets_by_counting_points():
 
 @pytest.mark.parametrize(
     ("sides", "words"),
-    [((300, 300, 19, 11, 27), "depth = 300 m, at most 100 m"),
-     ((0.3, 0.3, 0.019, 0.011, -1), "at least 0"), ((0.3, 0.3, 0.15, 0.011, 0.0), "must leave"),
-     ((0.3, 0.05, 0.01, 0.01, 0.03), "exceed")],
-)  # fmt: skip
+    [
+        ((300, 300, 19, 11, 27), "depth = 300 m, at most 100 m"),
+        ((0.3, 0.3, 0.019, 0.011, -1), "at least 0"),
+        ((0.3, 0.3, 0.15, 0.011, 0.0), "must leave"),
+        ((0.3, 0.05, 0.01, 0.01, 0.03), "exceed"),
+    ],
+)
 def test_shapes_that_cannot_be(sides, words):
     with pytest.raises(ModelError, match=words):
         Section.rolled_i(*sides)

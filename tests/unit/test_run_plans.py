@@ -83,8 +83,14 @@ def test_hunted_runs_are_refused_by_other_fits(method: str, tmp_path: object) ->
     part = replace(found.runs, table=found.runs.table.iloc[::2])
     save_fragility(found.runs, f"{tmp_path}/runs.json")
     striped = runs_of([row for m, c in capacities(3).items() for row in rows(m, [1.0, 3.0], c)])
-    given = [found, found.runs, part, load_fragility(f"{tmp_path}/runs.json"),
-             striped.joined(found.runs), found.runs.joined(striped)]  # fmt: skip
+    given = [
+        found,
+        found.runs,
+        part,
+        load_fragility(f"{tmp_path}/runs.json"),
+        striped.joined(found.runs),
+        found.runs.joined(striped),
+    ]
     table = found.to_dataframe()
     table.to_csv(f"{tmp_path}/runs.csv", index=False)
     given.append(IntensityRuns(pd.read_csv(f"{tmp_path}/runs.csv"), SA, {"demand": "1"}))

@@ -35,13 +35,20 @@ BOUNDS = PropertyBounds(
 PLACES = tuple((x, y) for x in (-6.0, 0.0, 6.0) for y in (-4.0, 4.0))
 LOADS = (1.0e6, 1.2e6, 2.0e6, 2.4e6, 1.0e6, 1.4e6)
 ANY = LIRBearing(
-    radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    friction=CoulombFriction(0.06), interface_friction=0.25,
-)  # fmt: skip
+    radius=1.5,
+    slider_height=0.3,
+    slider_radius=0.2,
+    capacity=0.45,
+    friction=CoulombFriction(0.06),
+    interface_friction=0.25,
+)
 SYSTEM = IsolationSystem(
-    bearings=(ANY,) * 6, positions=PLACES, loads=LOADS, plan=(14.0, 10.0),
+    bearings=(ANY,) * 6,
+    positions=PLACES,
+    loads=LOADS,
+    plan=(14.0, 10.0),
     combinations={"maximum": tuple(1.3 * load for load in LOADS), "minimum": (0.5e6,) * 6},
-)  # fmt: skip
+)
 ONE = DesignTarget(radii=(2.0,), frictions=(0.05,))
 
 
@@ -104,10 +111,13 @@ def test_the_slider_is_the_least_that_keeps_the_checks() -> None:
     assert ours.passed
     assert found.chosen.checks.passed
     smaller = LIRBearing(
-        radius=2.0, slider_height=bearing.slider_height - 0.015,
-        slider_radius=bearing.slider_radius - 0.015, capacity=bearing.capacity,
-        friction=bearing.friction, interface_friction=bearing.interface_friction,
-    )  # fmt: skip
+        radius=2.0,
+        slider_height=bearing.slider_height - 0.015,
+        slider_radius=bearing.slider_radius - 0.015,
+        capacity=bearing.capacity,
+        friction=bearing.friction,
+        interface_friction=bearing.interface_friction,
+    )
     theirs = device_checks(smaller, (0.5e6, 3.12e6), slip=slip, bounds=BOUNDS, limits=limits)
     assert not theirs.passed
 
@@ -129,11 +139,14 @@ def test_the_three_devices_share_radius_friction_and_slider() -> None:
         found.bearings("LRB")
     again = equivalent_linear(
         IsolationSystem(
-            bearings=found.bearings("DCFP without rim contact"), positions=PLACES, loads=LOADS,
+            bearings=found.bearings("DCFP without rim contact"),
+            positions=PLACES,
+            loads=LOADS,
             plan=(14.0, 10.0),
         ),
-        SPECTRUM, bounds=BOUNDS,
-    )  # fmt: skip
+        SPECTRUM,
+        bounds=BOUNDS,
+    )
     rims = [check for check in again.checks if check.title.startswith("rims free")]
     assert rims
     assert all(check.passed for check in rims)
@@ -194,9 +207,7 @@ def test_what_none_keeps_is_told() -> None:
     tight = DesignTarget(radii=(2.0,), frictions=(0.05,), max_displacement=0.1)
     with pytest.raises(CheckError, match=r"displacement 0\.\d+ m exceeds 0\.1 m.*rim_share"):
         design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=tight)
-    weak = DesignTarget(
-        radii=(2.0,), frictions=(0.05,), limits=DesignLimits(rim_strength=100e3)
-    )  # fmt: skip
+    weak = DesignTarget(radii=(2.0,), frictions=(0.05,), limits=DesignLimits(rim_strength=100e3))
     with pytest.raises(CheckError, match="interface slips before the rim breaks"):
         design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=weak)
     for wrong in ({"rim_share": 1.0}, {"radii": ()}, {"pressure": -1.0}, {"max_base_shear": 0.0}):
@@ -212,9 +223,7 @@ def test_plates_too_deep_are_a_reason_and_no_failure() -> None:
 
 
 def test_a_building_stands_on_what_is_proposed() -> None:
-    frame = shear_building(
-        ANY, 200e3, 4e8, storeys=3, plan=((2, 1), (6.0, 8.0)), base_mass=200e3
-    )  # fmt: skip
+    frame = shear_building(ANY, 200e3, 4e8, storeys=3, plan=((2, 1), (6.0, 8.0)), base_mass=200e3)
     found = design(frame, SPECTRUM, bounds=BOUNDS, target=ONE, code=ASCE7())
     isolated = found.isolated(frame)
     assert isolated.name == "shear building, LIR-DCFP"

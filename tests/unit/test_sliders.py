@@ -85,9 +85,13 @@ def test_cap_alone_against_its_closed_form() -> None:
     from_centre = 3.0 * (2.0 * sphere - h) ** 2 / (4.0 * (3.0 * sphere - h))
     assert_allclose(centre, sphere - from_centre, rtol=1e-9, atol=0.0)
     expected = dblquad(
-        lambda z, r: 2.0 * math.pi * r**3, 0.0, a, lambda r: sphere - math.sqrt(sphere**2 - r * r),
-        h, epsrel=1e-11,
-    )[0]  # fmt: skip
+        lambda z, r: 2.0 * math.pi * r**3,
+        0.0,
+        a,
+        lambda r: sphere - math.sqrt(sphere**2 - r * r),
+        h,
+        epsrel=1e-11,
+    )[0]
     assert_allclose(along, expected, rtol=1e-8, atol=0.0)
 
 
@@ -309,9 +313,14 @@ def test_levels_have_the_friction_of_a_test() -> None:
     What is left is rocking, by ``4/3 R h F / (k_v a^2)``, and the sliders' weight.
     """
     wide = LIRBearing(
-        radius=1.5, slider_height=0.2, slider_radius=0.21, capacity=0.3,
-        friction=CoulombFriction(0.08), interface_friction=0.2, slider_density=500.0,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.2,
+        slider_radius=0.21,
+        capacity=0.3,
+        friction=CoulombFriction(0.08),
+        interface_friction=0.2,
+        slider_density=500.0,
+    )
     heights = []
     for level in ("pendulum", "contact"):
         data = cyclic_test(wide, [0.1, 0.0, -0.1, 0.0], 1e6, level=level)

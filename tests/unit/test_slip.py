@@ -233,9 +233,12 @@ def test_contact_by_hand() -> None:
 
 
 @given(
-    gap=st.floats(-1e-2, 1e-2), old=st.floats(0.0, 1e-2), k=st.floats(1e3, 1e10),
-    c=st.floats(0.0, 1e8), dt=st.floats(0.0, 1.0),
-)  # fmt: skip
+    gap=st.floats(-1e-2, 1e-2),
+    old=st.floats(0.0, 1e-2),
+    k=st.floats(1e3, 1e10),
+    c=st.floats(0.0, 1e8),
+    dt=st.floats(0.0, 1.0),
+)
 def test_contact_never_pulls(gap: float, old: float, k: float, c: float, dt: float) -> None:
     force, slope, closure = kelvin_voigt(gap, old, k, c, dt)
     assert force >= 0.0
@@ -257,13 +260,25 @@ def test_contact_is_continuous(old: float, k: float, c: float) -> None:
 
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(
-    size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, bend=st.floats(-0.8, 0.8),
-    before=st.floats(0.1, 3.0), share=st.floats(0.1, 0.9),
-)  # fmt: skip
+    size=st.floats(0.0, 1.0),
+    angle=ANGLE,
+    d_1=STEP,
+    d_2=STEP,
+    bend=st.floats(-0.8, 0.8),
+    before=st.floats(0.1, 3.0),
+    share=st.floats(0.1, 0.9),
+)
 def test_derivative_half_a_step_ahead(
-    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, bend: float,
-    before: float, share: float,
-) -> None:  # fmt: skip
+    bouc_wen: int,
+    eta: float,
+    size: float,
+    angle: float,
+    d_1: float,
+    d_2: float,
+    bend: float,
+    before: float,
+    share: float,
+) -> None:
     """Against differences of fourth order, on paths that bend by `bend` from step to step."""
     z = np.array(turned(size, 0.0, angle))
     b = z + np.array([d_1, d_2]) / U_Y
@@ -328,13 +343,25 @@ def test_speed_at_the_end() -> None:
 
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(
-    size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, before=st.floats(0.0, 1e7),
-    push=st.floats(-1e5, 1e7), floor=st.floats(0.0, 1e3),
-)  # fmt: skip
+    size=st.floats(0.0, 1.0),
+    angle=ANGLE,
+    d_1=STEP,
+    d_2=STEP,
+    before=st.floats(0.0, 1e7),
+    push=st.floats(-1e5, 1e7),
+    floor=st.floats(0.0, 1e3),
+)
 def test_never_beyond_the_cone_under_a_changing_force(
-    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, before: float,
-    push: float, floor: float,
-) -> None:  # fmt: skip
+    bouc_wen: int,
+    eta: float,
+    size: float,
+    angle: float,
+    d_1: float,
+    d_2: float,
+    before: float,
+    push: float,
+    floor: float,
+) -> None:
     """Whatever the axial force does, lift-off and landing among it; numbers stay finite."""
     kept = kept_share(before, push, floor)
     out = np.array(

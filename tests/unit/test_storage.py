@@ -22,8 +22,11 @@ def script(code: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
     head = "import os, sys, numpy as np, xarray as xr\nfrom frames import load, save\n"
     return subprocess.run(  # noqa: S603
         [sys.executable, "-c", head + code, *arguments],
-        capture_output=True, text=True, timeout=patience(), check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        timeout=patience(),
+        check=False,
+    )
 
 
 def test_round_trip_and_replacement(tmp_path: Path) -> None:

@@ -32,9 +32,13 @@ def test_matrices_do_what_members_do():
     load = np.zeros((3, 6))
     load[:, 2] = -frame.gravity * own_mass[:, 2]
     frame.add_superelement(
-        "part", ["n0", "n1", "n2"], expected.node_stiffness, np.diag(own_mass.ravel()),
-        load=load.ravel(), damping=0.1 * expected.node_stiffness,
-    )  # fmt: skip
+        "part",
+        ["n0", "n1", "n2"],
+        expected.node_stiffness,
+        np.diag(own_mass.ravel()),
+        load=load.ravel(),
+        damping=0.1 * expected.node_stiffness,
+    )
     found = assemble(frame)
     for word in ("stiffness", "mass"):
         assert_allclose(getattr(found, word).toarray(), getattr(expected, word).toarray())

@@ -121,8 +121,9 @@ def test_a_set_can_be_made_again_and_comes_to_rest() -> None:
         assert speed == pytest.approx(known["pulse velocity"], rel=0.35)
         assert np.abs(integrated(motion.y, motion.dt)[0]).max() < speed
     # the first of three is the first of one: motions can be added to a set
-    assert (synthetic_near_fault(1, 6.8, 5.0, seed=4)["near-fault 1"].x
-            == motions["near-fault 1"].x).all()  # fmt: skip
+    assert (
+        synthetic_near_fault(1, 6.8, 5.0, seed=4)["near-fault 1"].x == motions["near-fault 1"].x
+    ).all()
     assert synthetic_near_fault(1, 6.8, 5.0, seed=4, vertical_ratio=0.0)["near-fault 1"].z is None
 
 
@@ -131,8 +132,9 @@ def test_scatter_of_pulses() -> None:
     scatter, rng = PulseScatter(velocity=0.8), np.random.default_rng(1)
     pulses = [scatter.pulse(7.0, rng) for _ in range(2000)]
     for values, median in (
-        ([p.velocity for p in pulses], 0.8), ([p.period for p in pulses], pulse_period(7.0)),
-    ):  # fmt: skip
+        ([p.velocity for p in pulses], 0.8),
+        ([p.period for p in pulses], pulse_period(7.0)),
+    ):
         logs = np.log(values)
         assert logs.mean() == pytest.approx(math.log(median), abs=3 * 0.3 / math.sqrt(2000))
         assert logs.std() == pytest.approx(0.3, abs=3 * 0.3 / math.sqrt(4000))
@@ -143,8 +145,10 @@ def test_scatter_of_pulses() -> None:
 
 def test_what_makes_no_sense_is_refused() -> None:
     for wrong, words in (
-        ({"gamma": 1.0}, "above 1"), ({"period": 0.0}, "period"), ({"phase": math.nan}, "phase"),
-    ):  # fmt: skip
+        ({"gamma": 1.0}, "above 1"),
+        ({"period": 0.0}, "period"),
+        ({"phase": math.nan}, "phase"),
+    ):
         given = {"velocity": 1.0, "period": 2.0, "gamma": 2.0, "phase": 0.0} | wrong
         with pytest.raises(MotionError, match=words):
             NearFaultPulse(**given)

@@ -9,13 +9,25 @@ from frames.assembly.assemble import assemble, member_axial_forces, member_end_f
 
 LONG = 4.0
 SECTION = Section(
-    area=0.01, inertia_y=8e-5, inertia_z=3e-5, torsion_constant=2e-5, elastic_modulus=200e9,
-    shear_modulus=77e9, density=0.0,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-5,
+    inertia_z=3e-5,
+    torsion_constant=2e-5,
+    elastic_modulus=200e9,
+    shear_modulus=77e9,
+    density=0.0,
+)
 SHEAR = Section(
-    area=0.01, inertia_y=8e-4, inertia_z=3e-4, torsion_constant=2e-5, elastic_modulus=200e9,
-    shear_modulus=77e9, density=0.0, shear_area_y=3e-3, shear_area_z=2e-3,
-)  # fmt: skip
+    area=0.01,
+    inertia_y=8e-4,
+    inertia_z=3e-4,
+    torsion_constant=2e-5,
+    elastic_modulus=200e9,
+    shear_modulus=77e9,
+    density=0.0,
+    shear_area_y=3e-3,
+    shear_area_z=2e-3,
+)
 
 
 def beam(section=SECTION, end=(LONG, 0.0, 0.0), releases=None, pieces=1):
@@ -121,16 +133,20 @@ def test_end_forces_are_in_equilibrium_with_the_load():
     about = ends[1] + ends[3] + np.cross(long * middle, ends[2])
     assert_allclose(about, -moment, rtol=1e-12, atol=1e-9)
     assert_allclose(
-        member_axial_forces(system, q)[0], mean_axial_force(axes, near, far, a, b, ends, long),
+        member_axial_forces(system, q)[0],
+        mean_axial_force(axes, near, far, a, b, ends, long),
         rtol=1e-4,
-    )  # fmt: skip
+    )
 
 
 def mean_axial_force(axes, near, far, a, b, ends, long):
     """Integrate N(x) = -N_i - load up to x, tension positive."""
     x = np.linspace(0.0, long, 200_001)
-    size = np.where((x >= a) & (x <= b), (axes @ near)[0]
-                    + ((axes @ far)[0] - (axes @ near)[0]) * (x - a) / (b - a), 0.0)  # fmt: skip
+    size = np.where(
+        (x >= a) & (x <= b),
+        (axes @ near)[0] + ((axes @ far)[0] - (axes @ near)[0]) * (x - a) / (b - a),
+        0.0,
+    )
     up_to = np.concatenate([[0.0], np.cumsum(0.5 * (size[1:] + size[:-1]) * np.diff(x))])
     normal = -ends[0, 0] - up_to
     return float(np.trapezoid(normal, x) / long)
@@ -155,9 +171,13 @@ def test_a_part_as_opensees_has_it():
         parts = (-1e3, 0.0, 0.25, 0.75, -3e3, 0.0)
         ops.eleLoad("-ele", 1, "-type", "-beamUniform", *parts)
         for command, *options in (
-            ("system", "BandGeneral"), ("numberer", "Plain"), ("constraints", "Plain"),
-            ("integrator", "LoadControl", 1), ("algorithm", "Linear"), ("analysis", "Static"),
-        ):  # fmt: skip
+            ("system", "BandGeneral"),
+            ("numberer", "Plain"),
+            ("constraints", "Plain"),
+            ("integrator", "LoadControl", 1),
+            ("algorithm", "Linear"),
+            ("analysis", "Static"),
+        ):
             getattr(ops, command)(*options)
         assert ops.analyze(1) == 0
         theirs = ops.eleResponse(1, "localForce")
@@ -170,9 +190,13 @@ def test_a_part_as_opensees_has_it():
 
 @pytest.mark.parametrize(
     ("a", "b", "words"),
-    [(-0.5, None, "a = -0.5 m"), (3.0, 2.0, "begin before it ends"), (0.0, 4000.0, "4 m long"),
-     (float("nan"), None, "must be finite")],
-)  # fmt: skip
+    [
+        (-0.5, None, "a = -0.5 m"),
+        (3.0, 2.0, "begin before it ends"),
+        (0.0, 4000.0, "4 m long"),
+        (float("nan"), None, "must be finite"),
+    ],
+)
 def test_a_part_that_is_not_on_the_member(a, b, words):
     frame = beam()
     with pytest.raises(ModelError, match=words):

@@ -25,9 +25,13 @@ from frames.design import (
 from lir_element import CoulombFriction, LIRBearing
 
 BEARING = LIRBearing(
-    radius=2.5, slider_height=0.225, slider_radius=0.225, capacity=0.356,
-    friction=CoulombFriction(0.05), interface_friction=0.105,
-)  # fmt: skip
+    radius=2.5,
+    slider_height=0.225,
+    slider_radius=0.225,
+    capacity=0.356,
+    friction=CoulombFriction(0.05),
+    interface_friction=0.105,
+)
 SIDES = (24.0, 10.0)
 ASCE = Spectrum.asce7(s_ms=1.2, s_m1=0.5)
 EUROPE = Spectrum.en1998(a_g=3.0, ground_type="C")
@@ -36,9 +40,14 @@ CHILE = Spectrum.nch2745(soil="II", zone=2)
 
 def building(share: float, **options: bool) -> Frame:
     return shear_building(
-        BEARING, [1.5e5] * 3, 2e8, storey_height=3.5, plan=((4, 2), (6.0, 5.0)),
-        eccentricity=(share, 0.0), **options,
-    )  # fmt: skip
+        BEARING,
+        [1.5e5] * 3,
+        2e8,
+        storey_height=3.5,
+        plan=((4, 2), (6.0, 5.0)),
+        eccentricity=(share, 0.0),
+        **options,
+    )
 
 
 def analysed(
@@ -156,9 +165,12 @@ def test_axial_loads_are_judged_where_the_model_tells_them(options: dict[str, bo
 
 def test_one_bearing_has_no_lever() -> None:
     system = IsolationSystem(
-        bearings=(BEARING,), positions=((0.0, 0.0),), loads=(4e6,), plan=(10.0, 10.0),
+        bearings=(BEARING,),
+        positions=((0.0, 0.0),),
+        loads=(4e6,),
+        plan=(10.0, 10.0),
         combinations={"most": (5e6,)},
-    )  # fmt: skip
+    )
     above = Superstructure(
         fixed_base_period=0.3, storey_weights=(2e6,), storey_heights=(3.0,), R=2.0
     )

@@ -12,17 +12,25 @@ import numpy as np
 import pytest
 
 from frames import Frame, GroundMotion, ModelError, MotionError, Section
-from frames.model.sanity_checks import doubts
+from frames.model.sanity_checks import sanity_warnings
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
 
 PAPER: dict[str, Any] = {
-    "radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08, "capacity": 0.175,
-    "friction": CoulombFriction(0.066), "interface_friction": 0.126,
-}  # fmt: skip
+    "radius": 0.75,
+    "slider_height": 0.085,
+    "slider_radius": 0.08,
+    "capacity": 0.175,
+    "friction": CoulombFriction(0.066),
+    "interface_friction": 0.126,
+}
 NEWHALL: dict[str, Any] = {
-    "radius": 1.185, "slider_height": 0.12, "slider_radius": 0.15, "capacity": 0.25,
-    "friction": VelocityFriction(0.065, 0.0325, 15.0), "interface_friction": 0.13,
-}  # fmt: skip
+    "radius": 1.185,
+    "slider_height": 0.12,
+    "slider_radius": 0.15,
+    "capacity": 0.25,
+    "friction": VelocityFriction(0.065, 0.0325, 15.0),
+    "interface_friction": 0.13,
+}
 LENGTHS = ("radius", "slider_height", "slider_radius", "capacity")
 
 
@@ -39,22 +47,35 @@ REAL: dict[str, dict[str, Any]] = {
     "a model on a desk": scaled(NEWHALL, 0.08) | {"design_load": 100.0},
     "a house": NEWHALL | {"slider_radius": 0.075, "slider_height": 0.1, "design_load": 90e3},
     "a viaduct": {
-        "radius": 3.05, "slider_height": 0.35, "slider_radius": 0.5, "capacity": 0.6,
-        "friction": CoulombFriction(0.05), "interface_friction": 0.12, "design_load": 40e6,
+        "radius": 3.05,
+        "slider_height": 0.35,
+        "slider_radius": 0.5,
+        "capacity": 0.6,
+        "friction": CoulombFriction(0.05),
+        "interface_friction": 0.12,
+        "design_load": 40e6,
     },
     "the largest of bridges": {
-        "radius": 6.2, "slider_height": 0.6, "slider_radius": 0.9, "capacity": 1.3,
-        "friction": CoulombFriction(0.06), "interface_friction": 0.15, "design_load": 60e6,
+        "radius": 6.2,
+        "slider_height": 0.6,
+        "slider_radius": 0.9,
+        "capacity": 1.3,
+        "friction": CoulombFriction(0.06),
+        "interface_friction": 0.15,
+        "design_load": 60e6,
     },
     "unlike surfaces, one almost flat": {
-        "radius": (8.0, 0.6), "slider_height": 0.1, "slider_radius": 0.1, "rims": (0.3, 0.05),
+        "radius": (8.0, 0.6),
+        "slider_height": 0.1,
+        "slider_radius": 0.1,
+        "rims": (0.3, 0.05),
         "friction": (CoulombFriction(0.02), VelocityFriction(0.1, 0.05, 100.0)),
         "interface_friction": 0.25,
     },
     "no rims": NEWHALL | {"capacity": math.inf, "interface_friction": math.inf},
     "stiff and soft seats": NEWHALL | {"axial_stiffness": 2e9, "rim_stiffness": 2e7},
     "thick plates": NEWHALL | {"plate_thickness": (0.05, 0.3), "slider_mass": 40.0},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("device", REAL.values(), ids=REAL)
@@ -89,7 +110,8 @@ STRANGE: dict[str, tuple[dict[str, Any], str]] = {
     "density in t/m3": ({"slider_density": 7.85}, "7.85 t/m3 are 7850 kg/m3"),
     "slider's mass in t": ({"slider_mass": 0.0067}, "0.0067 t are 6.7 kg"),
     "very rough": (
-        {"friction": CoulombFriction(0.5), "interface_friction": 0.9}, "friction of 0.5 is far",
+        {"friction": CoulombFriction(0.5), "interface_friction": 0.9},
+        "friction of 0.5 is far",
     ),
     "long pendulum": ({"radius": 12.0}, "pendulum of 9.8 s"),
     "softer than a seat": ({"axial_stiffness": 2e7}, "settles by 30.2 mm"),
@@ -97,7 +119,7 @@ STRANGE: dict[str, tuple[dict[str, Any], str]] = {
         {"slider_height": 0.9, "slider_radius": 0.04, "interface_friction": 0.2},
         "times the slider's diameter",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("changes", "words"), IMPOSSIBLE.values(), ids=IMPOSSIBLE)
@@ -153,9 +175,13 @@ def test_impossible_sections(changes: dict[str, float], words: str) -> None:
 
 def test_a_section_in_mm() -> None:
     given = {
-        "inertia_y": 1.6e8, "inertia_z": 1.6e8, "torsion_constant": 2.4e8, "density": 7850.0,
-        "elastic_modulus": 200e9, "shear_modulus": 77e9,
-    }  # fmt: skip
+        "inertia_y": 1.6e8,
+        "inertia_z": 1.6e8,
+        "torsion_constant": 2.4e8,
+        "density": 7850.0,
+        "elastic_modulus": 200e9,
+        "shear_modulus": 77e9,
+    }
     with pytest.raises(ModelError, match=r"area = 11600 m2.*11600 mm2 are 0\.0116 m2"):
         Section(area=11600.0, **given)
 
@@ -200,12 +226,12 @@ STRANGE_FRAMES = {
 
 @pytest.mark.parametrize("frame", USUAL_FRAMES.values(), ids=USUAL_FRAMES)
 def test_usual_frames_pass(frame: Frame) -> None:
-    assert doubts(frame) == ()
+    assert sanity_warnings(frame) == ()
 
 
 @pytest.mark.parametrize(("frame", "words"), STRANGE_FRAMES.values(), ids=STRANGE_FRAMES)
 def test_strange_frames(frame: Frame, words: str) -> None:
-    found = doubts(frame)
+    found = sanity_warnings(frame)
     assert len(found) == 1
     assert words.replace("\\", "") in found[0]
 
@@ -234,9 +260,12 @@ def test_random_usual_bearings_pass() -> None:
         edge = size * rng.uniform(0.06, 0.2)
         fast = rng.uniform(0.03, 0.15)
         LIRBearing(
-            radius=tuple(size * rng.uniform(0.8, 1.25, 2)), slider_radius=edge,
-            slider_height=edge * rng.uniform(0.6, 1.5), capacity=size * rng.uniform(0.05, 0.1),
+            radius=tuple(size * rng.uniform(0.8, 1.25, 2)),
+            slider_radius=edge,
+            slider_height=edge * rng.uniform(0.6, 1.5),
+            capacity=size * rng.uniform(0.05, 0.1),
             friction=VelocityFriction(fast, 0.5 * fast, rng.uniform(5.0, 200.0)),
-            interface_friction=2.5 * fast, slider_density=rng.uniform(2700.0, 8900.0),
+            interface_friction=2.5 * fast,
+            slider_density=rng.uniform(2700.0, 8900.0),
             design_load=10.0 ** rng.uniform(6.0, 8.0) * math.pi * edge**2,
-        )  # fmt: skip
+        )

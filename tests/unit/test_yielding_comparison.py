@@ -75,9 +75,17 @@ def test_systems_differ_in_what_stops_them():
 
 def row(system, drift, status="ok", **more):
     place = {"record": "one", "demand": 1.2, "structure": "demo", "elastic": False}
-    return place | {"system": system, "status": status, "drift": drift} | {
-        "rotation": 0.0, "residual": 0.0, "floor": 1.0, "shear": 1.0,
-    } | more  # fmt: skip
+    return (
+        place
+        | {"system": system, "status": status, "drift": drift}
+        | {
+            "rotation": 0.0,
+            "residual": 0.0,
+            "floor": 1.0,
+            "shear": 1.0,
+        }
+        | more
+    )
 
 
 def test_wins_are_counted_over_runs_that_both_complete():

@@ -124,12 +124,22 @@ def held_checks(found: dict[tuple[float, float], xr.Dataset]) -> list[Check]:
     ]
     still = max(abs(drift(found[math.inf, u_y])) / u_y for u_y in small)
     return [
-        below("made input: drift a cycle / estimate − 1, exponents 1 to 8, u_y up to 0.1 mm",
-              "u_y ∫ z^η / (1 − z^η) dz", 0.05, max(errors), ""),
-        below("the same, exponents 1 to 4, u_y = 1 mm (the mass vibrates on the interface)",
-              "the same", 0.25, max(coarse), ""),
+        below(
+            "made input: drift a cycle / estimate − 1, exponents 1 to 8, u_y up to 0.1 mm",
+            "u_y ∫ z^η / (1 − z^η) dz",
+            0.05,
+            max(errors),
+            "",
+        ),
+        below(
+            "the same, exponents 1 to 4, u_y = 1 mm (the mass vibrates on the interface)",
+            "the same",
+            0.25,
+            max(coarse),
+            "",
+        ),
         below("elastic-plastic: drift a cycle / u_y, u_y up to 0.1 mm", "0", 1e-3, still, ""),
-    ]  # fmt: skip
+    ]
 
 
 def newhall_runs(record: GroundMotion, level: AnyLevel) -> dict[tuple[float, float], xr.Dataset]:
@@ -158,22 +168,39 @@ def newhall_checks(found: dict[tuple[float, float], xr.Dataset], level: str) -> 
     default = growth(found[2.0, YIELDS[0]])[1]
     of = f" ({level})"
     return [
-        below("Newhall, elastic-plastic: growth of the slip, 7 to 20 s" + of, "0; 38 mm of slip",
-              0.2, 1e3 * plastic, "mm"),
-        below("Newhall, Bouc-Wen, exponent 2, u_y = 0.01 mm (default): the same" + of,
-              "as elastic-plastic", 0.2, 1e3 * abs(default), "mm"),
-        above("Newhall, Bouc-Wen, exponent 1, u_y = 1 mm: the same" + of, "it drifts", 2.0,
-              1e3 * worst, "mm"),
-    ]  # fmt: skip
+        below(
+            "Newhall, elastic-plastic: growth of the slip, 7 to 20 s" + of,
+            "0; 38 mm of slip",
+            0.2,
+            1e3 * plastic,
+            "mm",
+        ),
+        below(
+            "Newhall, Bouc-Wen, exponent 2, u_y = 0.01 mm (default): the same" + of,
+            "as elastic-plastic",
+            0.2,
+            1e3 * abs(default),
+            "mm",
+        ),
+        above(
+            "Newhall, Bouc-Wen, exponent 1, u_y = 1 mm: the same" + of,
+            "it drifts",
+            2.0,
+            1e3 * worst,
+            "mm",
+        ),
+    ]
 
 
 def _grid(values: dict[tuple[float, float], str], corner: str) -> str:
     head = (corner, *(f"{1e3 * u_y:g} mm" for u_y in YIELDS))
     rows = [
-        (f"{eta:g}" if math.isfinite(eta) else "elastic-plastic",
-         *(values[eta, u_y] for u_y in YIELDS))
+        (
+            f"{eta:g}" if math.isfinite(eta) else "elastic-plastic",
+            *(values[eta, u_y] for u_y in YIELDS),
+        )
         for eta in (*EXPONENTS, math.inf)
-    ]  # fmt: skip
+    ]
     return table(head, rows)
 
 

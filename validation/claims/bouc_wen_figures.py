@@ -46,9 +46,12 @@ def drift_figure(
     for k, u_y in enumerate(yields):
         points = [(eta, ratios[eta, u_y]) for eta in finite if ratios[eta, u_y] > 0.0]
         look: dict[str, Any] = {
-            "marker": MARKS[k], "color": PALETTE[k], "linestyle": "", "markersize": 4.5,
+            "marker": MARKS[k],
+            "color": PALETTE[k],
+            "linestyle": "",
+            "markersize": 4.5,
             "markerfacecolor": "none",
-        }  # fmt: skip
+        }
         right.plot(*zip(*points, strict=True), **look)
         marks.append(Line2D([], [], label=f"u$_y$ = {1e3 * u_y:g} mm", **look))
     right.set_xscale("log")

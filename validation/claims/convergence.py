@@ -40,8 +40,16 @@ TOLERANCES = (1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 STIFFNESSES = (0.1, 0.3, 1.0, 3.0, 10.0)
 POINTS = (4, 6, 8, 12, 16, 32)
 EXPLICIT = (2.0, 1.0)  # of half the stability limit
-HEAD = ("", "peak (mm)", "slip (mm)", "largest force (kN)", "ledger", "'numerical' over input",
-        "steps", "time of the loop (s)")  # fmt: skip
+HEAD = (
+    "",
+    "peak (mm)",
+    "slip (mm)",
+    "largest force (kN)",
+    "ledger",
+    "'numerical' over input",
+    "steps",
+    "time of the loop (s)",
+)
 
 
 @dataclass(frozen=True)
@@ -60,10 +68,15 @@ class Row:
         energy = data["energy"]
         left = float(np.abs(energy.sel(term="numerical")).max() / energy.sel(term="input").max())
         return (
-            self.name, f"{1e3 * self.peak:.3f}", f"{1e3 * slip:.3f}", f"{1e-3 * force:.2f}",
-            f"{energy_error(data):.0e}", f"{left:.1e}", f"{data.attrs['steps']}",
+            self.name,
+            f"{1e3 * self.peak:.3f}",
+            f"{1e3 * slip:.3f}",
+            f"{1e-3 * force:.2f}",
+            f"{energy_error(data):.0e}",
+            f"{left:.1e}",
+            f"{data.attrs['steps']}",
             f"{data.attrs['seconds_loop']:.2f}",
-        )  # fmt: skip
+        )
 
 
 def history(name: str, record: GroundMotion, changes: dict[str, Any], **options: Any) -> Row:
@@ -76,13 +89,23 @@ def history(name: str, record: GroundMotion, changes: dict[str, Any], **options:
 
 def rows_of_steps(record: GroundMotion) -> list[Row]:
     """Refine the step: tolerance, then explicit."""
-    rows = [history(f"tolerance {t:.0e}", record, {}, duration=DURATION, tolerance=t)
-            for t in TOLERANCES]  # fmt: skip
+    rows = [
+        history(f"tolerance {t:.0e}", record, {}, duration=DURATION, tolerance=t)
+        for t in TOLERANCES
+    ]
     first = history("", record, {}, duration=0.01, integrator="explicit")  # tells the step
     for factor in EXPLICIT:
         dt = 0.99 * factor * float(first.data.attrs["dt"])
-        rows.append(history(f"explicit, {1e6 * dt:.2f} µs", record, {}, duration=DURATION,
-                            integrator="explicit", dt=dt))  # fmt: skip
+        rows.append(
+            history(
+                f"explicit, {1e6 * dt:.2f} µs",
+                record,
+                {},
+                duration=DURATION,
+                integrator="explicit",
+                dt=dt,
+            )
+        )
     return rows
 
 
@@ -125,8 +148,9 @@ def draw(steps: list[Row], stiffness: list[Row], points: list[Row]) -> Figure:
     ):
         panel.axhspan(1e3 * exact.peak * 0.999, 1e3 * exact.peak * 1.001, color="0.93", zorder=0)
         panel.axhline(1e3 * exact.peak, color=PALETTE[1], linewidth=0.9)
-        panel.semilogx(values, [1e3 * row.peak for row in rows], color=PALETTE[0], marker="o",
-                       markersize=4)  # fmt: skip
+        panel.semilogx(
+            values, [1e3 * row.peak for row in rows], color=PALETTE[0], marker="o", markersize=4
+        )
         panel.set_ylim(1e3 * exact.peak * 0.997, 1e3 * exact.peak * 1.003)
         caption(panel, x=name)
     caption(panels[0], y="peak displacement [mm]")
@@ -149,13 +173,18 @@ def page(folder: Path | None) -> Page:
     explicit = [row for row in steps if not row.name.startswith("tolerance")]
     checks: list[Check] = [
         below("peak, tolerance 1e-6 to 1e-10", "refinement", 0.1, spread(implicit), "%"),
-        below("peak, finest implicit against explicit", "other method", 0.02,
-              spread([implicit[-1], explicit[-1]]), "%"),
+        below(
+            "peak, finest implicit against explicit",
+            "other method",
+            0.02,
+            spread([implicit[-1], explicit[-1]]),
+            "%",
+        ),
         below("peak, both explicit steps", "refinement", 0.02, spread(explicit), "%"),
         below("peak, contacts × 0.3 to × 10", "refinement", 0.1, spread(stiffness[1:]), "%"),
         below("peak, 4 to 32 points", "refinement", 0.1, spread(points), "%"),
         below("peak, 8 to 32 points", "refinement", 0.01, spread(points[2:]), "%"),
-    ]  # fmt: skip
+    ]
     result = (
         f"peak {1e3 * implicit[-1].peak:.2f} mm; spread {spread(implicit):.2f} % over the step, "
         f"{spread(stiffness[1:]):.2f} % over the contact stiffness, {spread(points):.2f} % over "

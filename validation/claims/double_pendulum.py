@@ -102,20 +102,40 @@ def _rim_checks(one: Loops) -> list[Check]:
     count = round(one.case.amplitude / STEP)
     begin = round((articulated(bearing).second_starts + 0.01) / STEP)
     element, hinged = (
-        float(one.path[begin + int(np.argmax(np.diff(force[begin : count + 1]) / STEP
-              > 1.15 * _slope(force, begin)))])
+        float(
+            one.path[
+                begin
+                + int(
+                    np.argmax(
+                        np.diff(force[begin : count + 1]) / STEP > 1.15 * _slope(force, begin)
+                    )
+                )
+            ]
+        )
         for force in (one.element, one.hinged)
-    )  # fmt: skip
+    )
     model = articulated(bearing)
     parts = list(zip(model.radii, model.frictions, model.reach, strict=True))
     touches = min(reach / radius + mu for radius, mu, reach in parts)  # force over the load
     place = sum(max(0.0, (touches - mu) * radius) for radius, mu, _ in parts)
     return [
-        near("first rim contact: element", "L min(d1/R1, d2/R2)", 1e3 * bearing.lateral_capacity,
-             1e3 * element, 0.01, "mm"),
-        near("first rim contact: Fenz and Constantinou", "u1 + u2 as it happens",
-             1e3 * place, 1e3 * hinged, 0.01, "mm"),
-    ]  # fmt: skip
+        near(
+            "first rim contact: element",
+            "L min(d1/R1, d2/R2)",
+            1e3 * bearing.lateral_capacity,
+            1e3 * element,
+            0.01,
+            "mm",
+        ),
+        near(
+            "first rim contact: Fenz and Constantinou",
+            "u1 + u2 as it happens",
+            1e3 * place,
+            1e3 * hinged,
+            0.01,
+            "mm",
+        ),
+    ]
 
 
 def _apart(one: Loops) -> float:
@@ -156,19 +176,30 @@ def comparison(found: dict[str, Loops]) -> str:
         zero = [_at_zero(one, force) for force in (one.element, one.hinged, one.moments)]
         early = [one.at(force, 0.02) for force in (one.element, one.hinged, one.moments)]
         energy = [one.energy(force) for force in (one.element, one.hinged, one.moments)]
-        rows.append((
-            name, f"{1e3 * model.second_starts:.0f}", _against(early), _against(zero),
-            _against(energy),
-        ))  # fmt: skip
-    head = ("case", "u* [mm]", "force at 20 mm, first way out [-]",
-            "half the loop's height at zero [-]", "energy of a cycle / load [m]")  # fmt: skip
+        rows.append(
+            (
+                name,
+                f"{1e3 * model.second_starts:.0f}",
+                _against(early),
+                _against(zero),
+                _against(energy),
+            )
+        )
+    head = (
+        "case",
+        "u* [mm]",
+        "force at 20 mm, first way out [-]",
+        "half the loop's height at zero [-]",
+        "energy of a cycle / load [m]",
+    )
     return table(head, rows)
 
 
 def _against(values: list[float]) -> str:
     first, *others = values
-    return f"{first:.4f}; " + ", ".join(f"{v:.4f} ({100.0 * (v / first - 1.0):+z.0f} %)"
-                                        for v in others)  # fmt: skip
+    return f"{first:.4f}; " + ", ".join(
+        f"{v:.4f} ({100.0 * (v / first - 1.0):+z.0f} %)" for v in others
+    )
 
 
 def text(rows: str, lost: float) -> list[str]:
@@ -244,8 +275,9 @@ def page(_: Path | None = None) -> Page:
         float(
             np.abs(one.element[one.first] / rigid(one.case.bearing, one.path[one.first]) - 1).max()
         )
-        for one in found.values() if one.case.rims is None
-    )  # fmt: skip
+        for one in found.values()
+        if one.case.rims is None
+    )
     lost = [one.energy(one.moments) / one.energy(one.element) - 1.0 for one in found.values()]
     return Page(
         CLAIM,

@@ -17,11 +17,19 @@ if TYPE_CHECKING:
 
 LOOKS: tuple[dict[str, Any], ...] = (
     {"color": PALETTE[0], "linewidth": 2.0, "label": "one piece (element)"},
-    {"color": PALETTE[1], "linewidth": 1.2, "linestyle": "--",
-     "label": "hinged (Fenz and Constantinou)"},
-    {"color": PALETTE[2], "linewidth": 1.2, "linestyle": ":",
-     "label": "hinged, moments in equilibrium"},
-)  # fmt: skip
+    {
+        "color": PALETTE[1],
+        "linewidth": 1.2,
+        "linestyle": "--",
+        "label": "hinged (Fenz and Constantinou)",
+    },
+    {
+        "color": PALETTE[2],
+        "linewidth": 1.2,
+        "linestyle": ":",
+        "label": "hinged, moments in equilibrium",
+    },
+)
 
 
 def draw(found: Mapping[str, Loops]) -> Figure:

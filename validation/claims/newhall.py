@@ -96,25 +96,62 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
     return [
         near("impact: first rim contact" + of, "paper, Fig. 6", 4.2, time[start], 0.01, "s"),
         near("the same" + of, "rigid body 4.16-4.17 s", 4.165, time[start], 0.0036, "s"),
-        near("peak displacement" + of, "rigid body 288.7-292.6 mm", 289.5, 1e3 * abs(u[peak]),
-             0.015, "mm"),
+        near(
+            "peak displacement" + of,
+            "rigid body 288.7-292.6 mm",
+            289.5,
+            1e3 * abs(u[peak]),
+            0.015,
+            "mm",
+        ),
         near("time of the peak" + of, "rigid body", 4.305, time[peak], 0.005, "s"),
-        below("slip before the impact" + of, "paper, Fig. 6(a)", 0.1,
-              1e3 * np.abs(slip[:start]).max(), "mm"),
-        near("offset between the sliders at the end" + of, "rigid body", 38.0,
-             1e3 * abs(slip[-1]), 0.05, "mm"),
-        near("rise of the top plate at the peak" + of, "L − sqrt(L² + s² − U²)", 1e3 * expected,
-             1e3 * (lift[peak] - lift[0]), 0.02, "mm"),
-        near("largest rotation of the sliders" + of, "asin(U_cap / L)", 1e3 * tilt, 1e3 * turn,
-             0.01, "mrad"),
-        below("largest force / static limit W tan(θ + atan μ_h)" + of,
-              "paper, Fig. 8(a): no dramatic rise", 1.08,
-              np.abs(force).max() / bearing.force_limit(weight), ""),
-        below("moments on the ends, out of balance" + of, "statics, P-Delta included",
-              1e-6 if level == "pendulum" else INERTIA,
-              unbalanced(data, bearing), ""),
+        below(
+            "slip before the impact" + of,
+            "paper, Fig. 6(a)",
+            0.1,
+            1e3 * np.abs(slip[:start]).max(),
+            "mm",
+        ),
+        near(
+            "offset between the sliders at the end" + of,
+            "rigid body",
+            38.0,
+            1e3 * abs(slip[-1]),
+            0.05,
+            "mm",
+        ),
+        near(
+            "rise of the top plate at the peak" + of,
+            "L − sqrt(L² + s² − U²)",
+            1e3 * expected,
+            1e3 * (lift[peak] - lift[0]),
+            0.02,
+            "mm",
+        ),
+        near(
+            "largest rotation of the sliders" + of,
+            "asin(U_cap / L)",
+            1e3 * tilt,
+            1e3 * turn,
+            0.01,
+            "mrad",
+        ),
+        below(
+            "largest force / static limit W tan(θ + atan μ_h)" + of,
+            "paper, Fig. 8(a): no dramatic rise",
+            1.08,
+            np.abs(force).max() / bearing.force_limit(weight),
+            "",
+        ),
+        below(
+            "moments on the ends, out of balance" + of,
+            "statics, P-Delta included",
+            1e-6 if level == "pendulum" else INERTIA,
+            unbalanced(data, bearing),
+            "",
+        ),
         below("ledger of energy" + of, "balance", 1e-3, energy_error(data), ""),
-    ]  # fmt: skip
+    ]
 
 
 def comparison(lir: xr.Dataset, record: GroundMotion) -> tuple[list[Check], float, str]:
@@ -129,17 +166,29 @@ def comparison(lir: xr.Dataset, record: GroundMotion) -> tuple[list[Check], floa
     expected = bearing.force_limit(1.0) / before
     rise_lir, rise_plain = impact(lir)[1], impact(plain)[1]
     result = [
-        near("force in the first contact / force just before it", "closed forms, static",
-             expected, rise_lir, 0.05, ""),
-        Check("the same, plain DCFP with these rims", "comparison", "> 5", f"{rise_plain:.3g}",
-              rise_plain > 5.0),
-    ]  # fmt: skip
+        near(
+            "force in the first contact / force just before it",
+            "closed forms, static",
+            expected,
+            rise_lir,
+            0.05,
+            "",
+        ),
+        Check(
+            "the same, plain DCFP with these rims",
+            "comparison",
+            "> 5",
+            f"{rise_plain:.3g}",
+            rise_plain > 5.0,
+        ),
+    ]
     status = str(plain.attrs["status"])
     text = (
-        "" if status == "ok" else
-        f" In its next impact, at {plain.attrs['failed_at']:.2f} s, the plain DCFP "
+        ""
+        if status == "ok"
+        else f" In its next impact, at {plain.attrs['failed_at']:.2f} s, the plain DCFP "
         f"overruns a rim (`{status}`)."
-    )  # fmt: skip
+    )
     return result, rise_plain, text
 
 

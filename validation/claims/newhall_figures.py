@@ -57,16 +57,30 @@ def motions(found: Mapping[str, xr.Dataset], bearing: LIRBearing, contact: float
         turns = 1e3 * motion["rotation"].sel(axis="y")
         for panel, values in zip(panels, (lateral, vertical, turns), strict=True):
             for b, body in enumerate(BODIES):
-                panel.plot(motion["time"], values.sel(body=body), color=PALETTE[b],
-                           linestyle=LINES[k], linewidth=BODY_WIDTHS[b])  # fmt: skip
+                panel.plot(
+                    motion["time"],
+                    values.sel(body=body),
+                    color=PALETTE[b],
+                    linestyle=LINES[k],
+                    linewidth=BODY_WIDTHS[b],
+                )
     for panel, text in zip(
-        panels, ("lateral\ndisplacement [mm]", "vertical\ndisplacement [mm]",
-                 "rotation about y\n[mrad]"), strict=True,
-    ):  # fmt: skip
+        panels,
+        ("lateral\ndisplacement [mm]", "vertical\ndisplacement [mm]", "rotation about y\n[mrad]"),
+        strict=True,
+    ):
         panel.axvline(contact, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         caption(panel, y=text)
-    panels[0].text(contact - 0.1, 0.97, "impact", fontsize=SMALL, color=GREY, ha="right",
-                   va="top", transform=panels[0].get_xaxis_transform())  # fmt: skip
+    panels[0].text(
+        contact - 0.1,
+        0.97,
+        "impact",
+        fontsize=SMALL,
+        color=GREY,
+        ha="right",
+        va="top",
+        transform=panels[0].get_xaxis_transform(),
+    )
     panels[0].set_xlim(0.0, SHOWN)
     caption(panels[-1], x="time [s]")
     drawn.align_ylabels()
@@ -95,8 +109,11 @@ def forces(found: Mapping[str, xr.Dataset], limit: float, contact: float) -> Fig
         force_panel.plot(until["time"], force, **look)
         zoom.plot(until["time"], force, **look)
         moment.plot(until["time"], 1e-3 * until["bearing_moment"].sel(end="j", axis="y"), **look)
-        loop.plot(1e3 * chosen["bearing_displacement"].sel(axis="x"),
-                  chosen["bearing_force"].sel(axis="x") / data["weight"], **look)  # fmt: skip
+        loop.plot(
+            1e3 * chosen["bearing_displacement"].sel(axis="x"),
+            chosen["bearing_force"].sel(axis="x") / data["weight"],
+            **look,
+        )
     for panel in (force_panel, moment, zoom):
         panel.axvline(contact, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         caption(panel, x="time [s]")
@@ -114,10 +131,16 @@ def forces(found: Mapping[str, xr.Dataset], limit: float, contact: float) -> Fig
     caption(loop, x="displacement [mm]", title="loops")
     handles = [
         Line2D([], [], color=GREY, linewidth=0.8, linestyle=(0, (4, 3)), label="impact"),
-        Line2D([], [], color=GREY, linewidth=0.8, linestyle=(0, (1, 2)),
-               label="limit, static: tan(θ + atan μ$_h$)"),
+        Line2D(
+            [],
+            [],
+            color=GREY,
+            linewidth=0.8,
+            linestyle=(0, (1, 2)),
+            label="limit, static: tan(θ + atan μ$_h$)",
+        ),
         *_levels(found, colours=True),
-    ]  # fmt: skip
+    ]
     add_legend(drawn, handles, title="Forces that the bearing passes on, Newhall 360")
     return drawn
 
@@ -146,8 +169,9 @@ def film(data: xr.Dataset, bearing: LIRBearing, path: Path) -> None:
             section.set_ylim(low[1], high[1])
             rim = float(data["rim_force"].sel(time=time, method="nearest").max()) > 0.0
             words = f"t = {time:.2f} s, slip {1e3 * abs(now.slip):.0f} mm"
-            section.set_title(words + (", rim contact" if rim else ""), fontsize=SMALL + 1.5,
-                              loc="left")  # fmt: skip
+            section.set_title(
+                words + (", rim contact" if rim else ""), fontsize=SMALL + 1.5, loc="left"
+            )
             _loop(loop, u, force, int(np.searchsorted(clock, time, side="right")))
             writer.grab_frame()
 
@@ -164,7 +188,13 @@ def _loop(panel: Axes, u: FloatArray, force: FloatArray, count: int) -> None:
 
 def _levels(found: Mapping[str, xr.Dataset], *, colours: bool = False) -> list[Line2D]:
     return [
-        Line2D([], [], color=PALETTE[k] if colours else "black", linestyle=LINES[k],
-               linewidth=WIDTH, label=f"level {level}")
+        Line2D(
+            [],
+            [],
+            color=PALETTE[k] if colours else "black",
+            linestyle=LINES[k],
+            linewidth=WIDTH,
+            label=f"level {level}",
+        )
         for k, level in enumerate(found)
-    ]  # fmt: skip
+    ]

@@ -43,8 +43,9 @@ NODES = ("base-0-0", "floor-2-0-0")
 
 TILT: Rung = (
     "tilt of the plates, and how N U is shared between the nodes",
-    "both: base beams a thousand times as stiff", {"rigid_base": True},
-)  # fmt: skip
+    "both: base beams a thousand times as stiff",
+    {"rigid_base": True},
+)
 RUNGS: tuple[Rung, ...] = (TILT, VERTICAL, LARGE)
 
 
@@ -61,9 +62,11 @@ class Building:
 def frame_of(setting: Building) -> Frame:
     """Return the building of a setting."""
     bearing = example_bearing(
-        friction=CoulombFriction(setting.scale * F_MAX), design_load=LOAD, slider_radius=0.1,
+        friction=CoulombFriction(setting.scale * F_MAX),
+        design_load=LOAD,
+        slider_radius=0.1,
         yield_displacement=setting.scale * SLIP,
-    ).as_dcfp(rims=False)  # fmt: skip
+    ).as_dcfp(rims=False)
     return steel_frame(bearing, rigid_base=setting.rigid_base)
 
 
@@ -75,9 +78,15 @@ def steel_frame(bearing: LIRBearing, *, rigid_base: bool = False) -> Frame:
             base, inertia_y=STIFFENED * base.inertia_y, inertia_z=STIFFENED * base.inertia_z
         )
     frame = moment_frame(
-        bays=(1, 1), storeys=2, bearing=bearing, column=slender(DEFAULT_COLUMN),
-        beam=slender(DEFAULT_BEAM), base_beam=base, floor_load=1900.0, damping=None,
-    )  # fmt: skip
+        bays=(1, 1),
+        storeys=2,
+        bearing=bearing,
+        column=slender(DEFAULT_COLUMN),
+        beam=slender(DEFAULT_BEAM),
+        base_beam=base,
+        floor_load=1900.0,
+        damping=None,
+    )
     frame.set_damping(RayleighDamping(RATIO, (FAR, first_period(frame))))
     return frame
 

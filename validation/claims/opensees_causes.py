@@ -106,30 +106,40 @@ Rung = tuple[str, str, dict[str, Any]]
 
 VERTICAL: Rung = (
     "vertical coupling: the bearing rises as it moves, which changes its axial force",
-    "here: `Features(vertical_coupling=False)`", {"coupled": False},
-)  # fmt: skip
+    "here: `Features(vertical_coupling=False)`",
+    {"coupled": False},
+)
 LIFT: Rung = (
-    VERTICAL[0], "there: the option `-inclVertdisp` (`lift=True`)", {"lift": True},
-)  # fmt: skip
+    VERTICAL[0],
+    "there: the option `-inclVertdisp` (`lift=True`)",
+    {"lift": True},
+)
 LARGE: Rung = (
     "large displacements: sphere, its inclined normal force",
-    "both: motion and friction times 0.1", {"scale": TENTH},
-)  # fmt: skip
+    "both: motion and friction times 0.1",
+    {"scale": TENTH},
+)
 ELASTIC: Rung = (
     "elastic sliding: a constant stiffness there, a constant displacement here, while friction "
     "changes with speed",
-    "both: `yield_displacement` 0.01 mm", {"slip": FINE_SLIP},
-)  # fmt: skip
+    "both: `yield_displacement` 0.01 mm",
+    {"slip": FINE_SLIP},
+)
 FRICTION: Rung = (
-    "moment equilibrium of the rigid slider", "there: μ (R1 + R2)/L in place of μ",
+    "moment equilibrium of the rigid slider",
+    "there: μ (R1 + R2)/L in place of μ",
     {"unmapped": ("rate", "yield")},
-)  # fmt: skip
+)
 SPEED: Rung = (
-    "measure of speed", "there: rate α R/L in place of α", {"unmapped": ("yield",)},
-)  # fmt: skip
+    "measure of speed",
+    "there: rate α R/L in place of α",
+    {"unmapped": ("yield",)},
+)
 YIELD: Rung = (
-    "yield displacement over the bearing", "there: u_y L/R in place of u_y", {"unmapped": ()},
-)  # fmt: skip
+    "yield displacement over the bearing",
+    "there: u_y L/R in place of u_y",
+    {"unmapped": ()},
+)
 
 
 def bearing_of(setting: Setting) -> LIRBearing:
@@ -154,9 +164,7 @@ def given_as_printed(bearing: LIRBearing, what: Sequence[str]) -> LIRBearing:
     if isinstance(law, VelocityFriction):
         changed = VelocityFriction(f_max=factor * law.f_max, f_min=factor * law.f_min, rate=rate)
         return replace(bearing, friction=changed, yield_displacement=slip)
-    return replace(
-        bearing, friction=CoulombFriction(factor * law.f_max), yield_displacement=slip
-    )  # fmt: skip
+    return replace(bearing, friction=CoulombFriction(factor * law.f_max), yield_displacement=slip)
 
 
 def motion_of(setting: Setting, record: GroundMotion) -> GroundMotion:
@@ -169,9 +177,11 @@ def here(setting: Setting, record: GroundMotion) -> Track:
     """Run a setting with the bearing of this package."""
     features = Features(vertical_coupling=setting.coupled)
     data = time_history(
-        lumped_mass(bearing_of(setting), EXAMPLE_MASS), motion_of(setting, record),
-        dt=setting.dt, features=features,
-    )  # fmt: skip
+        lumped_mass(bearing_of(setting), EXAMPLE_MASS),
+        motion_of(setting, record),
+        dt=setting.dt,
+        features=features,
+    )
     moved, force = (
         data[name].isel(bearing=0).to_numpy() for name in ("bearing_displacement", "bearing_force")
     )

@@ -94,9 +94,14 @@ def in_opensees(
         recordings[:] = [record_bearings()]
 
     track = frame_history(
-        frame, place, motion, dt, [ROOF], duration=DURATION,
+        frame,
+        place,
+        motion,
+        dt,
+        [ROOF],
+        duration=DURATION,
         stiffness_damping=stiffness_damping(frame),
-    )  # fmt: skip
+    )
     data = recordings[0].dataset().isel(time=slice(GRAVITY_STEPS, None))
     return data, track.displacement[1:, 0]
 
@@ -142,8 +147,15 @@ def page(folder: Path | None) -> Page:
             what = "a peak" if dt < COARSE else "displacement, slip, work"
             worst = max(abs(columns[f"OpenSees, {route}"][k] / ours[k] - 1.0) for k in asked)
             goal = GOAL if dt < COARSE else GOAL_COARSE
-            checks.append(below(f"largest difference of {what} ({name})", "frames",
-                                100.0 * goal, 100.0 * worst, "%"))  # fmt: skip
+            checks.append(
+                below(
+                    f"largest difference of {what} ({name})",
+                    "frames",
+                    100.0 * goal,
+                    100.0 * worst,
+                    "%",
+                )
+            )
         parts += [f"## Level {level}, steps of {1e3 * dt:g} ms", _table(columns)]
     slip = 1e3 * float(shown["frames"]["interface_slip_size"].max())
     worst = max(float(check.got.split()[0]) for check in checks if "a peak" in check.what)
@@ -151,9 +163,21 @@ def page(folder: Path | None) -> Page:
         f"largest difference of any peak {worst:.2g} % at steps that follow a rim impact, with "
         f"{slip:.0f} mm of slip"
     )
-    return Page(CLAIM, result, checks, [_setting(), figure(
-        CLAIM, "histories", "Displacement and interface slip of a corner bearing in both programs"
-    ), *parts], {"histories": _figure(shown)})  # fmt: skip
+    return Page(
+        CLAIM,
+        result,
+        checks,
+        [
+            _setting(),
+            figure(
+                CLAIM,
+                "histories",
+                "Displacement and interface slip of a corner bearing in both programs",
+            ),
+            *parts,
+        ],
+        {"histories": _figure(shown)},
+    )
 
 
 def _setting() -> str:

@@ -62,9 +62,10 @@ def plain(scale: float = 1.0) -> LIRBearing:
     bearing = static_bearing().as_dcfp(rims=False)
     mu = bearing.frictions[0].f_max
     return replace(
-        bearing, friction=CoulombFriction(scale * mu),
+        bearing,
+        friction=CoulombFriction(scale * mu),
         yield_displacement=scale * bearing.yield_displacement,
-    )  # fmt: skip
+    )
 
 
 def path_of(scale: float, finer: int = 1) -> FloatArray:

@@ -88,14 +88,25 @@ def draw_rims(found: Mapping[str, Rim], orbits: Mapping[str, Floats], capacity: 
     for name, way in orbits.items():
         right.plot(1e3 * way[:, 0], 1e3 * way[:, 1], **look(names.index(name)))
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
-    right.plot(1e3 * capacity * np.cos(turn), 1e3 * capacity * np.sin(turn), color=GREY,
-               linewidth=0.8, linestyle=(0, (4, 3)))  # fmt: skip
+    right.plot(
+        1e3 * capacity * np.cos(turn),
+        1e3 * capacity * np.sin(turn),
+        color=GREY,
+        linewidth=0.8,
+        linestyle=(0, (4, 3)),
+    )
     near = np.vstack([w[np.linalg.norm(w, axis=1) > 0.97 * capacity] for w in orbits.values()])
     right.set_xlim(1e3 * near[:, 0].min() - 15.0, 1e3 * near[:, 0].max() + 25.0)
     right.set_ylim(1e3 * near[:, 1].min() - 15.0, 1e3 * near[:, 1].max() + 25.0)
-    right.annotate("rim", 1e3 * near.mean(axis=0) * capacity / np.linalg.norm(near.mean(axis=0)),
-                   (-24.0, -24.0), textcoords="offset points", fontsize=SMALL, color=GREY,
-                   arrowprops={"arrowstyle": "->", "linewidth": 0.6, "color": GREY})  # fmt: skip
+    right.annotate(
+        "rim",
+        1e3 * near.mean(axis=0) * capacity / np.linalg.norm(near.mean(axis=0)),
+        (-24.0, -24.0),
+        textcoords="offset points",
+        fontsize=SMALL,
+        color=GREY,
+        arrowprops={"arrowstyle": "->", "linewidth": 0.6, "color": GREY},
+    )
     for panel in (left, right):
         panel.set_aspect("equal")
     left.set_xlim(left=0.0)

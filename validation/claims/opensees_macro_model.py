@@ -68,9 +68,28 @@ def series_with_mu_h(bearing: LIRBearing, weight: float) -> Device:
     ops.uniaxialMaterial("Elastic", first, 2.0 * own["axial_stiffness"])
     ops.uniaxialMaterial("Elastic", first + 1, 1.0)
     ops.element(
-        "flatSliderBearing", first, made.middle, ABOVE, first, stiffness, "-P", first,
-        "-T", first + 1, "-My", first + 1, "-Mz", first + 1, "-orient", 0, 0, 1, 1, 0, 0,
-    )  # fmt: skip
+        "flatSliderBearing",
+        first,
+        made.middle,
+        ABOVE,
+        first,
+        stiffness,
+        "-P",
+        first,
+        "-T",
+        first + 1,
+        "-My",
+        first + 1,
+        "-Mz",
+        first + 1,
+        "-orient",
+        0,
+        0,
+        1,
+        1,
+        0,
+        0,
+    )
     return Device((first,), made.middle)
 
 
@@ -87,10 +106,12 @@ def loops(way: Floats) -> dict[str, Loop]:
     data = cyclic_test(bearing, way, LOAD)
     found = {
         "element": Loop(
-            "element", way, data["bearing_force"].sel(axis="x")[:, 0].to_numpy() / LOAD,
+            "element",
+            way,
+            data["bearing_force"].sel(axis="x")[:, 0].to_numpy() / LOAD,
             data["interface_slip"].sel(axis="x")[:, 0].to_numpy(),
         )
-    }  # fmt: skip
+    }
     for name, make in MODELS.items():
         done = pull(make, bearing, LOAD, way)
         u = done.displacement[:, 0]
@@ -120,25 +141,70 @@ def static_checks(found: dict[str, Loop]) -> list[Check]:
     left, rest = theirs.slip[round(REACH / STEP)], theirs.slip[theirs.zero()]
     early = length * (bearing.interface_friction - bearing.effective_friction)
     return [
-        near("force at 170 mm, macro-model / element", "closed forms of both, below",
-             pendulum_force(bearing, BEFORE) / element_force(bearing, BEFORE),
-             theirs.at(BEFORE) / ours.at(BEFORE), 3e-3, ""),
-        near("displacement at the first slip, macro-model", "element",
-             1e3 * ours.displacement[ours.first()], 1e3 * theirs.displacement[theirs.first()],
-             5e-3, "mm"),
-        near("force at the first slip over load, macro-model", "tan(θ + atan μ_h)", limit,
-             theirs.force[theirs.first()], 5e-3, ""),
-        near("slip that the first way out leaves, macro-model", "element",
-             1e3 * ours.slip[round(REACH / STEP)], 1e3 * left, 0.02, "mm"),
-        near("force at zero on the way back, macro-model less element, over load",
-             "−s/L", -rest / length, theirs.back() - ours.back(), 0.02, ""),
-        below("the same with springs across, over −s/L", "restoring force of U", 0.02,
-              abs((across.back() - ours.back()) * length / rest), ""),
-        near("largest force over load, springs across", "limit + s/L", limit + left / length,
-             across.force[: round(REACH / STEP) + 1].max(), 5e-3, ""),
-        near("displacement at the first slip, flat slider with μ_h itself", "L (μ_h − m)",
-             1e3 * early, 1e3 * plain.displacement[plain.first()], 0.05, "mm"),
-    ]  # fmt: skip
+        near(
+            "force at 170 mm, macro-model / element",
+            "closed forms of both, below",
+            pendulum_force(bearing, BEFORE) / element_force(bearing, BEFORE),
+            theirs.at(BEFORE) / ours.at(BEFORE),
+            3e-3,
+            "",
+        ),
+        near(
+            "displacement at the first slip, macro-model",
+            "element",
+            1e3 * ours.displacement[ours.first()],
+            1e3 * theirs.displacement[theirs.first()],
+            5e-3,
+            "mm",
+        ),
+        near(
+            "force at the first slip over load, macro-model",
+            "tan(θ + atan μ_h)",
+            limit,
+            theirs.force[theirs.first()],
+            5e-3,
+            "",
+        ),
+        near(
+            "slip that the first way out leaves, macro-model",
+            "element",
+            1e3 * ours.slip[round(REACH / STEP)],
+            1e3 * left,
+            0.02,
+            "mm",
+        ),
+        near(
+            "force at zero on the way back, macro-model less element, over load",
+            "−s/L",
+            -rest / length,
+            theirs.back() - ours.back(),
+            0.02,
+            "",
+        ),
+        below(
+            "the same with springs across, over −s/L",
+            "restoring force of U",
+            0.02,
+            abs((across.back() - ours.back()) * length / rest),
+            "",
+        ),
+        near(
+            "largest force over load, springs across",
+            "limit + s/L",
+            limit + left / length,
+            across.force[: round(REACH / STEP) + 1].max(),
+            5e-3,
+            "",
+        ),
+        near(
+            "displacement at the first slip, flat slider with μ_h itself",
+            "L (μ_h − m)",
+            1e3 * early,
+            1e3 * plain.displacement[plain.first()],
+            0.05,
+            "mm",
+        ),
+    ]
 
 
 def rims() -> dict[str, Rim]:
@@ -179,16 +245,27 @@ def rim_checks(found: dict[str, Rim]) -> list[Check]:
     capacity = static_bearing().lateral_capacity
     ours = found["element"].reach
     results = [
-        below("displacement at the first slip over the direction, element: spread", "circle", 1e-3,
-              float(np.ptp(ours) / ours.mean()), ""),
-    ]  # fmt: skip
+        below(
+            "displacement at the first slip over the direction, element: spread",
+            "circle",
+            1e-3,
+            float(np.ptp(ours) / ours.mean()),
+            "",
+        ),
+    ]
     for n in CORNERS:
         corner = math.pi / n
         reach = _theirs(partial(macro, directions=n), static_bearing(), corner)
-        results.append(near(
-            f"the same in a corner, {n} gaps", "U_cap / cos(π/n)",
-            1e3 * capacity / math.cos(corner), 1e3 * reach, 5e-3, "mm",
-        ))  # fmt: skip
+        results.append(
+            near(
+                f"the same in a corner, {n} gaps",
+                "U_cap / cos(π/n)",
+                1e3 * capacity / math.cos(corner),
+                1e3 * reach,
+                5e-3,
+                "mm",
+            )
+        )
     return results
 
 
@@ -196,9 +273,7 @@ def histories(motion: GroundMotion) -> tuple[xr.Dataset, Shaken]:
     """Run the example under the record with both."""
     bearing = example_bearing()
     ours = time_history(lumped_mass(bearing, EXAMPLE_MASS), motion, DURATION, dt=STEP_HISTORY)
-    theirs = shake(
-        macro, bearing, EXAMPLE_MASS, motion, duration=DURATION, dt=STEP_HISTORY
-    )  # fmt: skip
+    theirs = shake(macro, bearing, EXAMPLE_MASS, motion, duration=DURATION, dt=STEP_HISTORY)
     return ours, theirs
 
 
@@ -222,16 +297,39 @@ def history_checks(ours: xr.Dataset, theirs: Shaken) -> list[Check]:
     weight = EXAMPLE_MASS * STANDARD_GRAVITY
     ours_share = np.abs(own[:, 1]).max() / np.abs(own.sum(axis=1)).max()
     return [
-        near("Newhall, peak displacement, macro-model", "element", 1e3 * np.abs(u).max(),
-             1e3 * np.abs(theirs.displacement[:, 0]).max(), 0.01, "mm"),
-        near("Newhall, slip at the end, macro-model", "element", 1e3 * abs(slip[-1]),
-             1e3 * abs(theirs.displacement[-1, 0] - theirs.middle[-1, 0]), 0.03, "mm"),
-        below("Newhall, largest force over limit, macro-model", "W tan(θ + atan μ_h)", 1.005,
-              np.abs(theirs.force[:, 0]).max() / example_bearing().force_limit(weight), ""),
-        near("Newhall, largest moment on the superstructure over that on both ends, element",
-             "about half", 0.5, ours_share, 0.1, ""),
+        near(
+            "Newhall, peak displacement, macro-model",
+            "element",
+            1e3 * np.abs(u).max(),
+            1e3 * np.abs(theirs.displacement[:, 0]).max(),
+            0.01,
+            "mm",
+        ),
+        near(
+            "Newhall, slip at the end, macro-model",
+            "element",
+            1e3 * abs(slip[-1]),
+            1e3 * abs(theirs.displacement[-1, 0] - theirs.middle[-1, 0]),
+            0.03,
+            "mm",
+        ),
+        below(
+            "Newhall, largest force over limit, macro-model",
+            "W tan(θ + atan μ_h)",
+            1.005,
+            np.abs(theirs.force[:, 0]).max() / example_bearing().force_limit(weight),
+            "",
+        ),
+        near(
+            "Newhall, largest moment on the superstructure over that on both ends, element",
+            "about half",
+            0.5,
+            ours_share,
+            0.1,
+            "",
+        ),
         below("the same, macro-model", "P-Delta on node i alone", 0.2, share, ""),
-    ]  # fmt: skip
+    ]
 
 
 def cost(motion: GroundMotion) -> tuple[float, float, float]:
@@ -239,10 +337,12 @@ def cost(motion: GroundMotion) -> tuple[float, float, float]:
     pairs = []
     for _ in range(REPEATS):
         ours, theirs = histories(motion)
-        pairs.append((
-            1e6 * ours.attrs["seconds_loop"] / ours.attrs["steps"],
-            1e6 * theirs.seconds / theirs.steps,
-        ))  # fmt: skip
+        pairs.append(
+            (
+                1e6 * ours.attrs["seconds_loop"] / ours.attrs["steps"],
+                1e6 * theirs.seconds / theirs.steps,
+            )
+        )
     ratio = statistics.median(theirs / ours for ours, theirs in pairs)
     return statistics.median(p[0] for p in pairs), statistics.median(p[1] for p in pairs), ratio
 

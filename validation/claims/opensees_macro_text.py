@@ -59,17 +59,35 @@ def settings_table(motion: GroundMotion) -> tuple[str, dict[str, Shaken]]:
     rows, kept = [], {}
     for name, options, dt, algorithms in SETTINGS:
         done = shake(
-            partial(macro, **options), example_bearing(), EXAMPLE_MASS, motion,
-            duration=DURATION, dt=dt, algorithms=algorithms,
-        )  # fmt: skip
+            partial(macro, **options),
+            example_bearing(),
+            EXAMPLE_MASS,
+            motion,
+            duration=DURATION,
+            dt=dt,
+            algorithms=algorithms,
+        )
         kept[f"{name}, {1e3 * dt:g} ms, {NAMES[algorithms]}"] = done
-        rows.append((
-            name, f"{1e3 * dt:g}", NAMES[algorithms], outcome(done), f"{1e3 * peak(done):.1f}",
-            f"{1e3 * np.linalg.norm(slip(done)[-1]):.1f}",
-            f"{done.iterations / max(done.steps, 1):.1f}",
-        ))  # fmt: skip
-    head = ("macro-model", "step [ms]", "algorithm", "outcome", "peak [mm]", "slip at the end [mm]",
-            "iterations a step")  # fmt: skip
+        rows.append(
+            (
+                name,
+                f"{1e3 * dt:g}",
+                NAMES[algorithms],
+                outcome(done),
+                f"{1e3 * peak(done):.1f}",
+                f"{1e3 * np.linalg.norm(slip(done)[-1]):.1f}",
+                f"{done.iterations / max(done.steps, 1):.1f}",
+            )
+        )
+    head = (
+        "macro-model",
+        "step [ms]",
+        "algorithm",
+        "outcome",
+        "peak [mm]",
+        "slip at the end [mm]",
+        "iterations a step",
+    )
     return table(head, rows), kept
 
 
@@ -94,17 +112,28 @@ def scenes_table() -> tuple[str, dict[str, dict[str, Floats]], dict[str, float]]
             if gaps == 8 and scene.name != SCENES[0]:
                 continue
             done = shake(
-                partial(macro, directions=gaps), scene.bearing, MASS, scene.motion,
-                duration=scene.duration, dt=SCENE_STEP, algorithms=algorithms,
-            )  # fmt: skip
+                partial(macro, directions=gaps),
+                scene.bearing,
+                MASS,
+                scene.motion,
+                duration=scene.duration,
+                dt=SCENE_STEP,
+                algorithms=algorithms,
+            )
             name = f"macro-model, {gaps} gaps, {NAMES[algorithms]}"
             axial = float(-done.force[:, 2].min() / -done.force[0, 2])
             u = done.displacement[:, :2]
             peaks[f"{scene.name}, {name}"] = peak(done)
             rows.append(_row(scene, name, outcome(done), u, slip(done), axial))
             orbits[scene.name][f"macro-model, {gaps} gaps"] = u - slip(done)
-    head = ("scene", "model", "outcome", "peak [mm]", "slip at the end [mm]",
-            "largest axial force / weight")  # fmt: skip
+    head = (
+        "scene",
+        "model",
+        "outcome",
+        "peak [mm]",
+        "slip at the end [mm]",
+        "largest axial force / weight",
+    )
     return table(head, rows), orbits, peaks
 
 
@@ -113,9 +142,13 @@ def _row(
 ) -> tuple[str, ...]:
     state = "completed" if status == "ok" else status
     return (
-        scene.name, name, state, f"{1e3 * np.linalg.norm(u, axis=1).max():.1f}",
-        f"{1e3 * np.linalg.norm(s[-1]):.1f}", f"{axial:.2f}",
-    )  # fmt: skip
+        scene.name,
+        name,
+        state,
+        f"{1e3 * np.linalg.norm(u, axis=1).max():.1f}",
+        f"{1e3 * np.linalg.norm(s[-1]):.1f}",
+        f"{axial:.2f}",
+    )
 
 
 def text(claim: Claim, numbers: dict[str, float], settings: str, scenes: str) -> list[str]:

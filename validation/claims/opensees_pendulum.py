@@ -71,8 +71,9 @@ TRIPLE: BuiltinKind = "TripleFrictionPendulum"
 FINE: Rung = ("step", "both: 1.25 ms in place of 5 ms", {"dt": 1.25e-3, "their_dt": 1.25e-3})
 LEVEL: Rung = (
     "force added up from increments, which a change of the axial force does not enter",
-    "both: no vertical motion", {"level": True},
-)  # fmt: skip
+    "both: no vertical motion",
+    {"level": True},
+)
 
 
 def explicit(dt: float) -> Rung:
@@ -99,26 +100,49 @@ def static_part() -> tuple[list[Check], list[str], dict[str, loops.Loop]]:
         rows.append((name, *cells))
         if exact is not None:
             error = float(np.abs(by[1.0] / exact - 1.0).max())
-            checks.append(below(f"loop: {name}, largest difference from its closed form",
-                                "closed form", EXACT, error, ""))  # fmt: skip
+            checks.append(
+                below(
+                    f"loop: {name}, largest difference from its closed form",
+                    "closed form",
+                    EXACT,
+                    error,
+                    "",
+                )
+            )
     bearing = loops.plain()
     mapped = builtin_values(bearing, LOAD).friction_max / bearing.frictions[0].f_max
     printed = loops.there("singleFPBearing", factor=1.0 / mapped).values()
     target = values[loops.OURS]
-    apart_rows = [(
-        "singleFPBearing, μ as printed → mapped",
-        *(percent(a, b) for a, b in zip(printed / target[1.0] - 1.0,
-          values["singleFPBearing"][1.0] / target[1.0] - 1.0, strict=True)),
-    )]  # fmt: skip
+    apart_rows = [
+        (
+            "singleFPBearing, μ as printed → mapped",
+            *(
+                percent(a, b)
+                for a, b in zip(
+                    printed / target[1.0] - 1.0,
+                    values["singleFPBearing"][1.0] / target[1.0] - 1.0,
+                    strict=True,
+                )
+            ),
+        )
+    ]
     for kind in BUILTIN_KINDS:
         before, after = (values[kind][s] / target[s] - 1.0 for s in (1.0, TENTH))
-        apart_rows.append((f"{kind}, large displacements → a tenth",
-                           *map(percent, before, after)))  # fmt: skip
-        checks.append(below(f"loop: {kind} against the bearing, small displacements",
-                            "similarity", SMALL, float(np.abs(after).max()), ""))  # fmt: skip
+        apart_rows.append((f"{kind}, large displacements → a tenth", *map(percent, before, after)))
+        checks.append(
+            below(
+                f"loop: {kind} against the bearing, small displacements",
+                "similarity",
+                SMALL,
+                float(np.abs(after).max()),
+                "",
+            )
+        )
     head = ("element", *(f"{n} [{u}]" for n, u in zip(loops.NAMES, loops.UNITS, strict=True)))
-    tables = [table(head, rows), table(("difference from the bearing [%]", *loops.NAMES),
-                                       apart_rows)]  # fmt: skip
+    tables = [
+        table(head, rows),
+        table(("difference from the bearing [%]", *loops.NAMES), apart_rows),
+    ]
     return checks, tables, {name: by[1.0] for name, by in everything.items()}
 
 
@@ -164,40 +188,59 @@ def ladder_table(ladders: Sequence[Sequence[Row]]) -> str:
     """Return the table of causes with the differences before and after."""
     names = list(ladders[0][0].before)
     rows = [
-        (row.kind if not k else "", row.cause, row.how,
-         *(percent(row.before[name], row.after[name]) for name in names))
-        for rows in ladders for k, row in enumerate(rows)
-    ]  # fmt: skip
+        (
+            row.kind if not k else "",
+            row.cause,
+            row.how,
+            *(percent(row.before[name], row.after[name]) for name in names),
+        )
+        for rows in ladders
+        for k, row in enumerate(rows)
+    ]
     return table(("element", "cause", "left out by", *(f"{name} [%]" for name in names)), rows)
 
 
 def left(what: str, ladders: Sequence[Sequence[Row]]) -> list[Check]:
     """Check that what remains at the end of each ladder needs no cause."""
     return [
-        below(f"{what}: {rows[-1].kind}, largest difference with all causes left out",
-              "OpenSeesPy", SMALL, largest(rows[-1].after), "")
+        below(
+            f"{what}: {rows[-1].kind}, largest difference with all causes left out",
+            "OpenSeesPy",
+            SMALL,
+            largest(rows[-1].after),
+            "",
+        )
         for rows in ladders
-    ]  # fmt: skip
+    ]
 
 
 def mapped_check(what: str, rows: Sequence[Row], name: str, limit: float) -> Check:
     """Check a difference with the parameters mapped and nothing left out."""
     plain = next(row for row in rows if row.cause not in {FRICTION[0], SPEED[0], YIELD[0]})
-    return below(f"{what}: {plain.kind} as mapped, difference of the {name}", "OpenSeesPy", limit,
-                 abs(plain.before[name]), "")  # fmt: skip
+    return below(
+        f"{what}: {plain.kind} as mapped, difference of the {name}",
+        "OpenSeesPy",
+        limit,
+        abs(plain.before[name]),
+        "",
+    )
 
 
 def text(parts: dict[str, Any]) -> list[str]:
     """Return the text of the page."""
     values = builtin_values(loops.plain(), loops.LOAD)
-    three = [
-        "Chi-Chi 1999, TCU065, three components times "
-        f"{SCALE:g}; the same mass and bearing. The vertical motion keeps its size where the "
-        "motion in plan is reduced.",
-        ladder_table(parts["tcu"]),
-        "TFP remains: its increments of force do not follow the axial force, and beyond that its "
-        "error falls with its step.",
-    ] if parts["tcu"] else ["Not run: the folder of records does not hold TCU065."]  # fmt: skip
+    three = (
+        [
+            "Chi-Chi 1999, TCU065, three components times "
+            f"{SCALE:g}; the same mass and bearing. The vertical motion keeps its size where the "
+            "motion in plan is reduced.",
+            ladder_table(parts["tcu"]),
+            "TFP remains: its increments of force do not follow the axial force, and beyond that its "
+            "error falls with its step.",
+        ]
+        if parts["tcu"]
+        else ["Not run: the folder of records does not hold TCU065."]
+    )
     return [
         f"openseespy {parts['version']}. The mapping is `lir_element.opensees.builtin_element`; "
         "its docstrings state it element by element. For the bearing of the static test: "
@@ -264,8 +307,15 @@ def page(folder: Path | None) -> Page:
     checks += [mapped_check("Newhall", newhall[k], "peak", 0.02) for k in range(3)]
     checks += left("Newhall", newhall)
     lift = ladder(Setting("singleFPBearing"), [LIFT], partial(apart, record=record))
-    checks.append(below("Newhall: singleFPBearing that lifts the mass, difference of the force",
-                        "OpenSeesPy", SMALL, abs(lift[0].after["force"]), ""))  # fmt: skip
+    checks.append(
+        below(
+            "Newhall: singleFPBearing that lifts the mass, difference of the force",
+            "OpenSeesPy",
+            SMALL,
+            abs(lift[0].after["force"]),
+            "",
+        )
+    )
     checks += [mapped_check("TCU065", rows, "peak", 0.02) for rows in tcu[:3]]
     checks += left("TCU065", tcu[:3])
     checks += [mapped_check("building", rows, "base", 0.02) for rows in frames]
@@ -274,9 +324,13 @@ def page(folder: Path | None) -> Page:
     tracks = {loops.OURS: here(setting, record)}
     tracks |= {kind: there(Setting(kind), record) for kind in VELOCITY}
     parts = {
-        "version": opensees().version(), "static": static, "newhall": newhall, "lift": lift,
-        "tcu": tcu, "building": frames,
-    }  # fmt: skip
+        "version": opensees().version(),
+        "static": static,
+        "newhall": newhall,
+        "lift": lift,
+        "tcu": tcu,
+        "building": frames,
+    }
     peaks = [abs(row.before["peak"]) for row in (newhall[0][3], newhall[1][0], newhall[2][0])]
     rest = max(largest(rows[-1].after) for rows in (*newhall, *tcu[:3], *frames))
     weight = bearing_of(setting).resolved()["design_load"]

@@ -120,9 +120,13 @@ def device(friction: float) -> LIRBearing:
 def resilient() -> LIRBearing:
     """Return an LIR-DCFP that hard waves drive into its rims."""
     return LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.12, capacity=0.15,
-        friction=CoulombFriction(FRICTION), interface_friction=0.14,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.12,
+        capacity=0.15,
+        friction=CoulombFriction(FRICTION),
+        interface_friction=0.14,
+    )
 
 
 def building(bearing: LIRBearing) -> Frame:
@@ -249,9 +253,12 @@ def page(_: Path | None) -> Page:
         for name in DAMPINGS
     }
     sliding = compare(
-        strong, device(FRICTION), single_pendulum, damping="mass and initial stiffness",
+        strong,
+        device(FRICTION),
+        single_pendulum,
+        damping="mass and initial stiffness",
         features=Features(plate_rotation=False),
-    )  # fmt: skip
+    )
     own = compare(
         waves(HARD, 6.0), resilient(), own_bearing, damping="mass and initial stiffness", dt=FINE
     )
@@ -272,9 +279,12 @@ def page(_: Path | None) -> Page:
 
 
 def _checks(
-    linear: dict[str, Comparison], sliding: Comparison, own: Comparison, periods: float,
+    linear: dict[str, Comparison],
+    sliding: Comparison,
+    own: Comparison,
+    periods: float,
     moves: float,
-) -> list[Check]:  # fmt: skip
+) -> list[Check]:
     source = "OpenSeesPy"
     found = []
     for name, one in linear.items():
@@ -289,17 +299,38 @@ def _checks(
         below("LIR-DCFPs: displacement of the base", "`bearing_element`", 0.005, own.base, ""),
         below("LIR-DCFPs: roof against base", "`bearing_element`", 0.005, own.storeys, ""),
         above("LIR-DCFPs: largest interface slip", "rims met", 10.0, 1e3 * own.slip, "mm"),
-        below("friction pendulums: displacement of the base", "singleFPBearing", 0.02,
-              sliding.base, ""),
-        below("friction pendulums: roof against base", "singleFPBearing", 0.04, sliding.storeys,
-              ""),
-        below("all periods, sticking: taken over against built here", "members of this program",
-              0.005, periods, ""),
-        below("displacement of LIR-DCFPs: taken over against built here",
-              "members of this program", 0.005, moves, ""),
-        below("energy ledger: error / input", "conservation of energy", 1e-3,
-              max(one.ledger for one in every), ""),
-    ]  # fmt: skip
+        below(
+            "friction pendulums: displacement of the base",
+            "singleFPBearing",
+            0.02,
+            sliding.base,
+            "",
+        ),
+        below(
+            "friction pendulums: roof against base", "singleFPBearing", 0.04, sliding.storeys, ""
+        ),
+        below(
+            "all periods, sticking: taken over against built here",
+            "members of this program",
+            0.005,
+            periods,
+            "",
+        ),
+        below(
+            "displacement of LIR-DCFPs: taken over against built here",
+            "members of this program",
+            0.005,
+            moves,
+            "",
+        ),
+        below(
+            "energy ledger: error / input",
+            "conservation of energy",
+            1e-3,
+            max(one.ledger for one in every),
+            "",
+        ),
+    ]
 
 
 def text(rows: str) -> list[str]:

@@ -74,9 +74,14 @@ def _smooth(k: float) -> BoucWen:
 
 def _degrading(k: float) -> BoucWen:
     return BoucWen(
-        stiffness=k, yield_force=YIELD, hardening=0.05, exponent=1.5, shape=0.7,
-        strength_loss=0.02, stiffness_loss=0.05,
-    )  # fmt: skip
+        stiffness=k,
+        yield_force=YIELD,
+        hardening=0.05,
+        exponent=1.5,
+        shape=0.7,
+        strength_loss=0.02,
+        stiffness_loss=0.05,
+    )
 
 
 def _pinched(k: float) -> BoucWen:
@@ -98,16 +103,29 @@ CASES = (
     Case("storeys, BoucWen pinching", "BWBN", lambda: stick(2, _pinched), WEAK, 1e-3, 6.0),
     Case("dampers, linear", "Viscous", lambda: equipped(LINEAR), WEAK, 2e-3, 4.0),
     Case("dampers, exponent 0.4", "Viscous", lambda: equipped(CURVED), WEAK, 2e-3, 4.0),
-    Case("dampers with a brace in series", "ViscousDamper", lambda: equipped(BRACED), WEAK, 2e-3,
-         4.0),
+    Case(
+        "dampers with a brace in series", "ViscousDamper", lambda: equipped(BRACED), WEAK, 2e-3, 4.0
+    ),
     Case("ties with slack", "ElasticPPGap", lambda: equipped(TIE), WEAK, 2e-3, 4.0),
     Case("walls, elastic", "ViscoelasticGap", lambda: equipped(WALL), 1.0, 5e-4, 2.4, works=False),
     Case("walls, Hertz", "Hertzdamp", lambda: equipped(POUNDING), 1.0, 5e-4, 2.4),
-    Case("hinges, no rims", "ConcentratedPlasticity", lambda: hinged(bearing(math.inf, 0.1)), 1.0,
-         2e-3, 4.0),
-    Case("hinges, rims met", "ConcentratedPlasticity", lambda: hinged(bearing(0.2, 0.1)), 1.0,
-         5e-4, 4.0),
-)  # fmt: skip
+    Case(
+        "hinges, no rims",
+        "ConcentratedPlasticity",
+        lambda: hinged(bearing(math.inf, 0.1)),
+        1.0,
+        2e-3,
+        4.0,
+    ),
+    Case(
+        "hinges, rims met",
+        "ConcentratedPlasticity",
+        lambda: hinged(bearing(0.2, 0.1)),
+        1.0,
+        5e-4,
+        4.0,
+    ),
+)
 SHOWN = (0, 2, 3, 11)
 """Cases whose loops are drawn."""
 
@@ -171,11 +189,22 @@ def _column_checks(own: section.Path, fibres: section.Path) -> list[Check]:
     turned = [float(np.abs(one.rotation).max()) for one in (own, fibres)]
     return [
         near(f"{what}: largest plastic rotation", source, turned[1], turned[0], DUCTILITY, "rad"),
-        near(f"{what}: energy dissipated", source, 1e-3 * fibres.dissipated,
-             1e-3 * own.dissipated, ENERGY, "kJ"),
-        below(f"{what}: largest value of n + m", "rounded corners", 1.03,
-              float(own.utilisation.max()), ""),
-    ]  # fmt: skip
+        near(
+            f"{what}: energy dissipated",
+            source,
+            1e-3 * fibres.dissipated,
+            1e-3 * own.dissipated,
+            ENERGY,
+            "kJ",
+        ),
+        below(
+            f"{what}: largest value of n + m",
+            "rounded corners",
+            1.03,
+            float(own.utilisation.max()),
+            "",
+        ),
+    ]
 
 
 def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> list[str]:
@@ -184,11 +213,18 @@ def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> li
     for case, both in found.items():
         here, there = (float(one.max()) for one in both.reached)
         work = [f"{1e-3 * one.sum():.1f}" if case.works else "" for one in both.work]
-        rows.append((
-            case.name, case.theirs, f"{1e3 * both.slip:.0f}", f"{here:.4g}", f"{there:.4g}", *work
-        ))  # fmt: skip
-    head = ("case", "in OpenSees", "slip (mm)", "reached here", "in OpenSees", "energy here (kJ)",
-            "in OpenSees")  # fmt: skip
+        rows.append(
+            (case.name, case.theirs, f"{1e3 * both.slip:.0f}", f"{here:.4g}", f"{there:.4g}", *work)
+        )
+    head = (
+        "case",
+        "in OpenSees",
+        "slip (mm)",
+        "reached here",
+        "in OpenSees",
+        "energy here (kJ)",
+        "in OpenSees",
+    )
     apart = [
         100.0 * float(np.abs(getattr(own, name) - getattr(fibres, name)).max()) / scale
         for name, scale in (("axial", section.AXIAL), ("moment", section.HINGE.moment_y))

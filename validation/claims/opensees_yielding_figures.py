@@ -42,9 +42,11 @@ def draw_loops(cases: Sequence[tuple[str, Both]]) -> Figure:
         turns = ":" in both.names[part]
         for which, style in ((1, THEIRS), (0, OURS)):
             axis.plot(
-                1e3 * both.deformation[which][:, part], 1e-3 * both.force[which][:, part],
-                label=NAMES[which], **style,
-            )  # fmt: skip
+                1e3 * both.deformation[which][:, part],
+                1e-3 * both.force[which][:, part],
+                label=NAMES[which],
+                **style,
+            )
         axis.set_title(f"{title}\n{both.names[part]}", fontsize=9)
         axis.set_xlabel("plastic rotation [mrad]" if turns else "deformation [mm]")
         axis.set_ylabel("moment [kN m]" if turns else "force [kN]")

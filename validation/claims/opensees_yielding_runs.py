@@ -122,9 +122,13 @@ def pulse(scale: float) -> GroundMotion:
 def bearing(capacity: float, friction: float = 0.05) -> LIRBearing:
     """Return the LIR-DCFP under these buildings."""
     return LIRBearing(
-        radius=1.5, slider_height=0.15, slider_radius=0.15, capacity=capacity,
-        friction=CoulombFriction(friction), interface_friction=0.14 if friction < 0.1 else 0.3,
-    )  # fmt: skip
+        radius=1.5,
+        slider_height=0.15,
+        slider_radius=0.15,
+        capacity=capacity,
+        friction=CoulombFriction(friction),
+        interface_friction=0.14 if friction < 0.1 else 0.3,
+    )
 
 
 def stick(
@@ -132,9 +136,14 @@ def stick(
 ) -> Frame:
     """Return a shear building, with a law for its storeys or linear."""
     return shear_building(
-        bearing(capacity), storey_mass=MASS, storey_stiffness=STIFFNESS, storeys=storeys,
-        base_mass=MASS, damping=None, storey_law=law,
-    )  # fmt: skip
+        bearing(capacity),
+        storey_mass=MASS,
+        storey_stiffness=STIFFNESS,
+        storeys=storeys,
+        base_mass=MASS,
+        damping=None,
+        storey_law=law,
+    )
 
 
 def equipped(law: Law) -> Frame:
@@ -152,12 +161,17 @@ def equipped(law: Law) -> Frame:
 def hinged(on: LIRBearing) -> Frame:
     """Return a moment frame of one bay and two storeys with hinges, its members free of shear."""
     frame = moment_frame(
-        (1, 1), 2, bearing=on, damping=None, hinges=HINGES, floor_load=3000.0,
+        (1, 1),
+        2,
+        bearing=on,
+        damping=None,
+        hinges=HINGES,
+        floor_load=3000.0,
         **{
             name: replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
             for name, section in SECTIONS.items()
         },
-    )  # fmt: skip
+    )
     for name in frame.nodes:
         if not name.startswith("ground"):
             frame.add_mass(name, 0.0, TURNING)
@@ -206,11 +220,16 @@ def run_both(frame: Frame, motion: GroundMotion, dt: float, duration: float) -> 
     here = data["node_displacement"].sel(node=list(frame.nodes)).to_numpy()[..., :3]
     parts = _hinges_here(data, names) if frame.hinges else _links_here(data, frame)
     return Both(
-        time=data["time"].to_numpy(), names=parts.names, moves=(here - here[0], moves - moves[0]),
-        deformation=(parts.deformation, d), force=(parts.force, f),
-        work=(parts.work, _work(d, f, parts.stiffness, len(parts.work))), limit=parts.limit,
-        slip=float(data["interface_slip_size"].max()), ledger=float(data.attrs["energy_error"]),
-    )  # fmt: skip
+        time=data["time"].to_numpy(),
+        names=parts.names,
+        moves=(here - here[0], moves - moves[0]),
+        deformation=(parts.deformation, d),
+        force=(parts.force, f),
+        work=(parts.work, _work(d, f, parts.stiffness, len(parts.work))),
+        limit=parts.limit,
+        slip=float(data["interface_slip_size"].max()),
+        ledger=float(data.attrs["energy_error"]),
+    )
 
 
 @dataclass(frozen=True)
@@ -247,11 +266,15 @@ def _links_here(data: xr.Dataset, frame: Frame) -> _Parts:
     yields = [isinstance(law, Bilinear | BoucWen) for law in laws]
     limit = data["link_yield_deformation"].to_numpy()
     return _Parts(
-        tuple(frame.links), data["link_deformation"].to_numpy(), data["link_force"].to_numpy(),
-        data["link_work"].to_numpy()[-1], np.where(yields, limit, 1.0),
-        np.array([law.stiffness if own else math.inf
-                  for law, own in zip(laws, yields, strict=True)]),
-    )  # fmt: skip
+        tuple(frame.links),
+        data["link_deformation"].to_numpy(),
+        data["link_force"].to_numpy(),
+        data["link_work"].to_numpy()[-1],
+        np.where(yields, limit, 1.0),
+        np.array(
+            [law.stiffness if own else math.inf for law, own in zip(laws, yields, strict=True)]
+        ),
+    )
 
 
 def _hinges_here(data: xr.Dataset, names: list[str]) -> _Parts:
@@ -259,9 +282,12 @@ def _hinges_here(data: xr.Dataset, names: list[str]) -> _Parts:
     count, width = len(turned), 2 * len(names)
     return _Parts(
         tuple(f"{name} {axis}" for name in names for axis in ("My", "Mz")),
-        turned[..., 1:].reshape(count, width), moment[..., 1:].reshape(count, width),
-        data["hinge_work"].to_numpy()[-1], np.ones(width), np.full(width, math.inf),
-    )  # fmt: skip
+        turned[..., 1:].reshape(count, width),
+        moment[..., 1:].reshape(count, width),
+        data["hinge_work"].to_numpy()[-1],
+        np.ones(width),
+        np.full(width, math.inf),
+    )
 
 
 def _work(d: FloatArray, f: FloatArray, stiffness: FloatArray, parts: int) -> FloatArray:

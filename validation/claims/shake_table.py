@@ -79,9 +79,15 @@ def structure(device: LIRBearing) -> Frame:
     # equal masses m and storeys k on a held base: first circular frequency 0.618 sqrt(k / m)
     stiffness = mass * (2.0 * math.pi / STRUCTURE_PERIOD / 0.618034) ** 2
     frame = shear_building(
-        device, [mass, mass], stiffness, base_mass=mass, storey_height=1.0, plan=(1, 1.5),
-        overturning=False, name="stiff structure on the shake table",
-    )  # fmt: skip
+        device,
+        [mass, mass],
+        stiffness,
+        base_mass=mass,
+        storey_height=1.0,
+        plan=(1, 1.5),
+        overturning=False,
+        name="stiff structure on the shake table",
+    )
     for node in ("base", "floor-1", "floor-2"):
         frame.fix(node, "uy", "rz")
     return frame
@@ -144,23 +150,58 @@ def checks(without: xr.Dataset, plain: xr.Dataset, impact: xr.Dataset) -> list[C
     count = len(slides(impact))
     rim = float(without["rim_force"].max())
     return [
-        Check("rim force in the test without impact", "its definition", "0 N", f"{rim:g} N",
-              not rim > 0.0),
-        below("without impact: difference to the plain DCFP, displacement", "paper 4", 0.5,
-              1e3 * difference, "mm"),
-        below("the same, base shear / weight", "paper 4", 0.01,
-              peak(shear(without) - shear(plain)), ""),
-        above("with impact: peak displacement (capacity)", "paper, Fig. 11(c)", 110.0,
-              1e3 * peak(displacement(impact)), "mm"),
+        Check(
+            "rim force in the test without impact",
+            "its definition",
+            "0 N",
+            f"{rim:g} N",
+            not rim > 0.0,
+        ),
+        below(
+            "without impact: difference to the plain DCFP, displacement",
+            "paper 4",
+            0.5,
+            1e3 * difference,
+            "mm",
+        ),
+        below(
+            "the same, base shear / weight",
+            "paper 4",
+            0.01,
+            peak(shear(without) - shear(plain)),
+            "",
+        ),
+        above(
+            "with impact: peak displacement (capacity)",
+            "paper, Fig. 11(c)",
+            110.0,
+            1e3 * peak(displacement(impact)),
+            "mm",
+        ),
         below("with impact: base shear / weight", "paper 4", LIMIT, peak(shear(impact)), ""),
         near("the same", "tan(θ + atan μ_h), static", static, peak(shear(impact)), 0.25, ""),
-        Check("high-friction slides of more than 1 mm", "paper 4: several", ">= 3", str(count),
-              count >= 3),
-        Check("the bearings survive the test with impact", "paper 4", "ok",
-              str(impact.attrs["status"]), impact.attrs["status"] == "ok"),
-        below("ledger of energy, worst run", "balance", 1e-3,
-              max(energy_error(data) for data in (without, plain, impact)), ""),
-    ]  # fmt: skip
+        Check(
+            "high-friction slides of more than 1 mm",
+            "paper 4: several",
+            ">= 3",
+            str(count),
+            count >= 3,
+        ),
+        Check(
+            "the bearings survive the test with impact",
+            "paper 4",
+            "ok",
+            str(impact.attrs["status"]),
+            impact.attrs["status"] == "ok",
+        ),
+        below(
+            "ledger of energy, worst run",
+            "balance",
+            1e-3,
+            max(energy_error(data) for data in (without, plain, impact)),
+            "",
+        ),
+    ]
 
 
 def scan(found: dict[float, xr.Dataset], without: float, impact: float) -> str:
@@ -170,8 +211,16 @@ def scan(found: dict[float, xr.Dataset], without: float, impact: float) -> str:
         use = {without: "**without impact**", impact: "**with impact**"}.get(amplitude, "")
         ground = amplitude * (PERIOD / (2.0 * math.pi)) ** 2
         rows.append((f"{amplitude:.1f}", f"{1e3 * ground:.0f}", *_row(data), use))
-    head = ("amplitude [m/s²]", "of the table [mm]", "peak displacement [mm]", "slip [mm]",
-            "slides", "base shear / weight", "status", "used")  # fmt: skip
+    head = (
+        "amplitude [m/s²]",
+        "of the table [mm]",
+        "peak displacement [mm]",
+        "slip [mm]",
+        "slides",
+        "base shear / weight",
+        "status",
+        "used",
+    )
     return table(head, rows)
 
 
@@ -209,16 +258,27 @@ def assumptions(amplitude: float) -> str:
         if strong.attrs["status"] != "ok":
             beyond += f" ({strong.attrs['status']})"
         rows.append((name, *_row(data)[:-1], f"{force.max():.3f}", beyond))
-    head = ("assumption", "peak displacement [mm]", "slip [mm]", "slides",
-            f"base shear / weight, {amplitude:g} m/s²", f"the same, {stronger:g} m/s²",
-            f"time above 0.6 W, {stronger:g} m/s² [ms]")  # fmt: skip
+    head = (
+        "assumption",
+        "peak displacement [mm]",
+        "slip [mm]",
+        "slides",
+        f"base shear / weight, {amplitude:g} m/s²",
+        f"the same, {stronger:g} m/s²",
+        f"time above 0.6 W, {stronger:g} m/s² [ms]",
+    )
     return table(head, rows)
 
 
 def _row(data: xr.Dataset) -> tuple[str, str, str, str, str]:
     slip = 1e3 * float(data["interface_slip_size"].max())
-    return (f"{1e3 * peak(displacement(data)):.0f}", f"{slip:.1f}", str(len(slides(data))),
-            f"{peak(shear(data)):.3f}", str(data.attrs["status"]))  # fmt: skip
+    return (
+        f"{1e3 * peak(displacement(data)):.0f}",
+        f"{slip:.1f}",
+        str(len(slides(data))),
+        f"{peak(shear(data)):.3f}",
+        str(data.attrs["status"]),
+    )
 
 
 def text(runs: str, others: str, amplitudes: tuple[float, float], speed: float) -> list[str]:
@@ -275,8 +335,9 @@ def page(_: Path | None = None) -> Page:
     results = checks(found[without], plain, found[impact])
     count = len(slides(found[impact]))
     apart = peak(displacement(found[without]) - displacement(plain))
-    motions = {name: table_motion(a) for name, a in
-               (("without impact", without), ("with impact", impact))}  # fmt: skip
+    motions = {
+        name: table_motion(a) for name, a in (("without impact", without), ("with impact", impact))
+    }
     return Page(
         CLAIM,
         f"without impact within {1e3 * apart:.2f} mm of the plain DCFP; with impact "

@@ -91,25 +91,49 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
     of = f" ({level})"
     within = DYNAMIC if level == "rigid_body" else 0.005
     return [
-        near("displacement at the first high-friction sliding" + of, "paper 2.2", 175.0,
-             1e3 * way[first], 0.005, "mm"),
+        near(
+            "displacement at the first high-friction sliding" + of,
+            "paper 2.2",
+            175.0,
+            1e3 * way[first],
+            0.005,
+            "mm",
+        ),
         near("slip that it leaves" + of, "paper 2.2", 10.0, 1e3 * left, 0.005, "mm"),
         near("displacement at the next one" + of, "paper 2.2", -165.0, 1e3 * second, 0.005, "mm"),
         below(
-            "largest force / force that starts the first high-friction sliding" + of, "paper 2.2",
-            1.0 + within, float(np.abs(force).max() / force[first]), "",
+            "largest force / force that starts the first high-friction sliding" + of,
+            "paper 2.2",
+            1.0 + within,
+            float(np.abs(force).max() / force[first]),
+            "",
         ),
-        near("largest force" + of, "W tan(θ + atan μ_h)", 1e-3 * limit, 1e-3 * force.max(),
-             within, "kN"),
+        near(
+            "largest force" + of,
+            "W tan(θ + atan μ_h)",
+            1e-3 * limit,
+            1e-3 * force.max(),
+            within,
+            "kN",
+        ),
         near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), within, "kN"),
-        near("sliding force at zero" + of, "μ (R1 + R2)/L W", 1e-3 * sliding, -1e-3 * zero,
-             0.005, "kN"),
+        near(
+            "sliding force at zero" + of,
+            "μ (R1 + R2)/L W",
+            1e-3 * sliding,
+            -1e-3 * zero,
+            0.005,
+            "kN",
+        ),
         near(
             "energy that the interface takes up in a cycle" + of,
-            "μ_h N 4 (18.5 − 17.5 cm)", bearing.interface_friction * normal * slides,
-            work[cycle][-1] - work[cycle][0], 0.01, "J",
+            "μ_h N 4 (18.5 − 17.5 cm)",
+            bearing.interface_friction * normal * slides,
+            work[cycle][-1] - work[cycle][0],
+            0.01,
+            "J",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def draw(found: dict[str, xr.Dataset]) -> Figure:
@@ -127,14 +151,20 @@ def draw(found: dict[str, xr.Dataset]) -> Figure:
     for sign in (-1.0, 1.0):
         left.axhline(sign * limit, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
     left.text(-190.0, limit + 0.008, "tan(θ + atan μ$_h$)", fontsize=SMALL, color=GREY)
-    notes = (("1st slide: +175 mm", (175.0, 0.2), (20.0, 0.225), left),
-             ("2nd slide: −165 mm", (-165.0, -0.2), (-20.0, -0.225), left))  # fmt: skip
+    notes = (
+        ("1st slide: +175 mm", (175.0, 0.2), (20.0, 0.225), left),
+        ("2nd slide: −165 mm", (-165.0, -0.2), (-20.0, -0.225), left),
+    )
     for text, point, place, panel in notes:
         panel.annotate(
-            text, point, place, fontsize=SMALL, va="center",
+            text,
+            point,
+            place,
+            fontsize=SMALL,
+            va="center",
             ha="right" if point[0] > 0.0 else "left",
             arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 2.0},
-        )  # fmt: skip
+        )
     left.set_ylim(-0.31, 0.31)
     caption(left, x="displacement [mm]", y="lateral force / axial load [-]", title="loops")
     caption(right, x="displacement [mm]", y="interface slip [mm]", title="slip of the interface")

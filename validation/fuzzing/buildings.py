@@ -51,9 +51,13 @@ def random_building(seed: int, number: int) -> tuple[Frame, str]:
     if rng.random() < 0.7:
         side = float(rng.uniform(0.25, 0.7))
         frame = moment_frame(
-            bays, storeys, bearing=grid, bay_width=(float(width[0]), float(width[1])),
-            floor_load=mass / area / (storeys + 1), column=Section.box(side, side, 0.05 * side),
-        )  # fmt: skip
+            bays,
+            storeys,
+            bearing=grid,
+            bay_width=(float(width[0]), float(width[1])),
+            floor_load=mass / area / (storeys + 1),
+            column=Section.box(side, side, 0.05 * side),
+        )
         kind = "frame"
     else:
         masses, stiffness, base = storey_values(rng, mass)

@@ -219,8 +219,16 @@ def _balance(scene: Scene, model: Frame, data: xr.Dataset) -> Iterator[tuple[str
     force = data["bearing_force"].to_numpy()[:, 0]
     done = float((0.5 * (force[1:] + force[:-1]) * moved).sum())
     # what friction owes the ledger, having turned within a step, stands in 'numerical'
-    terms = ["low_friction_bottom", "low_friction_top", "high_friction", "friction_elastic",
-             "rims", "contact", "sliders", "numerical"]  # fmt: skip
+    terms = [
+        "low_friction_bottom",
+        "low_friction_top",
+        "high_friction",
+        "friction_elastic",
+        "rims",
+        "contact",
+        "sliders",
+        "numerical",
+    ]
     if scene.model == "tilting mass":
         return
     said = float(data["energy"].sel(term=terms).isel(time=-1).sum())

@@ -76,43 +76,48 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
     """
     everything = [*scenes, *buildings]
     bad = sum(bool(entry["findings"]) for entry in everything)
-    return "\n\n".join([
-        "# Random scenes",
-        f"Written by `{call}`: {len(scenes)} scenes and {len(buildings)} buildings under their "
-        f"weight, {spent}. {bad} of them have a finding.",
-        "A scene is a model, a motion and the options of its analysis, drawn from its number: "
-        "bearings from a twentieth of the usual size to those of bridges, plain DCFPs among them, "
-        "radii, frictions, rims and yield displacements unlike, both laws of friction; a mass, "
-        "storeys or a steel frame on them; pulses, noise, spikes, steps and pauses in up to three "
-        "components, the vertical one up to 1.6 g; all levels and schemes, steps given (a tenth of "
-        "the motion's to eight times as much) or chosen. "
-        "`python -m validation.random_scenes --seed SEED --only NUMBER` runs one again.",
-        "## How they ended",
-        _ends(scenes),
-        "## What is looked for",
-        "Every scene is run twice, once more seen in a mirror, once more with its motion turned "
-        "about the vertical (one bearing; by a random angle, with contact points by quarter "
-        f"turns), and where the program chooses the step with one {FINER} times finer. The ledger "
-        f"is not looked at where the input is below {SMALL_INPUT:g} of weight times effective "
-        "radius. "
-        "A turn, a mirror image or a feature left out is a finding where it changes the "
-        f"displacement more than {MARGIN:g} times as much as a change of the motion in its ninth "
-        f"digit ({NOISE:g}): what lands often or hangs on an edge amplifies every difference. "
-        "A finer step must end alike: bearings fail in both or in none. Which limit of a bearing "
-        "is passed first is not looked at, if the times differ by no more than "
-        f"{100.0 * LATE:g} %; nor a failure that the other run missed by less than the error of "
-        f"the displacement, at most {100.0 * SENSITIVE_ERROR:g} % of its peak.",
-        _checks(scenes, buildings),
-        "## Error of the chosen step",
-        f"`dt=None` against a step {FINER} times finer: error of the peak displacement, and "
-        "largest difference of the displacement at any time over its peak, in per cent; a peak "
-        f"below {SMALL_PEAK:g} of the effective radius counts as that.",
-        _errors(scenes),
-        "## Buildings under their weight",
-        _gravity(buildings),
-        "## Findings",
-        _findings(everything),
-    ]) + "\n"  # fmt: skip
+    return (
+        "\n\n".join(
+            [
+                "# Random scenes",
+                f"Written by `{call}`: {len(scenes)} scenes and {len(buildings)} buildings under their "
+                f"weight, {spent}. {bad} of them have a finding.",
+                "A scene is a model, a motion and the options of its analysis, drawn from its number: "
+                "bearings from a twentieth of the usual size to those of bridges, plain DCFPs among them, "
+                "radii, frictions, rims and yield displacements unlike, both laws of friction; a mass, "
+                "storeys or a steel frame on them; pulses, noise, spikes, steps and pauses in up to three "
+                "components, the vertical one up to 1.6 g; all levels and schemes, steps given (a tenth of "
+                "the motion's to eight times as much) or chosen. "
+                "`python -m validation.random_scenes --seed SEED --only NUMBER` runs one again.",
+                "## How they ended",
+                _ends(scenes),
+                "## What is looked for",
+                "Every scene is run twice, once more seen in a mirror, once more with its motion turned "
+                "about the vertical (one bearing; by a random angle, with contact points by quarter "
+                f"turns), and where the program chooses the step with one {FINER} times finer. The ledger "
+                f"is not looked at where the input is below {SMALL_INPUT:g} of weight times effective "
+                "radius. "
+                "A turn, a mirror image or a feature left out is a finding where it changes the "
+                f"displacement more than {MARGIN:g} times as much as a change of the motion in its ninth "
+                f"digit ({NOISE:g}): what lands often or hangs on an edge amplifies every difference. "
+                "A finer step must end alike: bearings fail in both or in none. Which limit of a bearing "
+                "is passed first is not looked at, if the times differ by no more than "
+                f"{100.0 * LATE:g} %; nor a failure that the other run missed by less than the error of "
+                f"the displacement, at most {100.0 * SENSITIVE_ERROR:g} % of its peak.",
+                _checks(scenes, buildings),
+                "## Error of the chosen step",
+                f"`dt=None` against a step {FINER} times finer: error of the peak displacement, and "
+                "largest difference of the displacement at any time over its peak, in per cent; a peak "
+                f"below {SMALL_PEAK:g} of the effective radius counts as that.",
+                _errors(scenes),
+                "## Buildings under their weight",
+                _gravity(buildings),
+                "## Findings",
+                _findings(everything),
+            ]
+        )
+        + "\n"
+    )
 
 
 def _ends(scenes: Sequence[Entry]) -> str:
@@ -141,12 +146,13 @@ def _ends(scenes: Sequence[Entry]) -> str:
 def _checks(scenes: Sequence[Entry], buildings: Sequence[Entry]) -> str:
     found = Counter(kind for e in (*scenes, *buildings) for kind in {f[0] for f in e["findings"]})
     looked = {
-        "turn": _given(scenes, "turn"), "mirror": _given(scenes, "mirror"),
+        "turn": _given(scenes, "turn"),
+        "mirror": _given(scenes, "mirror"),
         "turn ends differently": _given(scenes, "turn"),
         "mirror ends differently": _given(scenes, "mirror"),
         "auto": [entry for entry in scenes if entry["level"] == "auto"],
         "finer ends differently": _given(scenes, "peak_error"),
-    }  # fmt: skip
+    }
     rows = []
     for kind, words in KINDS.items():
         count = len(looked.get(kind, scenes))

@@ -72,9 +72,13 @@ def random_rim_bearing(rng: np.random.Generator) -> LIRBearing:
         shares[int(rng.integers(2))] = rng.uniform(0.75, 0.98)
     rims = tuple(s * capacity * r / length for s, r in zip(shares, radii, strict=True))
     return LIRBearing(
-        radius=radii, slider_height=height, slider_radius=slider, friction=law,
-        interface_friction=high, rims=(rims[0], rims[1]),
-    )  # fmt: skip
+        radius=radii,
+        slider_height=height,
+        slider_radius=slider,
+        friction=law,
+        interface_friction=high,
+        rims=(rims[0], rims[1]),
+    )
 
 
 def random_rim_scene(seed: int, number: int) -> RimScene:

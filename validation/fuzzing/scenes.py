@@ -107,9 +107,15 @@ def random_scene(seed: int, number: int) -> Scene:
     motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / GRAVITY))
     options = random_options(np.random.default_rng((seed, number, 3)), kind, motion, build)
     return Scene(
-        seed=seed, number=number, model=kind, build=build, motion=motion, options=options,
-        is_axisymmetric=len(devices) == 1, length=length,
-    )  # fmt: skip
+        seed=seed,
+        number=number,
+        model=kind,
+        build=build,
+        motion=motion,
+        options=options,
+        is_axisymmetric=len(devices) == 1,
+        length=length,
+    )
 
 
 def random_options(
@@ -138,9 +144,12 @@ def random_options(
     if level == "rigid_body":
         duration = min(duration, LONGEST_RIGID)
     return {
-        "duration": duration, "dt": dt, "level": level, "integrator": integrator,
+        "duration": duration,
+        "dt": dt,
+        "level": level,
+        "integrator": integrator,
         "spectral_radius": radius,
-    }  # fmt: skip
+    }
 
 
 def random_load(rng: np.random.Generator, bearing: LIRBearing) -> float:
@@ -226,9 +235,14 @@ def a_stick_on_a_grid(rng: np.random.Generator) -> tuple[list[LIRBearing], Build
     masses, stiffness, base = storey_values(rng, len(grid) * min(loads))
     damping = random_damping(rng)
     return list(grid.values()), lambda in_mirror: shear_building(
-        seen(grid, bays, in_mirror), masses, stiffness, base_mass=base, plan=(bays, width),
-        damping=damping, overturning=False,  # as the scenes of docs/validation/random_scenes.md
-    )  # fmt: skip
+        seen(grid, bays, in_mirror),
+        masses,
+        stiffness,
+        base_mass=base,
+        plan=(bays, width),
+        damping=damping,
+        overturning=False,  # as the scenes of docs/validation/random_scenes.md
+    )
 
 
 def a_frame(rng: np.random.Generator) -> tuple[list[LIRBearing], Build]:
@@ -238,9 +252,13 @@ def a_frame(rng: np.random.Generator) -> tuple[list[LIRBearing], Build]:
     storeys, width = int(rng.integers(1, 4)), float(rng.uniform(4.0, 8.0))
     load, damping = float(rng.uniform(400.0, 2000.0)), random_damping(rng)
     return list(grid.values()), lambda in_mirror: moment_frame(
-        bays, storeys, bearing=seen(grid, bays, in_mirror), bay_width=width, floor_load=load,
+        bays,
+        storeys,
+        bearing=seen(grid, bays, in_mirror),
+        bay_width=width,
+        floor_load=load,
         damping=damping,
-    )  # fmt: skip
+    )
 
 
 _MAKERS: dict[str, Callable[[np.random.Generator], tuple[list[LIRBearing], Build]]] = {

@@ -103,10 +103,16 @@ def _stick(rng: np.random.Generator) -> tuple[Frame, str]:
 
     plan = ((2, 1), 6.0) if rng.random() < 0.4 else None
     frame = shear_building(
-        _bearing(rng, weight / (6 if plan else 1)), mass, stiffness, storeys=storeys, plan=plan,
-        storey_law=law, damping=ModalDamping(0.02), overturning=False,
+        _bearing(rng, weight / (6 if plan else 1)),
+        mass,
+        stiffness,
+        storeys=storeys,
+        plan=plan,
+        storey_law=law,
+        damping=ModalDamping(0.02),
+        overturning=False,
         eccentricity=(0.05, 0.0) if plan and rng.random() < 0.5 else (0.0, 0.0),
-    )  # fmt: skip
+    )
     return frame, f"stick of {storeys}, yields at {share:.2g} of the weight"
 
 
@@ -118,14 +124,18 @@ def _frame(rng: np.random.Generator) -> tuple[Frame, str]:
     hardening = 0.0 if rng.random() < 0.2 else float(rng.uniform(0.001, 0.05))
     steel = PlasticHinge(moment_y=moment * rng.uniform(0.5, 1.0), hardening=hardening)
     column = PlasticHinge(
-        moment_y=moment, moment_z=moment * rng.uniform(0.4, 1.0), hardening=hardening,
+        moment_y=moment,
+        moment_z=moment * rng.uniform(0.4, 1.0),
+        hardening=hardening,
         axial=math.inf if rng.random() < 0.4 else weight / columns * rng.uniform(2.0, 8.0),
         axial_exponent=float(rng.uniform(1.0, 2.0)),
-    )  # fmt: skip
+    )
     frame = moment_frame(
-        bays, storeys, bearing=_bearing(rng, weight / columns),
+        bays,
+        storeys,
+        bearing=_bearing(rng, weight / columns),
         hinges={"beam": steel, "column": column},
-    )  # fmt: skip
+    )
     return frame, f"frame {bays[0]} x {bays[1]} x {storeys}, hinges of {moment / 1e3:.3g} kNm"
 
 
@@ -155,9 +165,11 @@ def _damper(rng: np.random.Generator, frame: Frame) -> str:
 def _braces(rng: np.random.Generator, frame: Frame) -> str:
     weight = _weight(frame)
     law = Tie(
-        stiffness=weight * log_uniform(rng, 10.0, 200.0), yield_force=0.1 * weight,
-        hardening=0.01, slack=float(rng.choice([0.0, 0.002])),
-    )  # fmt: skip
+        stiffness=weight * log_uniform(rng, 10.0, 200.0),
+        yield_force=0.1 * weight,
+        hardening=0.01,
+        slack=float(rng.choice([0.0, 0.002])),
+    )
     low, high = _ends(frame)
     frame.add_link("tie-1", low, high, law, (1.0, 0.0, 0.3))
     frame.add_link("tie-2", low, high, law, (-1.0, 0.0, 0.3))

@@ -66,10 +66,15 @@ def batch_here(dt: float) -> dict[str, Any]:
         else:
             together(frame, motions(), scales=SCALES, dt=dt, workers=None)
     return {
-        "histories": HISTORIES, "clock": perf_counter() - clock, "cpu": process_time() - cpu,
-        "memory": _memory(), "before": before, "cores": os.cpu_count(), "dt": dt,
+        "histories": HISTORIES,
+        "clock": perf_counter() - clock,
+        "cpu": process_time() - cpu,
+        "memory": _memory(),
+        "before": before,
+        "cores": os.cpu_count(),
+        "dt": dt,
         "how": "`time_history` in threads" if together is None else "`time_histories`",
-    }  # fmt: skip
+    }
 
 
 def _memory() -> int:

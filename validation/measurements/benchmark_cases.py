@@ -199,16 +199,22 @@ def here(frame: Frame, method: str, fine: float) -> dict[str, Any]:
     runs = [run_here(frame, motion, DURATION, dt, method) for dt in (*STEPS, None, fine)]
     reference = runs[-1].peak
     return {
-        "runs": [asdict(run) for run in runs], "reference": reference,
+        "runs": [asdict(run) for run in runs],
+        "reference": reference,
         "dt": coarsest(runs, reference),
         "errors": [error(run, reference) for run in runs],
-    }  # fmt: skip
+    }
 
 
 def turns(
-    structure: Structure, bearing: LIRBearing, kind: str, frame: Frame,
-    ours: dict[str, Any], there: dict[str, Any], effort: Effort,
-) -> dict[str, Any]:  # fmt: skip
+    structure: Structure,
+    bearing: LIRBearing,
+    kind: str,
+    frame: Frame,
+    ours: dict[str, Any],
+    there: dict[str, Any],
+    effort: Effort,
+) -> dict[str, Any]:
     """Run both programs in turns, each at its own step; return medians.
 
     Parameters
@@ -248,15 +254,14 @@ def turns(
                 structure, bearing, kind, motion, dt, steps, setting_of(there[name]["setting"])
             )
             times.setdefault(name, []).append(run.loop)
-    pairs: dict[str, Any] = {
-        name: statistics.median(values) for name, values in times.items()
-    }  # fmt: skip
+    pairs: dict[str, Any] = {name: statistics.median(values) for name, values in times.items()}
     pairs["ratios"] = {
         f"{name} over {method}": statistics.median(
             a / b for a, b in zip(times[name], times[method], strict=True)
         )
-        for name in ("usual", "best") if name in times
+        for name in ("usual", "best")
+        if name in times
         for method in methods
-    }  # fmt: skip
+    }
     pairs["window"] = effort.window
     return pairs

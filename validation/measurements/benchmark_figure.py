@@ -19,9 +19,11 @@ KINDS = {"singleFPBearing": "o", "LIR-DCFP, fast route": "s"}
 """By marker; beside a kind stands our own device of it."""
 WHO = {"direct": PALETTE[0], "reduced": PALETTE[2], "usual": PALETTE[3], "best": PALETTE[1]}
 NAMES = {
-    "direct": "here, direct", "reduced": "here, reduced", "usual": "OpenSees, usual settings",
+    "direct": "here, direct",
+    "reduced": "here, reduced",
+    "usual": "OpenSees, usual settings",
     "best": "OpenSees at its best",
-}  # fmt: skip
+}
 FLOOR = 1e-3  # %: errors below are drawn here
 
 
@@ -30,15 +32,17 @@ def size_panel(ax: Axes, kept: dict[str, Any]) -> None:
     large = [one for one in there_are(kept) if one.case in "bcd"]
     for kind, marker in KINDS.items():
         for who, colour in WHO.items():
-            points = sorted(
-                (one.bearings, second_cost(kept[one.key], kind, who)) for one in large
-            )  # fmt: skip
+            points = sorted((one.bearings, second_cost(kept[one.key], kind, who)) for one in large)
             points = [(n, cost) for n, cost in points if math.isfinite(cost)]
             if points:
                 ax.plot(
-                    *zip(*points, strict=True), color=colour, marker=marker, ms=3.5, lw=0.0,
+                    *zip(*points, strict=True),
+                    color=colour,
+                    marker=marker,
+                    ms=3.5,
+                    lw=0.0,
                     mfc=colour if marker == "s" else "white",
-                )  # fmt: skip
+                )
     ax.set(xscale="log", yscale="log", xlim=(7.0, 330.0))
     ax.set_xticks([9, 16, 25, 36, 100, 256], labels=["9", "16", "25", "36", "100", "256"])
     ax.minorticks_off()
@@ -55,19 +59,35 @@ def error_panel(ax: Axes, found: dict[str, Any]) -> None:
                 for run, error in zip(one.get("runs", [])[:4], one.get("errors", []), strict=False)
             ]
             if pairs:
-                ax.plot(*zip(*pairs, strict=True), color=WHO[method], marker=marker, ms=3.5,
-                        lw=1.0, mfc=WHO[method] if marker == "s" else "white")  # fmt: skip
+                ax.plot(
+                    *zip(*pairs, strict=True),
+                    color=WHO[method],
+                    marker=marker,
+                    ms=3.5,
+                    lw=1.0,
+                    mfc=WHO[method] if marker == "s" else "white",
+                )
     for kind, marker in KINDS.items():
         for name in ("usual", "best"):
             one = found["there"][kind][name]
             if math.isfinite(one["dt"]) and "loop" in one:
-                ax.plot([one["loop"]], [max(100.0 * one["error"], FLOOR)], color=WHO[name],
-                        marker=marker, ms=4.5, mfc=WHO[name] if marker == "s" else "white",
-                        lw=0.0)  # fmt: skip
+                ax.plot(
+                    [one["loop"]],
+                    [max(100.0 * one["error"], FLOOR)],
+                    color=WHO[name],
+                    marker=marker,
+                    ms=4.5,
+                    mfc=WHO[name] if marker == "s" else "white",
+                    lw=0.0,
+                )
     ax.axhline(100.0 * ALLOWED, color="black", ls="--", lw=0.9)
     ax.set(xscale="log", yscale="log")
-    caption(ax, x="CPU time of the steps [s]", y="error of the peak displacement [%]",
-            title="3 storeys, 9 bearings, 12 s")  # fmt: skip
+    caption(
+        ax,
+        x="CPU time of the steps [s]",
+        y="error of the peak displacement [%]",
+        title="3 storeys, 9 bearings, 12 s",
+    )
 
 
 def draw(kept: dict[str, Any]) -> Figure:
@@ -86,7 +106,7 @@ def draw(kept: dict[str, Any]) -> Figure:
         Line2D([], [], color="black", marker="s", ms=4.0, lw=0.0, label="LIR-DCFP"),
         Line2D([], [], color="black", marker="o", mfc="white", ms=4.0, lw=0.0, label="plain DCFP"),
         Line2D([], [], color="black", ls="--", lw=0.9, label="error allowed"),
-    ]  # fmt: skip
+    ]
     add_legend(figure, handles, columns=3, size=SMALL)
     return figure
 

@@ -67,8 +67,9 @@ def text(kept: dict[str, Any]) -> str:
     measured = there_are(kept)
     missing = [
         f"{one.name} ({kept.get(key, {}).get('state', 'not run')})"
-        for key, one in STRUCTURES.items() if one not in measured
-    ]  # fmt: skip
+        for key, one in STRUCTURES.items()
+        if one not in measured
+    ]
     parts = [
         "# Cost for the same accuracy, beside OpenSees",
         f"Written by `python -m validation.measurements.benchmark`; measured {_span(dates)} on "
@@ -89,8 +90,18 @@ def text(kept: dict[str, Any]) -> str:
         *_bounds(kept),
         "## Cost",
         table(
-            ("structure", "unknowns", "in OpenSees", "step here [ms]", "steps there [ms]",
-             "here [ms/s]", "usual [ms/s]", "best [ms/s]", "usual / here", "best / here"),
+            (
+                "structure",
+                "unknowns",
+                "in OpenSees",
+                "step here [ms]",
+                "steps there [ms]",
+                "here [ms/s]",
+                "usual [ms/s]",
+                "best [ms/s]",
+                "usual / here",
+                "best / here",
+            ),
             [row for one in measured for row in cost_rows(kept[one.key])],
         ),
         "Steps there: usual and best settings. ms/s: CPU time of a second of the motion. "
@@ -108,7 +119,7 @@ def text(kept: dict[str, Any]) -> str:
         *_profiles(kept),
         "## How it is measured",
         "\n".join(LIMITS),
-    ]  # fmt: skip
+    ]
     return "\n\n".join(parts) + "\n"
 
 
@@ -121,15 +132,23 @@ def cost_rows(found: dict[str, Any]) -> list[tuple[str, ...]]:
             if method not in pairs:
                 continue
             ratios = pairs["ratios"]
-            rows.append((
-                name, str(sizes["unknowns"]), kind,
-                f"{_ms(found['here'][device_of(kind)][method]['dt'])} ({method})",
-                f"{_ms(there['usual']['dt'])}, {_ms(there['best']['dt'])}",
-                *(_number(1e3 * second_cost(found, kind, who))
-                  for who in (method, "usual", "best")),
-                *(_number(ratios.get(f"{who} over {method}", math.nan))
-                  for who in ("usual", "best")),
-            ))  # fmt: skip
+            rows.append(
+                (
+                    name,
+                    str(sizes["unknowns"]),
+                    kind,
+                    f"{_ms(found['here'][device_of(kind)][method]['dt'])} ({method})",
+                    f"{_ms(there['usual']['dt'])}, {_ms(there['best']['dt'])}",
+                    *(
+                        _number(1e3 * second_cost(found, kind, who))
+                        for who in (method, "usual", "best")
+                    ),
+                    *(
+                        _number(ratios.get(f"{who} over {method}", math.nan))
+                        for who in ("usual", "best")
+                    ),
+                )
+            )
     return rows
 
 
@@ -162,8 +181,9 @@ def _bounds(kept: dict[str, Any]) -> list[str]:
     spent = kept.get("profile", {})
     said = [
         f"{STRUCTURES[key].name}: {bound(values)}"
-        for key, values in spent.items() if key in STRUCTURES and values
-    ]  # fmt: skip
+        for key, values in spent.items()
+        if key in STRUCTURES and values
+    ]
     return [f"What takes most of a step here: {'; '.join(said)}."] if said else []
 
 
@@ -175,14 +195,30 @@ def _steps(kept: dict[str, Any]) -> list[str]:
         for device, methods in kept[one.key]["here"].items():
             for method, found in methods.items():
                 for run, error in zip(found.get("runs", []), found.get("errors", []), strict=True):
-                    rows.append((
-                        one.name, device, method,
-                        f"{1e3 * run['dt']:g}" if math.isfinite(run["dt"]) else "its own",
-                        str(run["steps"]), f"{100.0 * error:.3f}",
-                        f"{1e3 * run['loop']:.1f}", f"{1e3 * run['whole']:.0f}", run["status"],
-                    ))  # fmt: skip
-    head = ("structure", "device", "method", "dt [ms]", "steps", "error of the peak [%]",
-            "steps alone [ms]", "whole call [ms]", "status")  # fmt: skip
+                    rows.append(
+                        (
+                            one.name,
+                            device,
+                            method,
+                            f"{1e3 * run['dt']:g}" if math.isfinite(run["dt"]) else "its own",
+                            str(run["steps"]),
+                            f"{100.0 * error:.3f}",
+                            f"{1e3 * run['loop']:.1f}",
+                            f"{1e3 * run['whole']:.0f}",
+                            run["status"],
+                        )
+                    )
+    head = (
+        "structure",
+        "device",
+        "method",
+        "dt [ms]",
+        "steps",
+        "error of the peak [%]",
+        "steps alone [ms]",
+        "whole call [ms]",
+        "status",
+    )
     return [f'Runs of {DURATION:g} s here; "its own" is `dt=None`.', table(head, rows)]
 
 
@@ -195,13 +231,30 @@ def _settings(kept: dict[str, Any]) -> list[str]:
             best = there["best"]
             stopped = sum(not math.isfinite(cost) for cost in there["tried"].values())
             theirs, ours = whole_cost(kept[one.key], kind)
-            rows.append((
-                one.name, kind, setting_of(best["setting"]).name, _ms(best["dt"]),
-                f"{100.0 * best['error']:.2f}", str(best.get("rescued", 0)),
-                f"{stopped} of {len(there['tried'])}", _number(theirs), _number(ours),
-            ))  # fmt: skip
-    head = ("structure", "element", "best setting", "step [ms]", "error [%]",
-            "steps by KrylovNewton", "settings that stop", "whole run [s]", "here [s]")  # fmt: skip
+            rows.append(
+                (
+                    one.name,
+                    kind,
+                    setting_of(best["setting"]).name,
+                    _ms(best["dt"]),
+                    f"{100.0 * best['error']:.2f}",
+                    str(best.get("rescued", 0)),
+                    f"{stopped} of {len(there['tried'])}",
+                    _number(theirs),
+                    _number(ours),
+                )
+            )
+    head = (
+        "structure",
+        "element",
+        "best setting",
+        "step [ms]",
+        "error [%]",
+        "steps by KrylovNewton",
+        "settings that stop",
+        "whole run [s]",
+        "here [s]",
+    )
     return [
         table(head, rows),
         f"Steps {', '.join(f'{1e3 * dt:g}' for dt in STEPS)} ms. Whole run: {DURATION:g} s with "
@@ -248,8 +301,13 @@ def _batch(kept: dict[str, Any]) -> list[str]:
         (kind, str(one["run"]), _ms(one["dt"]), _number(one["cpu"]), _number(one["cpu"] / each))
         for kind, one in found["there"].items()
     ]
-    head = ("in OpenSees, at its best", "histories run", "step [ms]", "CPU time of one [s]",
-            "there / here")  # fmt: skip
+    head = (
+        "in OpenSees, at its best",
+        "histories run",
+        "step [ms]",
+        "CPU time of one [s]",
+        "there / here",
+    )
     return [
         *lines,
         table(head, rows),
@@ -264,19 +322,32 @@ def _profiles(kept: dict[str, Any]) -> list[str]:
         if key not in STRUCTURES or not spent:
             continue
         left = spent["step"] - spent["states"] - spent["tangents"] - spent["arithmetic"]
-        rows.append((
-            STRUCTURES[key].name, f"{spent['coordinates']:.0f}, {spent['modes']:.0f}",
-            f"{spent['iterations']:.2f}, {spent['states made']:.2f}, {spent['tangents made']:.2f}",
-            *(f"{spent[name]:.1f}" for name in
-            ("step", "states", "tangents")), f"{spent['multiply-adds']:.0f}",
-            f"{spent['arithmetic']:.1f}", f"{left:.1f}", f"{spent['recording']:.1f}",
-        ))  # fmt: skip
+        rows.append(
+            (
+                STRUCTURES[key].name,
+                f"{spent['coordinates']:.0f}, {spent['modes']:.0f}",
+                f"{spent['iterations']:.2f}, {spent['states made']:.2f}, {spent['tangents made']:.2f}",
+                *(f"{spent[name]:.1f}" for name in ("step", "states", "tangents")),
+                f"{spent['multiply-adds']:.0f}",
+                f"{spent['arithmetic']:.1f}",
+                f"{left:.1f}",
+                f"{spent['recording']:.1f}",
+            )
+        )
     if not rows:
         return ["Not measured."]
-    head = ("structure", "bearing coordinates, modes",
-            "iterations, states, tangents a step", "step [µs]",
-            "state determinations [µs]", "tangents [µs]", "multiply-adds",
-            "their time [µs]", "left [µs]", "recording all, on top [µs]")  # fmt: skip
+    head = (
+        "structure",
+        "bearing coordinates, modes",
+        "iterations, states, tangents a step",
+        "step [µs]",
+        "state determinations [µs]",
+        "tangents [µs]",
+        "multiply-adds",
+        "their time [µs]",
+        "left [µs]",
+        "recording all, on top [µs]",
+    )
     return [
         table(head, rows),
         "State determinations and tangents: as often as a step makes them, at their cost alone "

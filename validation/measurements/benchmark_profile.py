@@ -112,10 +112,15 @@ def profile(key: str) -> dict[str, float]:
     coordinates, modes = len(state.run.b), len(state.run.e)
     needed = multiply_adds(coordinates, modes, count, iterations, states, tangents)
     return {
-        "step": 1e6 * step, "states": count * states * trial,
+        "step": 1e6 * step,
+        "states": count * states * trial,
         "tangents": count * tangents * (both - trial),
         "arithmetic": 1e-3 * nanoseconds_a_product() * needed,
-        "recording": 1e6 * (everything - step), "multiply-adds": needed,
-        "iterations": iterations, "states made": states, "tangents made": tangents,
-        "coordinates": float(coordinates), "modes": float(modes),
-    }  # fmt: skip
+        "recording": 1e6 * (everything - step),
+        "multiply-adds": needed,
+        "iterations": iterations,
+        "states made": states,
+        "tangents made": tangents,
+        "coordinates": float(coordinates),
+        "modes": float(modes),
+    }

@@ -122,9 +122,13 @@ def cpu_clock() -> Generator[None, None, None]:
 
 
 def run_here(
-    frame: Frame, motion: GroundMotion, duration: float, dt: float | None, method: str = "direct",
+    frame: Frame,
+    motion: GroundMotion,
+    duration: float,
+    dt: float | None,
+    method: str = "direct",
     recording: Recording | None = BEARINGS_ALONE,
-) -> Run:  # fmt: skip
+) -> Run:
     """Run a structure here.
 
     Parameters
@@ -158,12 +162,16 @@ def run_here(
     cpu = process_time() - cpu
     moved = data["bearing_displacement"].to_numpy()[..., :2]
     return Run(
-        dt=np.nan if dt is None else dt, steps=int(data.attrs["steps"]),
-        loop=float(data.attrs["seconds_loop"]), whole=cpu,
-        peak=float(np.linalg.norm(moved, axis=-1).max()), status=str(data.attrs["status"]),
+        dt=np.nan if dt is None else dt,
+        steps=int(data.attrs["steps"]),
+        loop=float(data.attrs["seconds_loop"]),
+        whole=cpu,
+        peak=float(np.linalg.norm(moved, axis=-1).max()),
+        status=str(data.attrs["status"]),
         iterations=int(data.attrs["newton_iterations"]),
-        states=int(data.attrs["state_determinations"]), tangents=int(data.attrs["tangents"]),
-    )  # fmt: skip
+        states=int(data.attrs["state_determinations"]),
+        tangents=int(data.attrs["tangents"]),
+    )
 
 
 def refused(dt: float | None, status: str) -> Run:
@@ -173,9 +181,14 @@ def refused(dt: float | None, status: str) -> Run:
 
 
 def run_there(
-    structure: Structure, bearing: LIRBearing, kind: str, motion: GroundMotion, dt: float,
-    steps: int, setting: Setting = USUAL,
-) -> Run:  # fmt: skip
+    structure: Structure,
+    bearing: LIRBearing,
+    kind: str,
+    motion: GroundMotion,
+    dt: float,
+    steps: int,
+    setting: Setting = USUAL,
+) -> Run:
     """Run a structure in OpenSees, on elements of its own or ours.
 
     Parameters
@@ -215,9 +228,7 @@ def run_there(
             gravity_analysis(ops)
             ground_motion(ops, motion)
             file = Path(folder) / "displacement.txt"
-            ops.recorder(
-                "Node", "-file", str(file), "-node", *built.bases, "-dof", 1, 2, "disp"
-            )  # fmt: skip
+            ops.recorder("Node", "-file", str(file), "-node", *built.bases, "-dof", 1, 2, "disp")
             use(ops, setting)
             transient_steps(ops)
             timed = process_time()

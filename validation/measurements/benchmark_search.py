@@ -32,12 +32,18 @@ SYSTEMS = ("BandGeneral", "SparseGeneral", "ProfileSPD", "FullGeneral")
 FULL = 9
 """Bearings, beyond which a full matrix, the last of them, is not tried: its cost is their cube."""
 ALGORITHMS = (
-    ("KrylovNewton",), ("ModifiedNewton",), ("ModifiedNewton", "-initial"), ("Newton", "-initial"),
-)  # fmt: skip
+    ("KrylovNewton",),
+    ("ModifiedNewton",),
+    ("ModifiedNewton", "-initial"),
+    ("Newton", "-initial"),
+)
 NUMBERERS = ("AMD", "Plain")
 TESTS = (
-    ("NormDispIncr", 1e-6), ("NormDispIncr", 1e-5), ("NormUnbalance", 10.0), ("EnergyIncr", 1e-4),
-)  # fmt: skip
+    ("NormDispIncr", 1e-6),
+    ("NormDispIncr", 1e-5),
+    ("NormUnbalance", 10.0),
+    ("EnergyIncr", 1e-4),
+)
 
 
 def coarsest(runs: Sequence[Run], reference: float) -> float:
@@ -101,13 +107,16 @@ def steps_there(
     usual = _largest(run, USUAL, reference, runs)
     start = usual["dt"] if math.isfinite(usual["dt"]) else STEPS[1]
     settings, tried = search(structure, bearing, kind, start)
-    best = cheapest([
-        usual, *(_largest(run, one, reference, runs) for one in settings if one != USUAL)
-    ])  # fmt: skip
+    best = cheapest(
+        [usual, *(_largest(run, one, reference, runs) for one in settings if one != USUAL)]
+    )
     return {
-        "usual": usual, "best": best, "reference": reference, "tried": tried,
+        "usual": usual,
+        "best": best,
+        "reference": reference,
+        "tried": tried,
         "runs": [asdict(one) for one in runs],
-    }  # fmt: skip
+    }
 
 
 def cheapest(ways: Sequence[dict[str, Any]]) -> dict[str, Any]:
@@ -134,9 +143,13 @@ def _largest(
         runs.append(run(dt, setting))
         if runs[-1].status == "ok" and error(runs[-1], reference) <= ALLOWED:
             return {
-                "dt": dt, "error": error(runs[-1], reference), "setting": asdict(setting),
-                "loop": runs[-1].loop, "whole": runs[-1].whole, "rescued": runs[-1].rescued,
-            }  # fmt: skip
+                "dt": dt,
+                "error": error(runs[-1], reference),
+                "setting": asdict(setting),
+                "loop": runs[-1].loop,
+                "whole": runs[-1].whole,
+                "rescued": runs[-1].rescued,
+            }
     return {"dt": math.nan, "error": math.nan, "setting": asdict(setting)}
 
 

@@ -143,9 +143,11 @@ def growth(kept: dict[str, Any]) -> list[tuple[str, ...]]:
             costs = [step_cost(found, kind, who) for found in large]
             if sum(map(math.isfinite, costs)) < 2:
                 continue
-            name = f"OpenSees, {who}, {kind}" if who in {"usual", "best"} else (
-                f"here, {who}, {device_of(kind)}"
-            )  # fmt: skip
+            name = (
+                f"OpenSees, {who}, {kind}"
+                if who in {"usual", "best"}
+                else (f"here, {who}, {device_of(kind)}")
+            )
             exponents = [
                 power([found["sizes"][size] for found in large], costs)
                 for size in ("bearings", "unknowns")
@@ -189,12 +191,20 @@ def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
     clock, cpu = here["clock"] * many, here["cpu"] * many / here["cores"]
     what = f"{GOAL_HISTORIES} histories of the building in {GOAL_SECONDS / 60.0:g} minutes"
     return [
-        (what, "LIR-DCFP",
-         f"{cpu / 60.0:.1f} minutes by CPU time over {here['cores']} cores, {clock / 60.0:.1f} by "
-         "the clock", verdict(GOAL_SECONDS, GOAL_SECONDS**2 / cpu)),
-        ("memory below 2 GiB", "LIR-DCFP", f"{here['memory'] / 2**30:.2f} GiB",
-         verdict(GOAL_BYTES, GOAL_BYTES**2 / here["memory"])),
-    ]  # fmt: skip
+        (
+            what,
+            "LIR-DCFP",
+            f"{cpu / 60.0:.1f} minutes by CPU time over {here['cores']} cores, {clock / 60.0:.1f} by "
+            "the clock",
+            verdict(GOAL_SECONDS, GOAL_SECONDS**2 / cpu),
+        ),
+        (
+            "memory below 2 GiB",
+            "LIR-DCFP",
+            f"{here['memory'] / 2**30:.2f} GiB",
+            verdict(GOAL_BYTES, GOAL_BYTES**2 / here["memory"]),
+        ),
+    ]
 
 
 def bound(spent: dict[str, float]) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 from frames import GroundMotion, audit, gravity, lumped_mass, moment_frame, time_history
 from frames.demo import design, pacoima
 from frames.results.assumption_checks import is_missing
-from frames.solve.level_escalation import settle
+from frames.solve.level_escalation import escalate_level
 from lir_element import AnalysisWarning, Features
 from validation.cases import example_bearing
 
@@ -95,8 +95,11 @@ def feature_rows(scene: Scene) -> list[str]:
     for features, data, times in zip(cases, results, seconds, strict=True):
         cost = min(times)
         is_ok = data.attrs["status"] == "ok"
-        verdict = "; ".join(f.sentence for f in audit(data) if f.left_out and is_missing(f)
-                            and f.feature in features.left_out)  # fmt: skip
+        verdict = "; ".join(
+            f.sentence
+            for f in audit(data)
+            if f.left_out and is_missing(f) and f.feature in features.left_out
+        )
         if not features.left_out:
             verdict = "-"
         count = len(gravity(scene.frame, features).basis.bearing_dofs)
@@ -119,7 +122,7 @@ def start_rows(all_scenes: list[Scene]) -> list[str]:
         for _ in range(5):
             for name, start in STARTS.items():
                 began = time.process_time()
-                data = settle(lambda kept, _, at=scene: analyse(at, kept), start)
+                data = escalate_level(lambda kept, _, at=scene: analyse(at, kept), start)
                 times[name].append(time.process_time() - began)
                 runs[name] = data.attrs["auto_runs"].count("\n") + 1
         base = min(times["everything"])

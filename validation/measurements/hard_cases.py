@@ -89,13 +89,19 @@ def outcome(case: str, level: str, dt: float, data: xr.Dataset) -> Outcome:
         turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
         tilt = float(np.linalg.norm(turns, axis=-1).max())
     return Outcome(
-        case=case, level=level, dt=dt, status=data.attrs["status"],
+        case=case,
+        level=level,
+        dt=dt,
+        status=data.attrs["status"],
         reached=float(data["time"][-1]),
         peak=float(np.linalg.norm(data["bearing_displacement"][..., :2], axis=-1).max()),
-        ledger=energy_error(data) if "energy" in data else 0.0, given_back=given_back(data),
-        finite=finite, rim_speed=rim_speed(data), least_axial=float((axial / static).min()),
+        ledger=energy_error(data) if "energy" in data else 0.0,
+        given_back=given_back(data),
+        finite=finite,
+        rim_speed=rim_speed(data),
+        least_axial=float((axial / static).min()),
         tilt=tilt,
-    )  # fmt: skip
+    )
 
 
 def given_back(data: xr.Dataset) -> float:
@@ -147,9 +153,14 @@ def run_case(case: Case) -> list[Outcome]:
     for level, dt in case.runs:
         every = max(1, round(1e-3 / dt))
         data = quiet(
-            time_history, case.model, case.motion, case.duration, dt=dt, level=level,
+            time_history,
+            case.model,
+            case.motion,
+            case.duration,
+            dt=dt,
+            level=level,
             record_every=every,
-        )  # fmt: skip
+        )
         entry = outcome(case.name, level, dt, data)
         found.append(Outcome(**{**vars(entry), "error": compare(data, reference)}))
     return found
@@ -196,25 +207,27 @@ def line(entry: Outcome) -> str:
 def write(found: list[Outcome]) -> str:
     """Return the page."""
     unsound = sum(not entry.sound for entry in found)
-    return "\n".join([
-        "# Hard cases",
-        "",
-        "Written by `python -m validation.measurements.hard_cases`. "
-        f"{len(found)} runs, {unsound} of them unsound.",
-        "",
-        "A run is sound if it completed, or stopped because the bearing failed (slip, rim overrun, "
-        f"snap-back); all numbers are finite; the ledger of energy closes to {LEDGER:g} of the "
-        "input; and friction never gave energy back. Error: of the peak displacement against the "
-        "reference, up to the end of the shorter run, in per cent (cyclic test: of the force). Rim "
-        "speed: just before the first contact. N: smallest axial force over its static value. "
-        "Steps in milliseconds, displacements in millimetres, tilts in radian.",
-        "",
-        "| case | level | step | outcome | rim speed (m/s) | N | tilt | peak | error | ledger | "
-        "energy given back | sound |",
-        "|---" * 12 + "|",
-        *(line(entry) for entry in found),
-        "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            "# Hard cases",
+            "",
+            "Written by `python -m validation.measurements.hard_cases`. "
+            f"{len(found)} runs, {unsound} of them unsound.",
+            "",
+            "A run is sound if it completed, or stopped because the bearing failed (slip, rim overrun, "
+            f"snap-back); all numbers are finite; the ledger of energy closes to {LEDGER:g} of the "
+            "input; and friction never gave energy back. Error: of the peak displacement against the "
+            "reference, up to the end of the shorter run, in per cent (cyclic test: of the force). Rim "
+            "speed: just before the first contact. N: smallest axial force over its static value. "
+            "Steps in milliseconds, displacements in millimetres, tilts in radian.",
+            "",
+            "| case | level | step | outcome | rim speed (m/s) | N | tilt | peak | error | ledger | "
+            "energy given back | sound |",
+            "|---" * 12 + "|",
+            *(line(entry) for entry in found),
+            "",
+        ]
+    )
 
 
 def main() -> None:

@@ -99,11 +99,15 @@ def weak(mu_h: float) -> LIRBearing:
 def scaled(name: str, size: float) -> Case:
     """Return the example bearing times `size`, under a motion of scaled time."""
     bearing = LIRBearing(
-        radius=1.185 * size, slider_height=0.12 * size, slider_radius=0.15 * size,
-        capacity=0.25 * size, friction=VelocityFriction(0.065, 0.0325, 15.0 / math.sqrt(size)),
-        interface_friction=0.13, yield_displacement=0.25e-3 * min(size, 1.0),
+        radius=1.185 * size,
+        slider_height=0.12 * size,
+        slider_radius=0.15 * size,
+        capacity=0.25 * size,
+        friction=VelocityFriction(0.065, 0.0325, 15.0 / math.sqrt(size)),
+        interface_friction=0.13,
+        yield_displacement=0.25e-3 * min(size, 1.0),
         interface_yield_displacement=0.01e-3 * min(size, 1.0),
-    )  # fmt: skip
+    )
     motion = made("two pulses", 5.0, x=(2.5, 1.7, 1.5), y=(1.5, 1.3, 1.9))
     pace = math.sqrt(size)
     quick = GroundMotion(
@@ -118,8 +122,9 @@ def stiffness(factor: float) -> Case:
     own = example_bearing().resolved()
     bearing = example_bearing(
         axial_stiffness=factor * own["axial_stiffness"],
-        rim_stiffness=factor * own["rim_stiffness"], rim_overrun=0.1,
-    )  # fmt: skip
+        rim_stiffness=factor * own["rim_stiffness"],
+        rim_overrun=0.1,
+    )
     return pulsed(f"contact stiffness times {factor:g}", bearing)
 
 
@@ -127,9 +132,13 @@ def tilting(softness: float) -> Case:
     """Return a deck on a bearing whose lower plate turns with the head of a column."""
     inertia = 6e-3 / softness
     section = Section(
-        area=0.2, inertia_y=inertia, inertia_z=inertia, torsion_constant=2.0 * inertia,
-        elastic_modulus=2e11, shear_modulus=8e10,
-    )  # fmt: skip
+        area=0.2,
+        inertia_y=inertia,
+        inertia_z=inertia,
+        torsion_constant=2.0 * inertia,
+        elastic_modulus=2e11,
+        shear_modulus=8e10,
+    )
     bearing = example_bearing(capacity=0.15)
     frame = Frame("pier")
     frame.add_node("foot", 0.0, 0.0, -5.0)

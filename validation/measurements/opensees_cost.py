@@ -153,25 +153,30 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
         times = ["stops" if math.isnan(number) else f"{number:.0f}" for number in numbers]
         ratios = [ratio(each, device) for each in found.values()]
         rows.append([device, *times, *("-" if math.isnan(r) else f"{r:.2f}" for r in ratios)])
-    return "\n\n".join([
-        "# Cost of a bearing inside OpenSees",
-        f"Written by `python -m validation.measurements.opensees_cost`, OpenSees "
-        f"{opensees().version()}, Python "
-        f"{platform.python_version()}, {os.cpu_count()} cores. Time of a step of the whole "
-        f"transient analysis: {STEPS} steps of {1e3 * STEP:g} ms, Newmark, Newton's method to a "
-        "norm of the correction of 1e-8, UmfPack; medians of "
-        f"{TURNS} turns. Ratios to {BASE}. The LIR-DCFP meets its rims and slips; {BASE} and the "
-        "plain DCFP have no rims.",
-        table(head, rows),
-        f"Goals in buildings: fast route {FAST_GOAL:g}, portable route {PORTABLE_GOAL:g}. "
-        + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
-        "An element of the portable route waits for some four answers of another process an "
-        "iteration; the smaller the rest of the model, the more that counts. \"stops\": plain "
-        "Newton runs in circles in some step, as friction turns round or slips under a rim; "
-        "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "
-        "smaller steps, [opensees_macro_model.md](opensees_macro_model.md)). "
-        "The last row is the driver of this package with the same step.",
-    ]) + "\n"  # fmt: skip
+    return (
+        "\n\n".join(
+            [
+                "# Cost of a bearing inside OpenSees",
+                f"Written by `python -m validation.measurements.opensees_cost`, OpenSees "
+                f"{opensees().version()}, Python "
+                f"{platform.python_version()}, {os.cpu_count()} cores. Time of a step of the whole "
+                f"transient analysis: {STEPS} steps of {1e3 * STEP:g} ms, Newmark, Newton's method to a "
+                "norm of the correction of 1e-8, UmfPack; medians of "
+                f"{TURNS} turns. Ratios to {BASE}. The LIR-DCFP meets its rims and slips; {BASE} and the "
+                "plain DCFP have no rims.",
+                table(head, rows),
+                f"Goals in buildings: fast route {FAST_GOAL:g}, portable route {PORTABLE_GOAL:g}. "
+                + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
+                "An element of the portable route waits for some four answers of another process an "
+                'iteration; the smaller the rest of the model, the more that counts. "stops": plain '
+                "Newton runs in circles in some step, as friction turns round or slips under a rim; "
+                "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "
+                "smaller steps, [opensees_macro_model.md](opensees_macro_model.md)). "
+                "The last row is the driver of this package with the same step.",
+            ]
+        )
+        + "\n"
+    )
 
 
 def verdict(name: str, times: Mapping[str, list[float]]) -> str:
@@ -192,9 +197,14 @@ def ratio(times: Mapping[str, list[float]], device: str) -> float:
 def slender_frame(bays: tuple[int, int], storeys: int, bearing: LIRBearing) -> Frame:
     """Return a moment frame without damping, its members without shear deformation."""
     return moment_frame(
-        bays=bays, storeys=storeys, bearing=bearing, damping=None, column=slender(DEFAULT_COLUMN),
-        beam=slender(DEFAULT_BEAM), base_beam=slender(DEFAULT_BASE_BEAM),
-    )  # fmt: skip
+        bays=bays,
+        storeys=storeys,
+        bearing=bearing,
+        damping=None,
+        column=slender(DEFAULT_COLUMN),
+        beam=slender(DEFAULT_BEAM),
+        base_beam=slender(DEFAULT_BASE_BEAM),
+    )
 
 
 def main() -> None:

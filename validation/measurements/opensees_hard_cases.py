@@ -66,9 +66,7 @@ class Kind:
 
 def kinds() -> tuple[Kind, ...]:
     """Return the three groups."""
-    bearing = example_bearing(
-        friction=CoulombFriction(0.065), slip_capacity=3.0, rim_overrun=0.1
-    )  # fmt: skip
+    bearing = example_bearing(friction=CoulombFriction(0.065), slip_capacity=3.0, rim_overrun=0.1)
     return (
         Kind("pendulum", bearing.as_dcfp(rims=False), ("singleFPBearing", "FPBearingPTV")),
         Kind("with rims", bearing.as_dcfp(), ("TripleFrictionPendulum", "TFP")),
@@ -159,10 +157,17 @@ def ours(
     found = outcome(case.name, level, dt, data)
     u = data["bearing_displacement"][:, 0].to_numpy()
     return Entry(
-        case.name, kind.name, f"**element ({level})**", f"{1e3 * dt:g}",
-        found.status, found.reached, found.peak,
-        _error(data["time"].to_numpy(), u, reference), found.ledger, abs(given_back(data)),
-    )  # fmt: skip
+        case.name,
+        kind.name,
+        f"**element ({level})**",
+        f"{1e3 * dt:g}",
+        found.status,
+        found.reached,
+        found.peak,
+        _error(data["time"].to_numpy(), u, reference),
+        found.ledger,
+        abs(given_back(data)),
+    )
 
 
 def _error(time: Floats, u: Floats, reference: xr.Dataset) -> float:
@@ -173,25 +178,54 @@ def _error(time: Floats, u: Floats, reference: xr.Dataset) -> float:
 
 
 def theirs(
-    worker: Worker, case: Case, kind: Kind, device: str, dt: float, algorithms: Steps,
-    duration: float, reference: xr.Dataset,
-) -> Entry:  # fmt: skip
+    worker: Worker,
+    case: Case,
+    kind: Kind,
+    device: str,
+    dt: float,
+    algorithms: Steps,
+    duration: float,
+    reference: xr.Dataset,
+) -> Entry:
     """Run an element of OpenSees."""
     status, done = worker.run(
-        shake, make=DEVICES[device], bearing=kind.bearing, mass=MASS, motion=case.motion,
-        duration=duration, dt=dt, algorithms=algorithms,
-    )  # fmt: skip
+        shake,
+        make=DEVICES[device],
+        bearing=kind.bearing,
+        mass=MASS,
+        motion=case.motion,
+        duration=duration,
+        dt=dt,
+        algorithms=algorithms,
+    )
     setting = f"{1e3 * dt:g}, {NAMES[algorithms]}"
     if done is None:
         nothing = float("nan")
-        return Entry(case.name, kind.name, device, setting, status, nothing, nothing, nothing,
-                     nothing, nothing)  # fmt: skip
+        return Entry(
+            case.name,
+            kind.name,
+            device,
+            setting,
+            status,
+            nothing,
+            nothing,
+            nothing,
+            nothing,
+            nothing,
+        )
     gap, made = energies(done, case.motion, kind.bearing)
     return Entry(
-        case.name, kind.name, device, setting, done.status, float(done.time[-1]),
+        case.name,
+        kind.name,
+        device,
+        setting,
+        done.status,
+        float(done.time[-1]),
         peak_until(done.time, done.displacement, np.inf),
-        _error(done.time, done.displacement, reference), gap, made,
-    )  # fmt: skip
+        _error(done.time, done.displacement, reference),
+        gap,
+        made,
+    )
 
 
 def run_cases(worker: Worker) -> list[Entry]:
@@ -204,9 +238,9 @@ def run_cases(worker: Worker) -> list[Entry]:
             found += [ours(case, kind, level, dt, case.duration, reference) for level, dt in levels]
             for device in kind.devices:
                 for algorithms, dt in SETTINGS:
-                    found.append(theirs(
-                        worker, case, kind, device, dt, algorithms, case.duration, reference
-                    ))  # fmt: skip
+                    found.append(
+                        theirs(worker, case, kind, device, dt, algorithms, case.duration, reference)
+                    )
         print(case.name, flush=True)
     return found
 
@@ -263,9 +297,13 @@ def main() -> None:
     """Run all and write the page."""
     with Worker() as worker:
         page = write(
-            run_cases(worker), run_steps(worker), taken_back(worker),
-            capacity=kinds()[1].bearing.lateral_capacity, dt=DT, alike=ALIKE,
-        )  # fmt: skip
+            run_cases(worker),
+            run_steps(worker),
+            taken_back(worker),
+            capacity=kinds()[1].bearing.lateral_capacity,
+            dt=DT,
+            alike=ALIKE,
+        )
     TARGET.write_text(page, encoding="utf-8")
     print(page)
 

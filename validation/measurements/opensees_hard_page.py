@@ -45,9 +45,16 @@ class Entry:
 def line(entry: Entry) -> tuple[str, ...]:
     """Return an entry as a row."""
     return (
-        entry.case, entry.kind, entry.model, entry.setting, ended(entry), _number(1e3 * entry.peak),
-        _number(entry.error, 2), _number(entry.balance, 1), _number(entry.made, 1),
-    )  # fmt: skip
+        entry.case,
+        entry.kind,
+        entry.model,
+        entry.setting,
+        ended(entry),
+        _number(1e3 * entry.peak),
+        _number(entry.error, 2),
+        _number(entry.balance, 1),
+        _number(entry.made, 1),
+    )
 
 
 def _number(value: float, digits: int = 4) -> str:
@@ -76,18 +83,39 @@ def summary(found: list[Entry]) -> str:
         good = [e for e in own if e.status == "ok"]
         worst = max((e.error for e in good), default=float("nan"))
         largest = max((e.peak for e in own if not np.isnan(e.peak)), default=float("nan"))
-        rows.append((
-            model, setting, str(len(own)), str(len(good)),
-            str(sum(e.status not in {"ok", "not finite"} and not np.isnan(e.reached) for e in own)),
-            str(sum(np.isnan(e.reached) for e in own)),
-            str(sum(e.status == "not finite" for e in own)),
-            str(sum(e.error > OFF for e in good)), _number(worst, 2), _number(1e3 * largest),
-            str(sum(e.made > MADE for e in own)),
-        ))  # fmt: skip
-    head = ("model", "setting", "runs", "completed", "stopped", "hung or crashed", "not finite",
-            f"completed, peak off by more than {OFF:g} %", "largest error of a completed run [%]",
-            "largest displacement [mm]",
-            f"energy made, more than {100.0 * MADE:g} %")  # fmt: skip
+        rows.append(
+            (
+                model,
+                setting,
+                str(len(own)),
+                str(len(good)),
+                str(
+                    sum(
+                        e.status not in {"ok", "not finite"} and not np.isnan(e.reached)
+                        for e in own
+                    )
+                ),
+                str(sum(np.isnan(e.reached) for e in own)),
+                str(sum(e.status == "not finite" for e in own)),
+                str(sum(e.error > OFF for e in good)),
+                _number(worst, 2),
+                _number(1e3 * largest),
+                str(sum(e.made > MADE for e in own)),
+            )
+        )
+    head = (
+        "model",
+        "setting",
+        "runs",
+        "completed",
+        "stopped",
+        "hung or crashed",
+        "not finite",
+        f"completed, peak off by more than {OFF:g} %",
+        "largest error of a completed run [%]",
+        "largest displacement [mm]",
+        f"energy made, more than {100.0 * MADE:g} %",
+    )
     return table(head, rows)
 
 
@@ -97,9 +125,7 @@ def by_group(found: list[Entry]) -> str:
     for model in dict.fromkeys(e.model for e in found):
         cells = []
         for words in GROUPS.values():
-            own = [
-                e for e in found if e.model == model and any(word in e.case for word in words)
-            ]  # fmt: skip
+            own = [e for e in found if e.model == model and any(word in e.case for word in words)]
             good = [e.error for e in own if e.status == "ok"]
             worst = f", {_number(max(good), 2)} %" if good else ""
             cells.append(f"{len(good)} of {len(own)}{worst}" if own else "")
@@ -174,49 +200,63 @@ def write(
     )
     found = [*found, *sizes]
     version = opensees().version()
-    head = ("case", "device", "model", "step [ms], algorithm", "outcome", "peak [mm]", "error [%]",
-            "balance", "energy made")  # fmt: skip
-    return "\n\n".join([
-        "# Hard cases with OpenSees' elements",
-        "Written by `python -m validation.measurements.opensees_hard_cases`. "
-        f"{len(found)} runs, OpenSees {version}. A mass of {1e-3 * MASS:.0f} t on one bearing, "
-        "that of the paper's section 3.1 with constant friction 0.065; motions of "
-        "[hard_cases.md](hard_cases.md).",
-        "**Models.** Each is compared with the element of this package in the same duty: a "
-        "pendulum without rims (singleFPBearing, FPBearingPTV), one with rims "
-        "(TripleFrictionPendulum, TFP), and the LIR-DCFP "
-        "([macro-model](opensees_macro_model.md)). The first four are given what "
-        "`lir_element.opensees.builtin_element` gives them; TFP, whose rims it refuses, gets "
-        "dishes that end at them. TripleFrictionPendulum and TFP choose the stiffness of their "
-        "rims by themselves: their peaks beyond a rim need not be those of the reference.",
-        "**Settings.** Newmark's average acceleration, test NormUnbalance of "
-        f"{TOLERANCE:g} of the weight, {ITERATIONS} iterations, Transformation, BandGeneral. "
-        "*Newton*: plain, stops where it fails. *Fallback*: where Newton fails KrylovNewton, then "
-        "ModifiedNewton with the initial stiffness, then the step in halves, six times. The "
-        "element "
-        f"runs at {1e3 * dt:g} ms and halves its steps by itself. A run that takes more than "
-        f"{LIMIT:g} s hangs. They run in a separate process, replaced after a crash or a hang.",
-        "**Columns.** Error: of the largest displacement against the level 'rigid_body', up to the "
-        "end of the shorter run. Balance: input less kinetic energy less work done on the device, "
-        "over the largest input (element: the ledger). Energy made: the largest amount that the "
-        "device gave back of what it had taken up beyond what a pendulum under its axial load, "
-        "`N U²/2L`, and its axial spring store, over the largest work, at instants at which it is "
-        "off "
-        f"the rims and N within {100.0 * alike:g} % of the weight "
-        "(element: the largest step back of friction's dissipation). A restoring force that "
-        "follows N without a rise of the mass makes and loses energy where N varies.",
-        "## Findings",
-        *findings,
-        "## Steps taken back",
-        "A step of 2 mm is tried with one iteration, fails, and is taken back by OpenSees; then "
-        "three steps without motion follow. The lateral force that stays, over that of friction, "
-        "should be zero. In singleFPBearing and flatSliderBearing an elastic trial leaves the "
-        "plastic "
-        "displacement of the trial before it, and the next commit keeps it: whatever Newton's "
-        "method tried on its way becomes history (seen in their source, `ubPlastic`). A fallback "
-        "that "
-        "tries a step again therefore goes on from another state: runs complete, and are off.",
-        traces,
-        "## Runs",
-        table(head, [line(entry) for entry in found]),
-    ]) + "\n"  # fmt: skip
+    head = (
+        "case",
+        "device",
+        "model",
+        "step [ms], algorithm",
+        "outcome",
+        "peak [mm]",
+        "error [%]",
+        "balance",
+        "energy made",
+    )
+    return (
+        "\n\n".join(
+            [
+                "# Hard cases with OpenSees' elements",
+                "Written by `python -m validation.measurements.opensees_hard_cases`. "
+                f"{len(found)} runs, OpenSees {version}. A mass of {1e-3 * MASS:.0f} t on one bearing, "
+                "that of the paper's section 3.1 with constant friction 0.065; motions of "
+                "[hard_cases.md](hard_cases.md).",
+                "**Models.** Each is compared with the element of this package in the same duty: a "
+                "pendulum without rims (singleFPBearing, FPBearingPTV), one with rims "
+                "(TripleFrictionPendulum, TFP), and the LIR-DCFP "
+                "([macro-model](opensees_macro_model.md)). The first four are given what "
+                "`lir_element.opensees.builtin_element` gives them; TFP, whose rims it refuses, gets "
+                "dishes that end at them. TripleFrictionPendulum and TFP choose the stiffness of their "
+                "rims by themselves: their peaks beyond a rim need not be those of the reference.",
+                "**Settings.** Newmark's average acceleration, test NormUnbalance of "
+                f"{TOLERANCE:g} of the weight, {ITERATIONS} iterations, Transformation, BandGeneral. "
+                "*Newton*: plain, stops where it fails. *Fallback*: where Newton fails KrylovNewton, then "
+                "ModifiedNewton with the initial stiffness, then the step in halves, six times. The "
+                "element "
+                f"runs at {1e3 * dt:g} ms and halves its steps by itself. A run that takes more than "
+                f"{LIMIT:g} s hangs. They run in a separate process, replaced after a crash or a hang.",
+                "**Columns.** Error: of the largest displacement against the level 'rigid_body', up to the "
+                "end of the shorter run. Balance: input less kinetic energy less work done on the device, "
+                "over the largest input (element: the ledger). Energy made: the largest amount that the "
+                "device gave back of what it had taken up beyond what a pendulum under its axial load, "
+                "`N U²/2L`, and its axial spring store, over the largest work, at instants at which it is "
+                "off "
+                f"the rims and N within {100.0 * alike:g} % of the weight "
+                "(element: the largest step back of friction's dissipation). A restoring force that "
+                "follows N without a rise of the mass makes and loses energy where N varies.",
+                "## Findings",
+                *findings,
+                "## Steps taken back",
+                "A step of 2 mm is tried with one iteration, fails, and is taken back by OpenSees; then "
+                "three steps without motion follow. The lateral force that stays, over that of friction, "
+                "should be zero. In singleFPBearing and flatSliderBearing an elastic trial leaves the "
+                "plastic "
+                "displacement of the trial before it, and the next commit keeps it: whatever Newton's "
+                "method tried on its way becomes history (seen in their source, `ubPlastic`). A fallback "
+                "that "
+                "tries a step again therefore goes on from another state: runs complete, and are off.",
+                traces,
+                "## Runs",
+                table(head, [line(entry) for entry in found]),
+            ]
+        )
+        + "\n"
+    )

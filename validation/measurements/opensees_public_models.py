@@ -235,9 +235,14 @@ def compare(public: Public, duration: float = DURATION) -> Outcome:
                 stuck = 2.0 * np.pi / np.sqrt(np.array(ops.eigen(PERIODS)))
             axial = np.array([bearing_response(tag, "axial_force") for tag in elements])
             track = respond(
-                ops, motion, dt, [standing.bases[0], standing.top], duration=duration,
-                tolerance=1e-8 / public.length, length_unit=public.length,
-            )  # fmt: skip
+                ops,
+                motion,
+                dt,
+                [standing.bases[0], standing.top],
+                duration=duration,
+                tolerance=1e-8 / public.length,
+                length_unit=public.length,
+            )
             slip = max(float(bearing_response(tag, "largest_slip")) for tag in elements)
             moves = public.length * (track.displacement - track.displacement[0])[..., :3]
             there.append(Motions(track.time, moves, axial, slip, track.seconds))
@@ -366,8 +371,9 @@ def _peaks(there: Motions, here: Motions) -> tuple[str, str, str]:
 
 def draw(found: Sequence[Outcome]) -> Figure:
     """Draw base and top along x from both programs, at the smallest step."""
-    drawn, axes = plt.subplots(2, len(found), figsize=(10.0, 4.6), sharex=True,
-                               layout="constrained", squeeze=False)  # fmt: skip
+    drawn, axes = plt.subplots(
+        2, len(found), figsize=(10.0, 4.6), sharex=True, layout="constrained", squeeze=False
+    )
     for column, one in enumerate(found):
         for row, label in enumerate(("base [mm]", "top against base [mm]")):
             axis = axes[row, column]

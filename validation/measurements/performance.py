@@ -50,10 +50,20 @@ HISTORY = START + (
 
 @kernel
 def repeat_element(
-    props: Records, old: Records, new: Records, old_words: Words, new_words: Words, work: Records,
-    heat: Floats, contacts: Contacts | None, path: Floats, v: Floats, dt: float,
-    with_tangent: bool, k: Floats,
-) -> int:  # fmt: skip
+    props: Records,
+    old: Records,
+    new: Records,
+    old_words: Words,
+    new_words: Words,
+    work: Records,
+    heat: Floats,
+    contacts: Contacts | None,
+    path: Floats,
+    v: Floats,
+    dt: float,
+    with_tangent: bool,
+    k: Floats,
+) -> int:
     """Run trial (, tangent) and commit along `path` (n, 12), speeds `v`; returns the iterations."""
     total = 0
     for step in range(path.shape[0]):
@@ -92,9 +102,20 @@ def element_microseconds(
             contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
         began = time.process_time()
         iterations = repeat_element(
-            props, old, new, as_rows(old), as_rows(new), np.zeros(1, dtype=WORK),
-            heat_parts(props), contacts, path, np.zeros(12), 0.001, tangent, np.zeros((12, 12)),
-        )  # fmt: skip
+            props,
+            old,
+            new,
+            as_rows(old),
+            as_rows(new),
+            np.zeros(1, dtype=WORK),
+            heat_parts(props),
+            contacts,
+            path,
+            np.zeros(12),
+            0.001,
+            tangent,
+            np.zeros((12, 12)),
+        )
         times.append((time.process_time() - began) / len(path) * 1e6)
     return statistics.median(times[1:]), iterations / len(path)
 
@@ -153,14 +174,22 @@ def element_rows() -> list[str]:
     cases: list[tuple[str, LIRBearing, float, Level]] = [
         ("LIR-DCFP, sliding", example_bearing(), 0.2, "pendulum"),
         ("LIR-DCFP, rim contact and interface slip", example, 0.3, "pendulum"),
-        ("LIR-DCFP, Bouc-Wen friction, sliding", example_bearing(friction_law="bouc-wen"), 0.2,
-         "pendulum"),
+        (
+            "LIR-DCFP, Bouc-Wen friction, sliding",
+            example_bearing(friction_law="bouc-wen"),
+            0.2,
+            "pendulum",
+        ),
         ("DCFP, sliding", example_bearing().as_dcfp(), 0.2, "pendulum"),
         ("LIR-DCFP, sliding", example_bearing(), 0.2, "contact"),
-        ("the same, 4 contact points an interface", example_bearing(contact_points=4), 0.2,
-         "contact"),
+        (
+            "the same, 4 contact points an interface",
+            example_bearing(contact_points=4),
+            0.2,
+            "contact",
+        ),
         ("LIR-DCFP, rim contact and interface slip", example, 0.3, "contact"),
-    ]  # fmt: skip
+    ]
     for name, bearing, reach, level in cases:
         with_tangent, iterations = element_microseconds(bearing, reach, level, tangent=True)
         alone, _ = element_microseconds(bearing, reach, level, tangent=False)

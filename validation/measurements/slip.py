@@ -59,13 +59,16 @@ def outcome(data: xr.Dataset) -> dict[str, Any]:
     across = ("bearing_displacement", "bearing_force")
     u, f = (np.linalg.norm(finer(data, name), axis=-1) for name in across)
     return {
-        "status": str(data.attrs["status"]), "time": float(data["time"][-1]),
-        "slip": float(slip.max()), "left": float(slip[-1]),
-        "spin": float(data["slider_spin"][-1, 0]), "displacement": float(u.max()),
+        "status": str(data.attrs["status"]),
+        "time": float(data["time"][-1]),
+        "slip": float(slip.max()),
+        "left": float(slip[-1]),
+        "spin": float(data["slider_spin"][-1, 0]),
+        "displacement": float(u.max()),
         "force": float(np.quantile(f, QUANTILE)),
         "lifts": bool((data["axial_force"][1:] <= 0.0).any()),
         "seconds": float(data.attrs["seconds_loop"]),
-    }  # fmt: skip
+    }
 
 
 def perform(number: int, *, seed: int) -> dict[str, Any]:
@@ -77,10 +80,12 @@ def perform(number: int, *, seed: int) -> dict[str, Any]:
     bearing = scene.bearing
     reach = [d / r for d, r in zip(bearing.rim_displacement, bearing.radii, strict=True)]
     found |= {
-        "slider_radius": bearing.slider_radius, "capacity": bearing.lateral_capacity,
-        "holds": bearing.slip_stability, "overlap": bearing.resolved()["slip_capacity"],
+        "slider_radius": bearing.slider_radius,
+        "capacity": bearing.lateral_capacity,
+        "holds": bearing.slip_stability,
+        "overlap": bearing.resolved()["slip_capacity"],
         "unequal": abs(reach[0] - reach[1]) > 1e-9,
-    }  # fmt: skip
+    }
     for level in LEVELS:
         data = scene.run(found["factor"], level)
         found[level] = outcome(data)

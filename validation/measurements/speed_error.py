@@ -171,8 +171,7 @@ def extract(results: list[Result]) -> str:
         exact = [r for r in result.rows if r.level.startswith("rigid_body, tol")]
         last = f"{1e3 * exact[0].share:.3g} ms" if exact else "-"
         lines.append(f"| {result.name} | {cells[0]} | {cells[1]} | {last} |")
-    return "\n".join(["", *lines, "", "![Error over cost](validation/figures/speed_error.png)",
-                      ""])  # fmt: skip
+    return "\n".join(["", *lines, "", "![Error over cost](validation/figures/speed_error.png)", ""])
 
 
 def write_extract(text: str) -> None:
@@ -243,66 +242,69 @@ def scene_rows(results: list[Result]) -> list[str]:
 
 def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
     """Return the page."""
-    return "\n".join([
-        "# Error over cost of the levels",
-        "",
-        f"Written by `python -m validation.measurements.speed_error`, on {os.cpu_count()} cores "
-        f"({platform.machine()}); times are those of the time loop, medians of several runs.",
-        "",
-        "Reference: the level 'rigid_body', implicit, tolerance "
-        f"{REFERENCE_TOLERANCE:.0e}, outputs every {1e3 * OUTPUT:g} ms; for the building the level "
-        f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
-        "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
-        "time, energy dissipated by friction, and largest slip of the interface; slip left in per "
-        "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
-        "compared at the output times of the coarser run: the largest one is a single sample next "
-        "to an impact, and depends on them.",
-        "",
-        *(f"Left out here: {text}." for text in missing),
-        "![Error over cost](figures/speed_error.png)",
-        "",
-        "## Scenes",
-        "",
-        "| scene | what it is | axial force over its static value |",
-        "|---|---|---|",
-        *scene_rows(results),
-        "",
-        "## Goals",
-        "",
-        "Pendulum: 1 % in peak displacement, 3 % in force (99.9 %) and energy, at less than "
-        f"1/{SPEED_GOAL:.0f} of the reference's cost; contact: 0.5 % and 1.5 %; with uplift 3 % in "
-        "peak displacement. Largest step (ms) from which on all smaller ones keep to the errors, "
-        "the errors there (where missed: those of the smallest step), and how many times cheaper "
-        "it is than the reference: the implicit one at its default tolerance of 1e-8, and the "
-        "explicit one.",
-        "",
-        "| level | scene | step | peak u | F 99.9 % | energy | implicit / | explicit / |",
-        "|---|---|---|---|---|---|---|---|",
-        *goal_rows(results),
-        "",
-        "## What a feature left out costs",
-        "",
-        "Errors of peak displacement / force (99.9 %) in per cent, pendulum, 2 ms.",
-        "",
-        *feature_rows(results),
-        "",
-        "## What the reference depends on",
-        "",
-        "Change of the reference's peak displacement / force (99.9 %) in per cent when a property "
-        "that is assumed is changed.",
-        "",
-        *studies,
-        "",
-        "## All runs",
-        "",
-        "Steps and cost (of one second of the scene) in milliseconds.",
-        "",
-        "| scene | level | step | " + " | ".join(HEADINGS[n] for n in NAMES)
-        + " | cost | implicit / | explicit / |",
-        "|---" * (len(NAMES) + 6) + "|",
-        *(line for result in results for line in table_rows(result)),
-        "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            "# Error over cost of the levels",
+            "",
+            f"Written by `python -m validation.measurements.speed_error`, on {os.cpu_count()} cores "
+            f"({platform.machine()}); times are those of the time loop, medians of several runs.",
+            "",
+            "Reference: the level 'rigid_body', implicit, tolerance "
+            f"{REFERENCE_TOLERANCE:.0e}, outputs every {1e3 * OUTPUT:g} ms; for the building the level "
+            f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
+            "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
+            "time, energy dissipated by friction, and largest slip of the interface; slip left in per "
+            "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
+            "compared at the output times of the coarser run: the largest one is a single sample next "
+            "to an impact, and depends on them.",
+            "",
+            *(f"Left out here: {text}." for text in missing),
+            "![Error over cost](figures/speed_error.png)",
+            "",
+            "## Scenes",
+            "",
+            "| scene | what it is | axial force over its static value |",
+            "|---|---|---|",
+            *scene_rows(results),
+            "",
+            "## Goals",
+            "",
+            "Pendulum: 1 % in peak displacement, 3 % in force (99.9 %) and energy, at less than "
+            f"1/{SPEED_GOAL:.0f} of the reference's cost; contact: 0.5 % and 1.5 %; with uplift 3 % in "
+            "peak displacement. Largest step (ms) from which on all smaller ones keep to the errors, "
+            "the errors there (where missed: those of the smallest step), and how many times cheaper "
+            "it is than the reference: the implicit one at its default tolerance of 1e-8, and the "
+            "explicit one.",
+            "",
+            "| level | scene | step | peak u | F 99.9 % | energy | implicit / | explicit / |",
+            "|---|---|---|---|---|---|---|---|",
+            *goal_rows(results),
+            "",
+            "## What a feature left out costs",
+            "",
+            "Errors of peak displacement / force (99.9 %) in per cent, pendulum, 2 ms.",
+            "",
+            *feature_rows(results),
+            "",
+            "## What the reference depends on",
+            "",
+            "Change of the reference's peak displacement / force (99.9 %) in per cent when a property "
+            "that is assumed is changed.",
+            "",
+            *studies,
+            "",
+            "## All runs",
+            "",
+            "Steps and cost (of one second of the scene) in milliseconds.",
+            "",
+            "| scene | level | step | "
+            + " | ".join(HEADINGS[n] for n in NAMES)
+            + " | cost | implicit / | explicit / |",
+            "|---" * (len(NAMES) + 6) + "|",
+            *(line for result in results for line in table_rows(result)),
+            "",
+        ]
+    )
 
 
 def main() -> None:

@@ -44,23 +44,39 @@ def panel(ax: Axes, result: Result) -> None:
             points = [r for r in rows if math.isnan(r.dt)]
         for name, style, face in (("peak", "-", colour), ("quantile", ":", "white")):
             ax.plot(
-                [r.share for r in line], [max(getattr(r.errors, name), FLOOR) for r in line],
-                color=colour, ls=style, lw=1.1, marker=marker, ms=4.0, mfc=face, mew=0.8,
-            )  # fmt: skip
+                [r.share for r in line],
+                [max(getattr(r.errors, name), FLOOR) for r in line],
+                color=colour,
+                ls=style,
+                lw=1.1,
+                marker=marker,
+                ms=4.0,
+                mfc=face,
+                mew=0.8,
+            )
             ax.plot(
-                [r.share for r in points], [max(getattr(r.errors, name), FLOOR) for r in points],
-                color=colour, ls="", marker="*" if level != "rigid_body" else "X", ms=6.0,
-                mfc=face, mew=0.8,
-            )  # fmt: skip
+                [r.share for r in points],
+                [max(getattr(r.errors, name), FLOOR) for r in points],
+                color=colour,
+                ls="",
+                marker="*" if level != "rigid_body" else "X",
+                ms=6.0,
+                mfc=face,
+                mew=0.8,
+            )
         if level == "pendulum" and len(line) > 1:
             for row in (line[0], line[-1]):
                 first = row is line[0]
                 ax.annotate(
-                    f"{1e3 * row.dt:g} ms", (row.share, max(row.errors.peak, FLOOR)),
-                    xytext=(-5, -2) if first else (2, -10), textcoords="offset points",
-                    ha="right" if first else "center", fontsize=SMALL - 1.0, color=colour,
+                    f"{1e3 * row.dt:g} ms",
+                    (row.share, max(row.errors.peak, FLOOR)),
+                    xytext=(-5, -2) if first else (2, -10),
+                    textcoords="offset points",
+                    ha="right" if first else "center",
+                    fontsize=SMALL - 1.0,
+                    color=colour,
                     bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
-                )  # fmt: skip
+                )
     ax.axhline(GOALS[1 if result.uplift else 0], color="black", lw=0.9, ls="--")
     ax.set(xscale="log", yscale="log", xlim=(2e-4, 25.0), ylim=(0.7 * FLOOR, 40.0))
     caption(ax, title=result.name)
@@ -89,11 +105,20 @@ def draw(results: list[Result]) -> Figure:
     ]
     handles += [
         Line2D([], [], color=GREY, marker="o", ms=4.0, lw=1.1, label="peak displacement"),
-        Line2D([], [], color=GREY, marker="o", ms=4.0, mfc="white", ls=":", lw=1.1,
-               label="force, 99.9 %"),
+        Line2D(
+            [],
+            [],
+            color=GREY,
+            marker="o",
+            ms=4.0,
+            mfc="white",
+            ls=":",
+            lw=1.1,
+            label="force, 99.9 %",
+        ),
         Line2D([], [], color=GREY, marker="*", ms=6.0, ls="", label="step chosen by the program"),
         Line2D([], [], color=PALETTE[2], marker="X", ms=6.0, ls="", label="rigid_body, explicit"),
         Line2D([], [], color="black", ls="--", lw=0.9, label="goal, pendulum, displacement"),
-    ]  # fmt: skip
+    ]
     add_legend(figure, handles, columns=3, size=SMALL)
     return figure

@@ -90,9 +90,11 @@ def history(model: Frame, motion: GroundMotion, duration: float, **options: Any)
 def warm_up(scene: Scene) -> None:
     """Compile and load the kernels of all levels, so that no run is timed with it."""
     for options in (
-        {"level": "pendulum"}, {"level": "contact"}, {"level": "rigid_body"},
+        {"level": "pendulum"},
+        {"level": "contact"},
+        {"level": "rigid_body"},
         {"level": "rigid_body", "integrator": "explicit"},
-    ):  # fmt: skip
+    ):
         history(scene.model(), scene.motion, 2.0 * OUTPUT, **options)
     for level in ("pendulum", "contact", "rigid_body"):
         cyclic_test(static_bearing(), [0.0, OUTPUT], axial_load=LOAD, level=level)
@@ -114,10 +116,14 @@ def run_scene(scene: Scene) -> Result:
 
     reference = go("rigid_body", dt=OUTPUT, tolerance=REFERENCE_TOLERANCE)
     runs = [
-        ("rigid_body", f"tolerance {tolerance:.0e}", tolerance,
-         timed(lambda t=tolerance: go("rigid_body", dt=OUTPUT, tolerance=t)))
+        (
+            "rigid_body",
+            f"tolerance {tolerance:.0e}",
+            tolerance,
+            timed(lambda t=tolerance: go("rigid_body", dt=OUTPUT, tolerance=t)),
+        )
         for tolerance in TOLERANCES
-    ]  # fmt: skip
+    ]
     cost = runs[0][3].seconds / scene.duration
     slow, rows = float("nan"), []
     if scene.explicit > 0.0:
@@ -177,13 +183,20 @@ def sensitivity(scene: Scene) -> list[tuple[str, Errors]]:
     options = {"level": "rigid_body", "dt": OUTPUT, "tolerance": TOLERANCES[1]}
     base = history(scene.model(), scene.motion, scene.duration, **options)
     return [
-        (name, errors(
-            history(scene.model(replace(scene.bearing, **changes)), scene.motion, scene.duration,
-                    **options),
-            base,
-        ))
+        (
+            name,
+            errors(
+                history(
+                    scene.model(replace(scene.bearing, **changes)),
+                    scene.motion,
+                    scene.duration,
+                    **options,
+                ),
+                base,
+            ),
+        )
         for name, changes in cases
-    ]  # fmt: skip
+    ]
 
 
 def kept_of(resolved: dict[str, float]) -> dict[str, float]:
@@ -198,14 +211,21 @@ def widths(scene: Scene) -> list[tuple[float, Errors]]:
     for factor in WIDTHS:
         radius = factor * scene.bearing.slider_radius
         bearing = replace(
-            scene.bearing, slider_radius=radius, slip_capacity=0.15,
-            rim_overrun=0.015, **kept_of(scene.bearing.resolved()),
-        )  # fmt: skip
+            scene.bearing,
+            slider_radius=radius,
+            slip_capacity=0.15,
+            rim_overrun=0.015,
+            **kept_of(scene.bearing.resolved()),
+        )
         model = scene.model(bearing)
         exact = history(
-            model, scene.motion, scene.duration, level="rigid_body", dt=OUTPUT,
+            model,
+            scene.motion,
+            scene.duration,
+            level="rigid_body",
+            dt=OUTPUT,
             tolerance=TOLERANCES[1],
-        )  # fmt: skip
+        )
         run = history(model, scene.motion, scene.duration, dt=OUTPUT)
         found.append((radius, errors(run, exact)))
     return found
@@ -224,10 +244,18 @@ def static_loop() -> Result:
     reference = go("rigid_body")
     runs = [(level, timed(lambda le=level: go(le))) for level in ("pendulum", "contact")]
     rows = [
-        _row("static loop", level, None, run, reference, duration, reference.seconds / duration,
-             float("nan"))
+        _row(
+            "static loop",
+            level,
+            None,
+            run,
+            reference,
+            duration,
+            reference.seconds / duration,
+            float("nan"),
+        )
         for level, run in runs
-    ]  # fmt: skip
+    ]
     what = "the paper's static test, two cycles of 185 mm under 150 kN"
     return Result("static loop", what, False, reference, rows, [])
 
@@ -250,22 +278,42 @@ def run_building() -> Result | None:
         *(("contact", "contact", dt) for dt in BUILDING_STEPS[1:]),
     ]
     rows = [
-        _row("building", name, dt, timed(lambda le=level, h=dt: go(le, h)), reference, duration,
-             cost, float("nan"))
+        _row(
+            "building",
+            name,
+            dt,
+            timed(lambda le=level, h=dt: go(le, h)),
+            reference,
+            duration,
+            cost,
+            float("nan"),
+        )
         for name, level, dt in runs
-    ]  # fmt: skip
+    ]
     what = "the demonstration: three storeys on nine bearings, Pacoima Dam 1971 times 0.8"
     lifts = bool(reference.axial.min() <= 0.0)
     return Result("building", what, lifts, reference, rows, [])
 
 
 def _row(
-    scene: str, level: str, dt: float | None, run: Response, reference: Response, duration: float,
-    implicit: float, explicit: float,
-) -> Row:  # fmt: skip
+    scene: str,
+    level: str,
+    dt: float | None,
+    run: Response,
+    reference: Response,
+    duration: float,
+    implicit: float,
+    explicit: float,
+) -> Row:
     share = run.seconds / duration
     return Row(
-        scene=scene, level=level, dt=float("nan") if dt is None else dt,
-        errors=errors(run, reference), seconds=run.seconds, share=share,
-        implicit=implicit / share, explicit=explicit / share, status=run.status,
-    )  # fmt: skip
+        scene=scene,
+        level=level,
+        dt=float("nan") if dt is None else dt,
+        errors=errors(run, reference),
+        seconds=run.seconds,
+        share=share,
+        implicit=implicit / share,
+        explicit=explicit / share,
+        status=run.status,
+    )

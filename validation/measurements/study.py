@@ -52,9 +52,12 @@ if TYPE_CHECKING:
 
 FAR, PULSE, PLAIN = RECORD_SETS
 HALVED = (
-    (LIR, FAR, 0, 1.6), (RIMS, FAR, 5, 2.2), (RIMS, PULSE, 8, 1.9), (WIDE, PULSE, 0, 2.6),
+    (LIR, FAR, 0, 1.6),
+    (RIMS, FAR, 5, 2.2),
+    (RIMS, PULSE, 8, 1.9),
+    (WIDE, PULSE, 0, 2.6),
     (LIR, PLAIN, 8, 1.6),
-)  # fmt: skip
+)
 """Runs at half the step: device, set, motion by number, intensity [m/s2]."""
 
 
@@ -82,9 +85,10 @@ def halved(sets: Sets) -> list[dict[str, Any]]:
             peaks = data["peak"].isel(run=0).to_series().to_dict()
             peaks["ductility"] = float(ductilities(data)[0])
             status = str(data["status"].item())
-            numbers.append({"status": status} | {
-                key: float(peaks[key]) if isfinite(peaks[key]) else None for key in DEMANDS
-            })  # fmt: skip
+            numbers.append(
+                {"status": status}
+                | {key: float(peaks[key]) if isfinite(peaks[key]) else None for key in DEMANDS}
+            )
         rows.append({"device": device, "motion": name, "im": scale, "runs": numbers})
     return rows
 
@@ -97,12 +101,16 @@ def performed(runs: Campaign, workers: int) -> dict[str, Any]:
         runs.run(workers=workers, progress=True)
     status = runs.status()
     return {
-        "runs": status.done, "computed": status.done - before, "workers": workers,
-        "clock": perf_counter() - clock, "cpu": process_time() - cpu,
+        "runs": status.done,
+        "computed": status.done - before,
+        "workers": workers,
+        "clock": perf_counter() - clock,
+        "cpu": process_time() - cpu,
         "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
-        "digest": runs.digest(), "date": f"{datetime.date.today():%Y-%m-%d}",
+        "digest": runs.digest(),
+        "date": f"{datetime.date.today():%Y-%m-%d}",
         "machine": f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
-    }  # fmt: skip
+    }
 
 
 def write(found: Mapping[str, Any], folder: Path = FOLDER) -> None:

@@ -43,19 +43,31 @@ def figures(found: Found) -> dict[str, Figure]:
 def _curves(found: Found) -> Figure:
     limits = [limit for limit in LIMITS if limit is not SLIP]
     figure = ps.new_figure(5.0)
-    panels = [panel for row in ps.grid_of(figure, 2, 3, share_x=True, share_y=True)
-              for panel in row]  # fmt: skip
+    panels = [
+        panel for row in ps.grid_of(figure, 2, 3, share_x=True, share_y=True) for panel in row
+    ]
     for panel, limit in zip(panels, limits, strict=True):
         own = found["parts"][ALL]["limits"][limit.name]
         for k, name in enumerate(DEVICES):
             look, curve = ps.line_of(k), own["curves"][name]
             if "why" not in curve:
-                panel.fill_between(curve["at"], curve["low"], curve["high"], alpha=0.15,
-                                   color=look["color"], linewidth=0.0)  # fmt: skip
+                panel.fill_between(
+                    curve["at"],
+                    curve["low"],
+                    curve["high"],
+                    alpha=0.15,
+                    color=look["color"],
+                    linewidth=0.0,
+                )
                 panel.plot(curve["at"], curve["probability"], **look)
             im, exceeded, total = np.array(own["stripes"][name]).T
-            panel.plot(im, exceeded / np.maximum(total, 1.0), MARKERS[k], markersize=3.0,
-                       color=look["color"])  # fmt: skip
+            panel.plot(
+                im,
+                exceeded / np.maximum(total, 1.0),
+                MARKERS[k],
+                markersize=3.0,
+                color=look["color"],
+            )
         panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
         ps.caption(panel, title=limit.name)
         panel.set_ylim(0.0, 1.02)
@@ -79,8 +91,9 @@ def _medians(found: Found) -> Figure:
                 for column in zip(*rows, strict=True)
             )
             look = ps.line_of(k)
-            panel.fill_between(found["scales"], low, high, alpha=0.12, color=look["color"],
-                               linewidth=0.0)  # fmt: skip
+            panel.fill_between(
+                found["scales"], low, high, alpha=0.12, color=look["color"], linewidth=0.0
+            )
             panel.plot(found["scales"], middle, marker=MARKERS[k], markersize=3.0, **look)
         if quantity == FLOOR:
             panel.set_yscale("log")
@@ -90,6 +103,8 @@ def _medians(found: Found) -> Figure:
 
 
 def _legend(figure: Figure, title: str) -> None:
-    handles = [Line2D([], [], label=name, marker=MARKERS[k], markersize=3.0, **ps.line_of(k))
-               for k, name in enumerate(DEVICES)]  # fmt: skip
+    handles = [
+        Line2D([], [], label=name, marker=MARKERS[k], markersize=3.0, **ps.line_of(k))
+        for k, name in enumerate(DEVICES)
+    ]
     ps.add_legend(figure, handles, columns=2, title=title)

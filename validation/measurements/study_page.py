@@ -40,38 +40,46 @@ SETS = (ALL, *RECORD_SETS)
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return "\n\n".join([
-        "# A study: the records of FEMA P695 on LIR-DCFP, DCFP and a larger DCFP",
-        _introduction(found),
-        "## What counts as what",
-        _definitions(),
-        "## In short",
-        _verdict(found),
-        f"![Fragility of four devices against six limit states, all records](figures/{CURVES})",
-        "All records; points are shares of stripes, bands of 90 % are from resampled records.",
-        "## Collapse margin",
-        _margins(found),
-        "## Fragility",
-        _fragilities(found),
-        "## Demands",
-        f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",  # noqa: E501
-        "Medians over all records, and the range of the middle 68 %; a line ends where half of "
-        "the records have failed a bearing.",
-        _demands(found),
-        "## Size of the larger DCFP",
-        _sizes(found),
-        "## Runs that failed, and the step",
-        _failures(found),
-        _halved(found),
-        "## Cost",
-        _cost(found),
-    ]) + "\n"  # fmt: skip
+    return (
+        "\n\n".join(
+            [
+                "# A study: the records of FEMA P695 on LIR-DCFP, DCFP and a larger DCFP",
+                _introduction(found),
+                "## What counts as what",
+                _definitions(),
+                "## In short",
+                _verdict(found),
+                f"![Fragility of four devices against six limit states, all records](figures/{CURVES})",
+                "All records; points are shares of stripes, bands of 90 % are from resampled records.",
+                "## Collapse margin",
+                _margins(found),
+                "## Fragility",
+                _fragilities(found),
+                "## Demands",
+                f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",
+                "Medians over all records, and the range of the middle 68 %; a line ends where half of "
+                "the records have failed a bearing.",
+                _demands(found),
+                "## Size of the larger DCFP",
+                _sizes(found),
+                "## Runs that failed, and the step",
+                _failures(found),
+                _halved(found),
+                "## Cost",
+                _cost(found),
+            ]
+        )
+        + "\n"
+    )
 
 
 def _introduction(found: Found) -> str:
     columns, beams = (1e3 * value for value in yield_rotations().values())
-    counts = ", ".join(f"{found['parts'][kind]['motions']} {kind}" for kind in RECORD_SETS
-                       if kind in found["parts"])  # fmt: skip
+    counts = ", ".join(
+        f"{found['parts'][kind]['motions']} {kind}"
+        for kind in RECORD_SETS
+        if kind in found["parts"]
+    )
     scales = ", ".join(f"{scale:g}" for scale in found["scales"])
     cost = found["cost"]
     return (
@@ -99,13 +107,19 @@ def _definitions() -> str:
         ("storey drift 2 %", "limit of ASCE 7-22, chapter 17, for time histories"),
         ("ductility", "1 + plastic over yield rotation M_p L / 6EI, any hinge; limit 4"),
         ("floor acceleration", "in plan, mean of a floor: 0.5 g and 1 g"),
-        ("collapse", f"ductility {ULTIMATE:g} (an assumption; the hinges do not degrade), or "
-         "failure of a bearing: slip beyond the overlap, or a rim overrun"),
+        (
+            "collapse",
+            f"ductility {ULTIMATE:g} (an assumption; the hinges do not degrade), or "
+            "failure of a bearing: slip beyond the overlap, or a rim overrun",
+        ),
         ("failure of a bearing", "exceeds every limit state (docs/fragility.md)"),
-        ("collapse margin ratio", "median of collapse over the Sa of the maximum considered "
-         "earthquake that fills the capacity: its ASCE 7 displacement (17.5-1, nominal friction) "
-         "is 250 mm; without spectral shape factor"),
-    ]  # fmt: skip
+        (
+            "collapse margin ratio",
+            "median of collapse over the Sa of the maximum considered "
+            "earthquake that fills the capacity: its ASCE 7 displacement (17.5-1, nominal friction) "
+            "is 250 mm; without spectral shape factor",
+        ),
+    ]
     return table(("term", "definition"), rows)
 
 
@@ -117,13 +131,15 @@ def _verdict(found: Found) -> str:
         for limit in LIMITS
     ]
     head = ("limit state", *(f"{own} over {other}" for own, other in pairs))
-    return "\n\n".join([
-        "Median of one device over that of another under all records (interval of 90 %): above 1 "
-        "it is better, below 1 worse.",
-        table(head, rows),
-        _physics(found),
-        _larger_sliders(found),
-    ])  # fmt: skip
+    return "\n\n".join(
+        [
+            "Median of one device over that of another under all records (interval of 90 %): above 1 "
+            "it is better, below 1 worse.",
+            table(head, rows),
+            _physics(found),
+            _larger_sliders(found),
+        ]
+    )
 
 
 def _ratio(value: list[float] | None) -> str:
@@ -150,8 +166,10 @@ def _larger_sliders(found: Found) -> str:
     at = _last_held(found, ROOM)
     margins = [margin(found, ALL, name) for name in (LIR, ROOM, RIMS)]
     own, larger, rims = ("none" if each is None else f"{each[0]:.2f}" for each in margins)
-    failed = [sum(n for status, n in found["statuses"][name].items() if status != "ok")
-              for name in (LIR, ROOM, RIMS)]  # fmt: skip
+    failed = [
+        sum(n for status, n in found["statuses"][name].items() if status != "ok")
+        for name in (LIR, ROOM, RIMS)
+    ]
     runs = sum(found["statuses"][LIR].values())
     return (
         "**Larger sliders.** The collapse of the LIR-DCFP is a matter of how far its sliders may "
@@ -214,10 +232,15 @@ def _margins(found: Found) -> str:
         for name in DEVICES:
             ratio = margin(found, kind, name)
             curve = found["parts"][kind]["limits"][COLLAPSE.name]["curves"][name]
-            rows.append((
-                kind, name, _median(curve), _spread(curve),
-                "-" if ratio is None else f"{ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})",
-            ))  # fmt: skip
+            rows.append(
+                (
+                    kind,
+                    name,
+                    _median(curve),
+                    _spread(curve),
+                    "-" if ratio is None else f"{ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})",
+                )
+            )
     head = ("records", "device", "median [m/s2] (90 %)", "dispersion", "margin (90 %)")
     return (
         f"The maximum considered earthquake that fills the capacity has {INTENSITY.label} of "
@@ -254,8 +277,8 @@ def _demands(found: Found) -> str:
     head = ("Sa [m/s2]", "device", *(text for text, _, _ in SHOWN.values()))
     note = (
         f"All records: fractiles of {shares} at the intensities next to 0.75, 1 and 1.25 of that "
-        "of the maximum considered earthquake; \"failed\": that part has failed a bearing."
-    )  # fmt: skip
+        'of the maximum considered earthquake; "failed": that part has failed a bearing.'
+    )
     return f"{note}\n\n{table(head, rows)}"
 
 
@@ -286,8 +309,10 @@ def _dish(displacement: float, more: float = 0.0) -> float:
 
 
 def _failures(found: Found) -> str:
-    rows = [(name, *(f"{number} `{status}`" for status, number in own.items()))
-            for name, own in found["statuses"].items()]  # fmt: skip
+    rows = [
+        (name, *(f"{number} `{status}`" for status, number in own.items()))
+        for name, own in found["statuses"].items()
+    ]
     told = "; ".join(f"{row[0]}: {', '.join(row[1:])}" for row in rows)
     failed = found["failed"]
     if not failed:
@@ -313,10 +338,12 @@ def _halved(found: Found) -> str:
         rows.append((run["device"], run["motion"], f"{run['im']:g}", statuses, *cells))
     head = ("device", "motion", "Sa [m/s2]", "status", *(text for text, _, _ in SHOWN.values()))
     worst = {
-        quantity: max(abs(whole[quantity] / half[quantity] - 1.0)
-                      for whole, half in (run["runs"] for run in found["halved"]))
+        quantity: max(
+            abs(whole[quantity] / half[quantity] - 1.0)
+            for whole, half in (run["runs"] for run in found["halved"])
+        )
         for quantity in ("bearing displacement", "storey drift, mean", FLOOR)
-    }  # fmt: skip
+    }
     told = ", ".join(f"{100.0 * value:.1f} % of {key}" for key, value in worst.items())
     return (
         f"Runs at a step of {1e3 * STEP:g} ms, and at half of it; they differ by at most "

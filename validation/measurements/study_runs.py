@@ -83,10 +83,16 @@ LIMITS = (
     COLLAPSE,
 )
 DEMANDS = (
-    "ductility", "storey drift, mean", "floor acceleration in plan, mean", "bearing displacement",
-    "bearing displacement left", "interface slip", "interface slip left", "rim force",
+    "ductility",
+    "storey drift, mean",
+    "floor acceleration in plan, mean",
+    "bearing displacement",
+    "bearing displacement left",
+    "interface slip",
+    "interface slip left",
+    "rim force",
     "base shear over weight",
-)  # fmt: skip
+)
 ALL = "all"
 FRACTILES = (0.16, 0.5, 0.84)
 
@@ -96,11 +102,12 @@ def devices() -> dict[str, Frame]:
     own = {name: model_of(structures()[STRUCTURE], name) for name in (LIR, RIMS, WIDE)}
     larger = {
         name: replace(
-            link.bearing, slider_radius=link.bearing.slider_radius + ROOM_RADIUS,
+            link.bearing,
+            slider_radius=link.bearing.slider_radius + ROOM_RADIUS,
             interface_friction=ROOM_FRICTION,
         )
         for name, link in own[LIR].bearings.items()
-    }  # fmt: skip
+    }
     return own | {ROOM: own[LIR].with_bearings(larger)}
 
 
@@ -257,18 +264,23 @@ def found_of(
     statuses = {name: each.table["status"].value_counts().to_dict() for name, each in runs.items()}
     failed = [
         [name, str(row["motion"]), float(row["im"]), str(row["message"])]
-        for name, each in runs.items() for _, row in each.failed.iterrows()
-    ]  # fmt: skip
+        for name, each in runs.items()
+        for _, row in each.failed.iterrows()
+    ]
     largest = runs[WIDE].table.groupby("im")["bearing displacement"].max()
     loop, model = data["seconds_loop"].to_numpy(), data["model"].to_numpy()
     return {
-        "scales": sorted(largest.index.tolist()), "considered": considered(), "parts": parts,
-        "statuses": statuses, "failed": failed, "largest": largest.tolist(),
+        "scales": sorted(largest.index.tolist()),
+        "considered": considered(),
+        "parts": parts,
+        "statuses": statuses,
+        "failed": failed,
+        "largest": largest.tolist(),
         "seconds": {
             name: [float(loop[model == name].sum()), float(loop[model == name].max())]
             for name in DEVICES
         },
-    }  # fmt: skip
+    }
 
 
 def margin(found: Mapping[str, Any], kind: str, device: str) -> list[float] | None:

@@ -27,9 +27,9 @@ from scipy.optimize import brentq
 from frames import gravity, time_history
 from frames.design import bounded_histories, history_demands, pair_spectrum, with_property_bounds
 from frames.design.histories.demand_table import COUNTED, bounds_of
-from frames.design.project.design_run import Histories, judged_run, run_project
+from frames.design.project.design_run import Histories, evaluate_run, run_project
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.preliminary import groundwork
+from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.files import write_run
 from frames.recording.recording import Recording
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from frames.design import MotionSet
     from frames.design.codes.bounds import BoundName
     from frames.design.codes.outcome import BoundResult
-    from frames.design.project.preliminary import Groundwork
+    from frames.design.project.preliminary import Preliminary
 
 NAME = "worked_building"
 GUIDE = FOLDER.parent / "design_guide.md"
@@ -69,11 +69,20 @@ MIDDLE = ("bearing-1-1", "bearing-2-1")
 """Bearings on either side of the middle of the plan."""
 
 ROWS = (
-    "isolator displacement", "displacement left", "interface slip", "interface slip left",
-    "rim force", "least axial force", "largest axial force", "uplifts, all bearings",
-    "gap of uplift", "base shear", "storey shear", "storey drift ratio",
+    "isolator displacement",
+    "displacement left",
+    "interface slip",
+    "interface slip left",
+    "rim force",
+    "least axial force",
+    "largest axial force",
+    "uplifts, all bearings",
+    "gap of uplift",
+    "base shear",
+    "storey shear",
+    "storey drift ratio",
     "floor acceleration in plan",
-)  # fmt: skip
+)
 """What is kept of the histories."""
 
 
@@ -105,9 +114,12 @@ def equivalent_numbers(
 ) -> dict[str, float]:
     """Return what the equivalent-linear analysis gives at one bound, and the records beside it."""
     known = dict(
-        zip(("D", "total", "T", "beta", "V", "V_s"),
-            (result.trace.value(name) for name in SYMBOLS[code]), strict=True)
-    )  # fmt: skip
+        zip(
+            ("D", "total", "T", "beta", "V", "V_s"),
+            (result.trace.value(name) for name in SYMBOLS[code]),
+            strict=True,
+        )
+    )
     above = known["V_s"] * (1.5 if code == "EN 1998" else 1.0)  # V_s of EN 1998 is over q
     forces = np.array(result.storey_forces[1:])
     shears = above * np.cumsum(forces[::-1])[::-1] / forces.sum()
@@ -158,14 +170,16 @@ def lenient_parts(source: Path, folder: Path) -> ProjectInputs:
 
 
 def device_numbers(
-    parts: ProjectInputs, known: Groundwork, *, rims: bool
+    parts: ProjectInputs, known: Preliminary, *, rims: bool
 ) -> dict[str, dict[str, float]]:
     """Return what the histories of a project ask of sliders in one piece, by bound."""
     plain = {n: link.bearing.as_dcfp(rims=rims) for n, link in known.frame.bearings.items()}
     runs = bounded_histories(
-        known.frame.with_bearings(plain), known.motions, parts.bounds(),
+        known.frame.with_bearings(plain),
+        known.motions,
+        parts.bounds(),
         record=Recording(every=None),
-    )  # fmt: skip
+    )
     found = demands_by_bound(history_demands(runs, parts.rules()))
     for bound, data in runs.items():
         moved = data["reached_displacement"].sel(bearing=list(MIDDLE))
@@ -189,13 +203,13 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
     lap("structure")
     gravity(frame)
     lap("gravity")
-    known = groundwork(parts)
+    known = preliminary(parts)
     lap("`lir check`: equivalent-linear analysis, motions scaled")
     run = run_project(parts)
     lap("`lir run`: 7 motions at 3 bounds, the governing run again, checks")
     kept = Histories(runs=run.runs, governing=run.governing, governing_case=run.governing_case)
     lenient = lenient_parts(source, folder)
-    again = judged_run(lenient, known, kept)
+    again = evaluate_run(lenient, known, kept)
     lap("of it demands and checks")
     write_run(run, folder / "results", project_text(code))
     lap("report and files")
@@ -218,7 +232,7 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
         "failed": [f"{c.title} ({c.concerns})" for c in run.checks.failed],
         "failed_with_uplift": [str(c.statement) for c in again.checks.failed],
         "walled": device_numbers(lenient, known, rims=True) if code == "ASCE 7-22" else {},
-    }  # fmt: skip
+    }
 
 
 def at_levels(name: str, bound: BoundName) -> dict[str, dict[str, float]]:
@@ -227,7 +241,7 @@ def at_levels(name: str, bound: BoundName) -> dict[str, dict[str, float]]:
         source = Path(folder) / "project.toml"
         source.write_text(project_text(), encoding="utf-8")
         parts = ProjectInputs(read_project(source), Path(folder))
-        known = groundwork(parts)
+        known = preliminary(parts)
     frame, found = with_property_bounds(known.frame, bound, parts.bounds()), {}
     for level in ("pendulum", "contact"):
         began = time.perf_counter()
@@ -258,8 +272,10 @@ def main() -> None:
     options = parser.parse_args()
     if not (options.page or options.contact):
         found: dict[str, Any] = {
-            "date": datetime.now(UTC).date().isoformat(), "machine": machine(), "codes": {},
-        }  # fmt: skip
+            "date": datetime.now(UTC).date().isoformat(),
+            "machine": machine(),
+            "codes": {},
+        }
         before = json.loads(kept.read_text(encoding="utf-8"))["codes"] if kept.is_file() else {}
         for code in SPECTRA:
             with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():

@@ -19,13 +19,20 @@ if TYPE_CHECKING:
 BOUNDS = ("lower", "upper")
 DEVICES = {"lir": "LIR-DCFP", "walled": "DCFP, same plates", "free": "DCFP, larger plates"}
 UNITS = {
-    "isolator displacement": ("mm", 1e3), "displacement left": ("mm", 1e3),
-    "interface slip": ("mm", 1e3), "interface slip left": ("mm", 1e3), "rim force": ("kN", 1e-3),
-    "least axial force": ("kN", 1e-3), "largest axial force": ("kN", 1e-3),
-    "uplifts, all bearings": ("-", 1.0), "gap of uplift": ("mm", 1e3), "base shear": ("kN", 1e-3),
+    "isolator displacement": ("mm", 1e3),
+    "displacement left": ("mm", 1e3),
+    "interface slip": ("mm", 1e3),
+    "interface slip left": ("mm", 1e3),
+    "rim force": ("kN", 1e-3),
+    "least axial force": ("kN", 1e-3),
+    "largest axial force": ("kN", 1e-3),
+    "uplifts, all bearings": ("-", 1.0),
+    "gap of uplift": ("mm", 1e3),
+    "base shear": ("kN", 1e-3),
     "storey shear": ("kN", 1e-3),
-    "storey drift ratio": ("%", 1e2), "floor acceleration in plan": ("m/s2", 1.0),
-}  # fmt: skip
+    "storey drift ratio": ("%", 1e2),
+    "floor acceleration in plan": ("m/s2", 1.0),
+}
 LEVEL_COLUMNS = {"displacement": 1e3, "slip": 1e3, "seconds": 1.0}
 DRAWN = ("isolator displacement", "base shear", "storey drift ratio", "floor acceleration in plan")
 WHY = (
@@ -68,14 +75,26 @@ def chain_rows(codes: Mapping[str, Any]) -> list[list[str]]:
         for bound in BOUNDS:
             e, free = known["equivalent"][bound], known["free"][bound]
             damping = e["B"] / e["B of records"]
-            chain = [e["D"], e["records"], e["settled"], free["centre"],
-                     free["isolator displacement"]]  # fmt: skip
-            rows.append([
-                code, bound, f"{e['T']:.2f}", f"{100.0 * e['beta']:.1f}", number(e["D"], 1e3),
-                f"{e['records'] / e['D'] / damping:.2f}", f"{damping:.2f}",
-                *(f"{number(b, 1e3)} ({b / a:.2f})" for a, b in pairwise(chain)),
-                f"{number(e['total'], 1e3)} ({e['total'] / e['D']:.2f})",
-            ])  # fmt: skip
+            chain = [
+                e["D"],
+                e["records"],
+                e["settled"],
+                free["centre"],
+                free["isolator displacement"],
+            ]
+            rows.append(
+                [
+                    code,
+                    bound,
+                    f"{e['T']:.2f}",
+                    f"{100.0 * e['beta']:.1f}",
+                    number(e["D"], 1e3),
+                    f"{e['records'] / e['D'] / damping:.2f}",
+                    f"{damping:.2f}",
+                    *(f"{number(b, 1e3)} ({b / a:.2f})" for a, b in pairwise(chain)),
+                    f"{number(e['total'], 1e3)} ({e['total'] / e['D']:.2f})",
+                ]
+            )
     return rows
 
 
@@ -87,13 +106,15 @@ def ratio_rows(codes: Mapping[str, Any]) -> list[list[str]]:
             e, free = known["equivalent"][bound], known["free"][bound]
             row = [code, bound]
             for ours, theirs, factor in (
-                ("total", "isolator displacement", 1e3), ("V", "base shear", 1e-3),
+                ("total", "isolator displacement", 1e3),
+                ("V", "base shear", 1e-3),
                 ("drift", "storey drift ratio", 1e2),
-            ):  # fmt: skip
+            ):
                 row += [
-                    number(e[ours], factor), number(free[theirs], factor),
+                    number(e[ours], factor),
+                    number(free[theirs], factor),
                     f"{free[theirs] / e[ours]:.2f}",
-                ]  # fmt: skip
+                ]
             rows.append(row)
     return rows
 
@@ -121,11 +142,16 @@ def code_row(code: str, known: Mapping[str, Any]) -> str:
     """Return how the LIR-DCFP fares under a code, as a row in Markdown."""
     demands, equivalent = known["lir"]["envelope"], known["equivalent"]["lower"]
     cells = [
-        code, str(known["checks"]), str(len(known["failed"])),
-        str(len(known["failed_with_uplift"])), number(equivalent["total"], 1e3),
-        number(demands["isolator displacement"], 1e3), number(demands["interface slip"], 1e3),
-        number(demands["base shear"], 1e-3), number(demands["storey drift ratio"], 1e2),
-    ]  # fmt: skip
+        code,
+        str(known["checks"]),
+        str(len(known["failed"])),
+        str(len(known["failed_with_uplift"])),
+        number(equivalent["total"], 1e3),
+        number(demands["isolator displacement"], 1e3),
+        number(demands["interface slip"], 1e3),
+        number(demands["base shear"], 1e-3),
+        number(demands["storey drift ratio"], 1e2),
+    ]
     return table((), [cells]).splitlines()[-1]
 
 
@@ -205,13 +231,17 @@ def figures(found: Mapping[str, Any]) -> dict[str, Figure]:
     cases = [(known, bound) for known in codes.values() for bound in BOUNDS]
     equivalent = [known["equivalent"][bound] for known, bound in cases]
     free = [known["free"][bound] for known, bound in cases]
-    _bars(ax, [f"{code}\n{bound}" for code in codes for bound in BOUNDS], {
-        "code": [1e3 * e["D"] for e in equivalent],
-        "records, the code's T and β": [1e3 * e["records"] for e in equivalent],
-        "settled": [1e3 * e["settled"] for e in equivalent],
-        "histories, centre": [1e3 * f["centre"] for f in free],
-        "histories, worst bearing": [1e3 * f["isolator displacement"] for f in free],
-    })  # fmt: skip
+    _bars(
+        ax,
+        [f"{code}\n{bound}" for code in codes for bound in BOUNDS],
+        {
+            "code": [1e3 * e["D"] for e in equivalent],
+            "records, the code's T and β": [1e3 * e["records"] for e in equivalent],
+            "settled": [1e3 * e["settled"] for e in equivalent],
+            "histories, centre": [1e3 * f["centre"] for f in free],
+            "histories, worst bearing": [1e3 * f["isolator displacement"] for f in free],
+        },
+    )
     caption(ax, y="displacement [mm]")
     ax.legend(fontsize=SMALL, ncols=2)
     devices = new_figure(2.4)

@@ -115,9 +115,7 @@ def given_back(data: xr.Dataset) -> float:
         Zero where none ever gave back more than it had taken up, else less [-].
     """
     given = float(np.abs(data["energy"].sel(term="input")).max())
-    least = min(
-        float(data[name].min()) for name in ("link_work", "hinge_work") if name in data
-    )  # fmt: skip
+    least = min(float(data[name].min()) for name in ("link_work", "hinge_work") if name in data)
     return min(least, 0.0) / max(given, 1e-300)
 
 
@@ -166,8 +164,11 @@ def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str
             ("what", "limit", "median", "worst"),
             [
                 ("ledger: error / input", f"{LEDGER:g}", *_middle(found, "ledger", max)),
-                ("work given back by a part / input", f"{-GIVEN_BACK:g}",
-                 *_middle(found, "given_back", min)),
+                (
+                    "work given back by a part / input",
+                    f"{-GIVEN_BACK:g}",
+                    *_middle(found, "given_back", min),
+                ),
             ],
         ),
         "A link or hinge may give back what it stores, but never more than it has taken up.",
@@ -191,7 +192,7 @@ def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str
             [_cost(found, kind) for kind in (False, True)],
         ),
         "Time of the compiled loop over its steps, what was tried and halved included.",
-    ]  # fmt: skip
+    ]
     return "\n\n".join(text for text in texts if text) + "\n"
 
 

@@ -58,8 +58,13 @@ def plan(folder: Path, records: Sequence[str]) -> tuple[list[dict[str, Any]], li
                 break
             more = VARIANTS if demand in VARIANTS_AT else ()
             for structure, system in product(structures(), (*SYSTEMS, *more)):
-                own = {"record": record, "demand": demand, "factor": factor,
-                       "structure": structure, "system": system}  # fmt: skip
+                own = {
+                    "record": record,
+                    "demand": demand,
+                    "factor": factor,
+                    "structure": structure,
+                    "system": system,
+                }
                 todo.append(own | {"elastic": False})
                 if demand == ELASTIC_AT and system in SYSTEMS:
                     todo.append(own | {"elastic": True})

@@ -89,13 +89,9 @@ class Structure:
         column, beam = (YIELD_STRESS * modulus for modulus in self.moduli)
         squash = YIELD_STRESS * self.column.area
         return {
-            "column": PlasticHinge(
-                moment_y=column, moment_z=column, axial=squash, hardening=0.02
-            ),
-            "beam": PlasticHinge(
-                moment_y=beam, moment_z=YIELD_STRESS * self.weak, hardening=0.03
-            ),
-        }  # fmt: skip
+            "column": PlasticHinge(moment_y=column, moment_z=column, axial=squash, hardening=0.02),
+            "beam": PlasticHinge(moment_y=beam, moment_z=YIELD_STRESS * self.weak, hardening=0.03),
+        }
 
     def yield_rotations(self) -> dict[str, float]:
         """Return the rotations at which columns and beams yield, M_p L / (6 E I) [rad]."""
@@ -171,10 +167,11 @@ def bearings_of(name: str) -> dict[Place, LIRBearing]:
     first = moment_frame(bearing=bearing_for(1000e3), column=structure.column, beam=structure.beam)
     loads = dict(zip(places, gravity(first).axial_forces, strict=True))
     return {
-        (ix, iy): bearing_for(float(np.mean([loads[i, j] for i in {ix, 2 - ix}
-                                             for j in {iy, 2 - iy}])))
+        (ix, iy): bearing_for(
+            float(np.mean([loads[i, j] for i in {ix, 2 - ix} for j in {iy, 2 - iy}]))
+        )
         for ix, iy in places
-    }  # fmt: skip
+    }
 
 
 def model_of(structure: Structure, system: str, *, elastic: bool = False) -> Frame:
@@ -184,9 +181,12 @@ def model_of(structure: Structure, system: str, *, elastic: bool = False) -> Fra
         rims = system == RIMS  # a larger plan: none are met, and its displacement is what it needs
         own = {place: bearing.as_dcfp(rims=rims) for place, bearing in own.items()}
     frame = moment_frame(
-        bearing=own, column=structure.column, beam=structure.beam, name=system,
+        bearing=own,
+        column=structure.column,
+        beam=structure.beam,
+        name=system,
         hinges=None if elastic else structure.hinges,
-    )  # fmt: skip
+    )
     if system in WALLS:
         mass = sum(each.resolved()["design_load"] for each in own.values()) / STANDARD_GRAVITY
         _add_walls(frame, mass, *WALLS[system])
@@ -197,13 +197,16 @@ def _add_walls(frame: Frame, mass: float, gap: float, share: float) -> None:
     # Three nodes at each side run into a part of its wall.
     stiffness = share * WALL_STIFFNESS
     wall = Gap(
-        gap=gap, stiffness=stiffness / 3.0,
+        gap=gap,
+        stiffness=stiffness / 3.0,
         damping=Gap.damping_for(RESTITUTION, stiffness, mass) / 3.0,
-    )  # fmt: skip
+    )
     for side, nodes in {
-        "x-": [(0, 0), (0, 1), (0, 2)], "x+": [(2, 0), (2, 1), (2, 2)],
-        "y-": [(0, 0), (1, 0), (2, 0)], "y+": [(0, 2), (1, 2), (2, 2)],
-    }.items():  # fmt: skip
+        "x-": [(0, 0), (0, 1), (0, 2)],
+        "x+": [(2, 0), (2, 1), (2, 2)],
+        "y-": [(0, 0), (1, 0), (2, 0)],
+        "y+": [(0, 2), (1, 2), (2, 2)],
+    }.items():
         names = [f"base-{ix}-{iy}" for ix, iy in nodes]
         frame.add_moat(f"moat {side}", names, {side: wall})
 
@@ -261,15 +264,18 @@ def numbers(data: xr.Dataset) -> dict[str, Any]:
     walls = [str(n) for n in data["link"].to_numpy()] if "link" in data.dims else []
     ended = data.attrs["status"] == "ok"
     return {
-        "status": str(data.attrs["status"]), "until": float(data["time"][-1]),
+        "status": str(data.attrs["status"]),
+        "until": float(data["time"][-1]),
         "displacement": float(in_plan(data["bearing_displacement"].to_numpy()).max()),
         "slip": float(data["interface_slip_size"].max()),
-        "drift": float(drift.max()), "residual": float(drift[-1].max()) if ended else None,
+        "drift": float(drift.max()),
+        "residual": float(drift[-1].max()) if ended else None,
         "rotation": float(table["largest"].max()) if len(table) else 0.0,
         "hinges": int((table["largest"] > 1e-6).sum()) if len(table) else 0,
         "shear": float(in_plan(data["base_shear"].to_numpy()).max() / data["weight"]),
         "wall": float(abs(data["link_force"]).max() / data["weight"]) if walls else 0.0,
-        "roof": float(floors[:, -1].max()), "floor": float(floors.max()),
+        "roof": float(floors[:, -1].max()),
+        "floor": float(floors.max()),
         "yielding": float(energy.sel(term="yielding") / energy.sel(term="input")),
         "seconds": float(data.attrs["seconds_loop"]),
-    }  # fmt: skip
+    }

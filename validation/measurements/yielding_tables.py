@@ -87,11 +87,19 @@ def of_record(found: Sequence[Row], record: str, demands: Sequence[float]) -> st
         for demand in demands:
             for system in SYSTEMS:
                 for row in chosen(
-                    found, record=record, structure=structure, demand=demand, system=system,
+                    found,
+                    record=record,
+                    structure=structure,
+                    demand=demand,
+                    system=system,
                     elastic=False,
-                ):  # fmt: skip
-                    own = cells([row | {"residual": math.nan if row["residual"] is None
-                                        else row["residual"]}])  # fmt: skip
+                ):
+                    own = cells(
+                        [
+                            row
+                            | {"residual": math.nan if row["residual"] is None else row["residual"]}
+                        ]
+                    )
                     lines.append(
                         [
                             structure,
@@ -113,9 +121,10 @@ def elastic_table(found: Sequence[Row], demand: float) -> str:
         for system in SYSTEMS:
             for elastic in (True, False):
                 rows = completed(
-                    chosen(found, structure=structure, demand=demand, system=system,
-                           elastic=elastic)
-                )  # fmt: skip
+                    chosen(
+                        found, structure=structure, demand=demand, system=system, elastic=elastic
+                    )
+                )
                 how = "elastic" if elastic else "yields"
                 lines.append([structure, system, how, *cells(rows)])
     return table(head, lines)
@@ -123,8 +132,10 @@ def elastic_table(found: Sequence[Row], demand: float) -> str:
 
 def pairs(found: Sequence[Row], other: str, demands: Sequence[float]) -> list[tuple[Row, Row]]:
     """Return the completed runs of the LIR-DCFP with those of another system beside them."""
-    mine = {(r["record"], r["demand"], r["structure"]): r
-            for r in completed(chosen(found, system=LIR, elastic=False))}  # fmt: skip
+    mine = {
+        (r["record"], r["demand"], r["structure"]): r
+        for r in completed(chosen(found, system=LIR, elastic=False))
+    }
     return [
         (mine[place], row)
         for row in completed(chosen(found, system=other, elastic=False))
@@ -165,8 +176,15 @@ def worse(found: Sequence[Row], other: str, demands: Sequence[float]) -> list[tu
 
 def losses(found: Sequence[Row], demands: Sequence[float]) -> str:
     """Return the runs in which rims or a moat do better by drift or by hinge rotation."""
-    head = ["record", "demand", "frame", "against", "drift [%]", "hinge rotation [mrad]",
-            "drift left [%]"]  # fmt: skip
+    head = [
+        "record",
+        "demand",
+        "frame",
+        "against",
+        "drift [%]",
+        "hinge rotation [mrad]",
+        "drift left [%]",
+    ]
     lines = []
     for other in (RIMS, MOAT):
         for mine, theirs in worse(found, other, demands):

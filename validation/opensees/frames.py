@@ -195,14 +195,32 @@ def _member(
         hinged_member(ops, tag, member, ends, length, frame.hinges[member.name])
     elif stiff:
         ops.element(
-            "elasticBeamColumn", tag, *ends, s.area, s.elastic_modulus, s.shear_modulus,
-            s.torsion_constant, s.inertia_y, s.inertia_z, tag,
-        )  # fmt: skip
+            "elasticBeamColumn",
+            tag,
+            *ends,
+            s.area,
+            s.elastic_modulus,
+            s.shear_modulus,
+            s.torsion_constant,
+            s.inertia_y,
+            s.inertia_z,
+            tag,
+        )
     else:
         ops.element(
-            "ElasticTimoshenkoBeam", tag, *ends, s.elastic_modulus, s.shear_modulus, s.area,
-            s.torsion_constant, s.inertia_y, s.inertia_z, s.shear_area_y, s.shear_area_z, tag,
-        )  # fmt: skip
+            "ElasticTimoshenkoBeam",
+            tag,
+            *ends,
+            s.elastic_modulus,
+            s.shear_modulus,
+            s.area,
+            s.torsion_constant,
+            s.inertia_y,
+            s.inertia_z,
+            s.shear_area_y,
+            s.shear_area_z,
+            tag,
+        )
 
 
 def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> None:
@@ -211,6 +229,24 @@ def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> N
         ops.uniaxialMaterial("Elastic", first + k, value)
     materials = [first + k for k in range(6)]
     ops.element(
-        "twoNodeLink", tag, i, j, "-mat", *materials, "-dir", 1, 2, 3, 4, 5, 6,
-        "-orient", 1, 0, 0, 0, 1, 0,
-    )  # fmt: skip
+        "twoNodeLink",
+        tag,
+        i,
+        j,
+        "-mat",
+        *materials,
+        "-dir",
+        1,
+        2,
+        3,
+        4,
+        5,
+        6,
+        "-orient",
+        1,
+        0,
+        0,
+        0,
+        1,
+        0,
+    )

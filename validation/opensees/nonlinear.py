@@ -47,9 +47,14 @@ def material(ops: Any, tag: int, law: Law) -> None:
     elif isinstance(law, Tie):
         limit = 1e12 if math.isinf(law.yield_force) else law.yield_force
         ops.uniaxialMaterial(
-            "ElasticPPGap", tag, law.stiffness, limit, max(law.slack, 1e-12), law.hardening,
+            "ElasticPPGap",
+            tag,
+            law.stiffness,
+            limit,
+            max(law.slack, 1e-12),
+            law.hardening,
             "damage",
-        )  # fmt: skip
+        )
     elif isinstance(law, ViscousDamper):
         if math.isinf(law.stiffness):
             ops.uniaxialMaterial("Viscous", tag, law.coefficient, law.exponent)
@@ -67,16 +72,38 @@ def _bouc_wen(ops: Any, tag: int, law: BoucWen) -> None:
     energy = (1.0 - law.hardening) * law.yield_force * law.yield_deformation
     if law.pinching is None:
         ops.uniaxialMaterial(
-            "BoucWen", tag, law.hardening, law.stiffness, law.exponent, straight, bent, 1.0, 0.0,
-            law.strength_loss / energy, law.stiffness_loss / energy,
-        )  # fmt: skip
+            "BoucWen",
+            tag,
+            law.hardening,
+            law.stiffness,
+            law.exponent,
+            straight,
+            bent,
+            1.0,
+            0.0,
+            law.strength_loss / energy,
+            law.stiffness_loss / energy,
+        )
         return
     p = law.pinching
     ops.uniaxialMaterial(
-        "BWBN", tag, law.hardening, law.stiffness, law.exponent, straight, bent, 1.0, p.place,
-        p.slip, p.rate / energy, p.width * law.yield_deformation,
-        p.spreading / energy * law.yield_deformation, p.severity, 1e-14, 100,
-    )  # fmt: skip
+        "BWBN",
+        tag,
+        law.hardening,
+        law.stiffness,
+        law.exponent,
+        straight,
+        bent,
+        1.0,
+        p.place,
+        p.slip,
+        p.rate / energy,
+        p.width * law.yield_deformation,
+        p.spreading / energy * law.yield_deformation,
+        p.severity,
+        1e-14,
+        100,
+    )
 
 
 def _stop(ops: Any, tag: int, law: Gap) -> None:
@@ -115,15 +142,27 @@ def add_link(ops: Any, tag: int, link: Link, nodes: dict[str, int]) -> None:
     across = np.eye(3)[int(np.abs(direction).argmin())]
     across = across - (across @ direction) * direction
     ops.element(
-        "twoNodeLink", tag, *ends, "-mat", tag, "-dir", 4 if link.turns else 1,
-        "-orient", *direction.tolist(), *across.tolist(),
-    )  # fmt: skip
+        "twoNodeLink",
+        tag,
+        *ends,
+        "-mat",
+        tag,
+        "-dir",
+        4 if link.turns else 1,
+        "-orient",
+        *direction.tolist(),
+        *across.tolist(),
+    )
 
 
 def hinged_member(
-    ops: Any, tag: int, member: Member, ends: tuple[int, int], length: float,
+    ops: Any,
+    tag: int,
+    member: Member,
+    ends: tuple[int, int],
+    length: float,
     hinges: tuple[PlasticHinge | None, PlasticHinge | None],
-) -> None:  # fmt: skip
+) -> None:
     """Add a member with plastic hinges at its ends; its transformation has the same tag.
 
     Parameters
@@ -145,9 +184,15 @@ def hinged_member(
     first = FIRST + SECTIONS * tag
     elastic = first + SECTIONS - 1
     ops.section(
-        "Elastic", elastic, s.elastic_modulus, s.area, s.inertia_z, s.inertia_y, s.shear_modulus,
+        "Elastic",
+        elastic,
+        s.elastic_modulus,
+        s.area,
+        s.inertia_z,
+        s.inertia_y,
+        s.shear_modulus,
         s.torsion_constant,
-    )  # fmt: skip
+    )
     sections = [
         elastic if hinge is None else _hinge(ops, first + 10 * side, member, hinge, length)
         for side, hinge in enumerate(hinges)
@@ -173,9 +218,15 @@ def _hinge(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: fl
             msg = f'member "{member.name}": Bidirectional is a section with equal axes'
             raise ValueError(msg)
         ops.section(
-            "Bidirectional", first, bend[0], moments[0], 0.0, 6.0 * ratio * bend[0] / length, "Mz",
+            "Bidirectional",
+            first,
+            bend[0],
+            moments[0],
+            0.0,
+            6.0 * ratio * bend[0] / length,
+            "Mz",
             "My",
-        )  # fmt: skip
+        )
         ops.section("Aggregator", first + 1, first, "P", first + 1, "T", "-section", first)
         return first + 1
     for k, (moment, stiffness) in enumerate(zip(moments, bend, strict=True)):
@@ -185,9 +236,7 @@ def _hinge(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: fl
             ops.uniaxialMaterial("Steel01", first + 2 + k, moment, stiffness, share)
         else:
             ops.uniaxialMaterial("Elastic", first + 2 + k, stiffness)
-    ops.section(
-        "Aggregator", first, first, "P", first + 1, "T", first + 2, "My", first + 3, "Mz"
-    )  # fmt: skip
+    ops.section("Aggregator", first, first, "P", first + 1, "T", first + 2, "My", first + 3, "Mz")
     return first
 
 

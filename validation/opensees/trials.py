@@ -89,9 +89,12 @@ def load_down(weight: float) -> int:
 
 def _solver(weight: float) -> None:
     solver(
-        opensees(), TOLERANCE * weight, test="NormUnbalance", iterations=ITERATIONS,
+        opensees(),
+        TOLERANCE * weight,
+        test="NormUnbalance",
+        iterations=ITERATIONS,
         system="BandGeneral",
-    )  # fmt: skip
+    )
 
 
 @contextmanager
@@ -178,9 +181,15 @@ def take_back(make: Maker, bearing: LIRBearing, load: float) -> float:
 
 
 def shake(
-    make: Maker, bearing: LIRBearing, mass: float, motion: GroundMotion, *,
-    duration: float, dt: float, algorithms: Steps = PLAIN,
-) -> Shaken:  # fmt: skip
+    make: Maker,
+    bearing: LIRBearing,
+    mass: float,
+    motion: GroundMotion,
+    *,
+    duration: float,
+    dt: float,
+    algorithms: Steps = PLAIN,
+) -> Shaken:
     """Run a mass on a device under a ground motion.
 
     Parameters
@@ -209,8 +218,15 @@ def shake(
         code = load_down(weight)
         if code != 0:
             empty = np.zeros((1, 3))
-            return Shaken(np.zeros(1), empty, empty, np.zeros((1, 2, 3)), empty, empty,
-                          f"gravity: {CODES.get(code, code)}")  # fmt: skip
+            return Shaken(
+                np.zeros(1),
+                empty,
+                empty,
+                np.zeros((1, 2, 3)),
+                empty,
+                empty,
+                f"gravity: {CODES.get(code, code)}",
+            )
         ground_motion(ops, motion)
         _solver(weight)
         transient_steps(ops)
@@ -244,9 +260,17 @@ class _March:
                 break
         table = np.asarray(self.rows)
         return Shaken(
-            table[:, 0], table[:, 1:4], table[:, 7:10], table[:, 10:16].reshape(-1, 2, 3),
-            table[:, 16:19], table[:, 4:7], status, self.seconds, self.steps, self.iterations,
-        )  # fmt: skip
+            table[:, 0],
+            table[:, 1:4],
+            table[:, 7:10],
+            table[:, 10:16].reshape(-1, 2, 3),
+            table[:, 16:19],
+            table[:, 4:7],
+            status,
+            self.seconds,
+            self.steps,
+            self.iterations,
+        )
 
     def advance(self, dt: float, halvings: int) -> int:
         """Take a step, whole or in halves; return the code of `analyze`."""
@@ -286,6 +310,11 @@ def _row(made: Device) -> list[float]:
     if made.middle is not None:  # it turns with node i
         ground = ground + np.asarray(ops.nodeReaction(made.middle))[3:6]
     return [
-        ops.getTime(), *ops.nodeDisp(ABOVE)[:3], *ops.nodeVel(ABOVE)[:3], *force[:3], *ground,
-        *force[3:6], *middle,
-    ]  # fmt: skip
+        ops.getTime(),
+        *ops.nodeDisp(ABOVE)[:3],
+        *ops.nodeVel(ABOVE)[:3],
+        *force[:3],
+        *ground,
+        *force[3:6],
+        *middle,
+    ]

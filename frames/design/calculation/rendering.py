@@ -26,19 +26,50 @@ class Style(NamedTuple):
 
 
 _GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
-    "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ",
-    "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω", "Delta": "Δ", "Theta": "Θ",
-    "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "pi": "π",
-}  # fmt: skip
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "delta": "δ",
+    "epsilon": "ε",
+    "zeta": "ζ",
+    "eta": "η",
+    "theta": "θ",
+    "kappa": "κ",
+    "lambda": "λ",
+    "mu": "μ",
+    "nu": "ν",
+    "xi": "ξ",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "phi": "φ",
+    "psi": "ψ",
+    "omega": "ω",
+    "Delta": "Δ",
+    "Theta": "Θ",
+    "Sigma": "Σ",
+    "Phi": "Φ",
+    "Psi": "Ψ",
+    "Omega": "Ω",
+    "pi": "π",
+}
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _USUAL = {"N": "kN", "N/m": "kN/m", "Pa": "MPa", "J": "kJ", "N m": "kN m"}
 _SCALE = {
-    ("N", "kN"): 1e3, ("N", "MN"): 1e6, ("N/m", "kN/m"): 1e3, ("N/m", "kN/mm"): 1e6,
-    ("Pa", "kPa"): 1e3, ("Pa", "MPa"): 1e6, ("J", "kJ"): 1e3, ("N m", "kN m"): 1e3,
-    ("m", "mm"): 1e-3, ("m", "cm"): 1e-2, ("-", "%"): 1e-2, ("kg", "t"): 1e3,
+    ("N", "kN"): 1e3,
+    ("N", "MN"): 1e6,
+    ("N/m", "kN/m"): 1e3,
+    ("N/m", "kN/mm"): 1e6,
+    ("Pa", "kPa"): 1e3,
+    ("Pa", "MPa"): 1e6,
+    ("J", "kJ"): 1e3,
+    ("N m", "kN m"): 1e3,
+    ("m", "mm"): 1e-3,
+    ("m", "cm"): 1e-2,
+    ("-", "%"): 1e-2,
+    ("kg", "t"): 1e3,
     ("m/s2", "g"): 9.80665,
-}  # fmt: skip
+}
 _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)
 
 

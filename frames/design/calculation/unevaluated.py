@@ -52,6 +52,9 @@ def _without_demand(check: Check, why: str) -> Check:
         return check  # nothing is asked
     worst = math.inf if check.relation == "<=" else -math.inf
     return replace(
-        check, demand=worst, title=f"{check.title}: {NOT_EVALUATED}", scope="any",
+        check,
+        demand=worst,
+        title=f"{check.title}: {NOT_EVALUATED}",
+        scope="any",
         note=f"{why}; {check.note}" if check.note else why,
-    )  # fmt: skip
+    )

@@ -18,7 +18,13 @@ from frames.design.codes.common import (
 )
 from frames.design.codes.levels import MCE_R
 from frames.design.codes.outcome import BoundResult, Symbols
-from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+from frames.design.codes.secant import (
+    CheckBuilder,
+    enter_system,
+    held_by,
+    iterate_displacement,
+    secant,
+)
 
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
@@ -146,7 +152,7 @@ class ASCE7:
             return t
 
         start = system.gravity * s_m1 / 10.0
-        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
+        t, rounds = iterate_displacement(step, start, _SYMBOLS, held_by(system, spectrum))
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)
@@ -176,8 +182,11 @@ class ASCE7:
                 f"D_T{along}",
                 f"D_M * max(1 + abs({across} - {across}_R) / P_T**2 * 12 * e_{across} "
                 "/ (b**2 + d**2), a_T)",
-                "m", source=source, shown="mm", note=f"of each bearing, motion along {along}",
-            )  # fmt: skip
+                "m",
+                source=source,
+                shown="mm",
+                note=f"of each bearing, motion along {along}",
+            )
         t.each("D_T", "max(D_Tx, D_Ty)", "m", shown="mm")
         t("D_TM", "max(D_T)", "m", source=source, shown="mm")
 
@@ -242,8 +251,13 @@ class ASCE7:
     def _dynamic_minima(self, t: Trace) -> None:
         source = "ASCE 7-22 17.6.4"
         t.given("a_dyn", self.history_share, source=source)
-        t("D_prime_M", "D_M / sqrt(1 + (T_fb / T_M)**2)", "m", source="ASCE 7-22 (17.6-1)",
-          shown="mm")  # fmt: skip
+        t(
+            "D_prime_M",
+            "D_M / sqrt(1 + (T_fb / T_M)**2)",
+            "m",
+            source="ASCE 7-22 (17.6-1)",
+            shown="mm",
+        )
         note = "least of a time history"
         formula = "0.8 * D_TM * D_prime_M / D_M"
         t("D_TM_dyn", formula, "m", source=source, note=note, shown="mm")

@@ -170,18 +170,26 @@ def vertical_checks(
         t.each(f"N_least_{word}", f"N_{word} - N_E", "N")
         found.append(
             judge.of("procedure").worst(
-                clause, f"no uplift, {name}", f"N_least_{word}", ">=", "N_0",
+                clause,
+                f"no uplift, {name}",
+                f"N_least_{word}",
+                ">=",
+                "N_0",
                 subjects=system.labels,
             )
-        )  # fmt: skip
+        )
         if "p_lim" in t:
             t.each(f"p_{word}", f"(N_{word} + N_E) / (pi * r_s**2)", "Pa")
             found.append(
                 judge.of("demand").worst(
-                    clause, f"pressure on the slider, {name}", f"p_{word}", "<=", "p_lim",
+                    clause,
+                    f"pressure on the slider, {name}",
+                    f"p_{word}",
+                    "<=",
+                    "p_lim",
                     subjects=system.labels,
                 )
-            )  # fmt: skip
+            )
     why = system.unknown_loads
     if not why and len(system.loads) == 1 and t.value("M_o") > 0.0:
         why = "one bearing has no lever against the overturning moment M_o"
@@ -209,8 +217,13 @@ def capacity_check(
     Check
         Its note says where the rim is met.
     """
-    t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
-                 note="displacement at the first rim contact")  # fmt: skip
+    t.given_each(
+        "d_rim",
+        [p.capacity for p in system.pendulums],
+        "m",
+        shown="mm",
+        note="displacement at the first rim contact",
+    )
     title = "rims free at the total displacement"
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)

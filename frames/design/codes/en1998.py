@@ -18,7 +18,13 @@ from frames.design.codes.common import (
 )
 from frames.design.codes.levels import DESIGN
 from frames.design.codes.outcome import BoundResult, Symbols
-from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+from frames.design.codes.secant import (
+    CheckBuilder,
+    enter_system,
+    held_by,
+    iterate_displacement,
+    secant,
+)
 
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
@@ -120,7 +126,7 @@ class EN1998:
             return t
 
         start = 0.1 * max(p.effective_radius for p in system.pendulums)
-        t, rounds = settle(step, start, _SYMBOLS, held_by(system, spectrum))
+        t, rounds = iterate_displacement(step, start, _SYMBOLS, held_by(system, spectrum))
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("d_dc"))
         self._torsion(t, system)
@@ -175,17 +181,20 @@ class EN1998:
         limit = judge.of("procedure")
         found = [
             capacity_check(t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed"),
+            judge.worst("EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names),
             judge.worst(
-                "EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names
-            ),
-            judge.worst(
-                "EN 1998-2 7.7.1", "recentring, displacement", "d_dc", ">=", "d_least",
-                subjects=names, note="else capacity must be d_o + gamma_du rho_d d_bi,d",
+                "EN 1998-2 7.7.1",
+                "recentring, displacement",
+                "d_dc",
+                ">=",
+                "d_least",
+                subjects=names,
+                note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
             limit(limits, "stiffness over that at 0.2 d_dc", "K_eff", ">=", "K_lim"),
             limit(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
             limit(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-        ]  # fmt: skip
+        ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
             t.given("v_lim", self.most_variation, shown="%")

@@ -77,8 +77,9 @@ class HistoryRules:
     def __post_init__(self) -> None:
         require_between("least", self.least, 1, 1000, "-", error=CheckError)
         require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
-        require_between("displacement_factor", self.displacement_factor, 1.0, 10.0, "-",
-                        error=CheckError)  # fmt: skip
+        require_between(
+            "displacement_factor", self.displacement_factor, 1.0, 10.0, "-", error=CheckError
+        )
         require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
         for name in ("drift", "engagement"):
@@ -130,23 +131,42 @@ RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
 
 HISTORY_RULES = {
     "ASCE 7-22": HistoryRules(
-        code="ASCE 7-22", least=7, mean_from=7, drift=0.020, uplift_allowed=True,
-        has_minima=True, levels=(ActionLevel(MCE_R),), statistic_clause="17.3.3",
-        displacement_clause="17.6.4", drift_clause="17.6.4.4", force_clause="17.6.4",
+        code="ASCE 7-22",
+        least=7,
+        mean_from=7,
+        drift=0.020,
+        uplift_allowed=True,
+        has_minima=True,
+        levels=(ActionLevel(MCE_R),),
+        statistic_clause="17.3.3",
+        displacement_clause="17.6.4",
+        drift_clause="17.6.4.4",
+        force_clause="17.6.4",
         uplift_clause="17.2.4.7",
     ),
     "EN 1998-1": HistoryRules(
-        code="EN 1998-1", least=3, mean_from=7, displacement_factor=1.2,
-        statistic_clause="4.3.3.4.3(3)", displacement_clause="10.3(2)", drift_clause="4.4.3.2",
+        code="EN 1998-1",
+        least=3,
+        mean_from=7,
+        displacement_factor=1.2,
+        statistic_clause="4.3.3.4.3(3)",
+        displacement_clause="10.3(2)",
+        drift_clause="4.4.3.2",
         force_clause="10.10",
     ),
     "NCh2745": HistoryRules(
-        code="NCh2745", least=3, mean_from=7, drift=0.003, statistic_clause="8.4",
-        displacement_clause="8", drift_clause="8.8", force_clause="8",
+        code="NCh2745",
+        least=3,
+        mean_from=7,
+        drift=0.003,
+        statistic_clause="8.4",
+        displacement_clause="8",
+        drift_clause="8.8",
+        force_clause="8",
         levels=(
             ActionLevel(DESIGN, judges="superstructure"),
             ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
         ),
     ),
-}  # fmt: skip
+}
 """Rules by code."""

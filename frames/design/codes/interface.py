@@ -46,7 +46,11 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     t.each("mu_e_up", "lambda_e * mu_e", note="what the interface carries, over the load")
     clause = "LIR-DCFP, docs/theory.md (2.1)"
     check = CheckBuilder(t, "", CONFIRMED).worst(
-        clause, "interface holds before the rim", "mu_h_low", ">=", "mu_e_up",
+        clause,
+        "interface holds before the rim",
+        "mu_h_low",
+        ">=",
+        "mu_e_up",
         subjects=tuple(name for name, _ in found),
-    )  # fmt: skip
+    )
     return Checks([check])

@@ -18,7 +18,13 @@ from frames.design.codes.common import (
 )
 from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM
 from frames.design.codes.outcome import BoundResult, Symbols
-from frames.design.codes.secant import CheckBuilder, enter_system, held_by, secant, settle
+from frames.design.codes.secant import (
+    CheckBuilder,
+    enter_system,
+    held_by,
+    iterate_displacement,
+    secant,
+)
 
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
@@ -84,7 +90,9 @@ class NCh2745:
     ) -> BoundResult:
         """Return analysis and checks at one bound, as `ASCE7.analyse`."""
         held = held_by(system, spectrum)
-        design, _ = settle(lambda d: self._design(system, spectrum, d), 0.1, _DESIGN, held)
+        design, _ = iterate_displacement(
+            lambda d: self._design(system, spectrum, d), 0.1, _DESIGN, held
+        )
 
         def step(displacement: float) -> Trace:
             t = design.copy()
@@ -97,7 +105,7 @@ class NCh2745:
             t("D_M", "C_M / B_M", "m", source="NCh2745 7.3", shown="mm")
             return t
 
-        t, rounds = settle(step, design.value("D_D"), _MAXIMUM)
+        t, rounds = iterate_displacement(step, design.value("D_D"), _MAXIMUM)
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("D_D"))
         self._totals(t, system)
@@ -164,6 +172,11 @@ class NCh2745:
         t.each("F_x", "V_s * w_x * h_x / sum(w_x * h_x)", "N", source="NCh2745 7.5")
         t("F_1", "V_b / R_1 * (1 - sum(w_x) / W)", "N", note="at the base level")
         t("V_M", "k_Mmax * D_M", "N", note="at the maximum level, for axial loads at D_TM")
-        t("M_o", "sum(w_x * h_x**2) / sum(w_x * h_x) * V_M", "N m", source="NCh2745 6.2",
-          note="overturning, unreduced, at the maximum level")  # fmt: skip
+        t(
+            "M_o",
+            "sum(w_x * h_x**2) / sum(w_x * h_x) * V_M",
+            "N m",
+            source="NCh2745 6.2",
+            note="overturning, unreduced, at the maximum level",
+        )
         t.given("o", self.orthogonal, note="share of the other direction")

@@ -152,10 +152,15 @@ class BoundResult:
 
 
 _COLUMNS = (
-    ("displacement", "m", "mm"), ("total_displacement", "m", "mm"), ("period", "s", "s"),
-    ("damping", "-", "%"), ("damping_factor", "-", "-"), ("stiffness", "N/m", "kN/m"),
-    ("base_shear", "N", "kN"), ("superstructure_shear", "N", "kN"),
-)  # fmt: skip
+    ("displacement", "m", "mm"),
+    ("total_displacement", "m", "mm"),
+    ("period", "s", "s"),
+    ("damping", "-", "%"),
+    ("damping_factor", "-", "-"),
+    ("stiffness", "N/m", "kN/m"),
+    ("base_shear", "N", "kN"),
+    ("superstructure_shear", "N", "kN"),
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -63,13 +63,13 @@ def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: st
 
 
 def held_by(system: IsolationSystem, spectrum: Spectrum) -> str:
-    """Return peak acceleration and friction in words, for the message of `settle`."""
+    """Return peak acceleration and friction in words, for the message of `iterate_displacement`."""
     peak = float(spectrum.acceleration(spectrum.reach[0])) / system.gravity
     friction = system.strength / system.seismic_weight
     return f" (peak acceleration {peak:.3g} g, friction {friction:.3g} of the weight)"
 
 
-def settle(
+def iterate_displacement(
     step: Callable[[float], Trace], start: float, symbols: Symbols, held: str = ""
 ) -> tuple[Trace, tuple[Iteration, ...]]:
     """Find the displacement at which stiffness and damping give that displacement.
@@ -206,8 +206,20 @@ class CheckBuilder:
         steps = [self.t[name] for name in pair]
         demand, limit = (s.value[k] if isinstance(s.value, tuple) else s.value for s in steps)
         return Check(
-            clause=clause, title=title, symbol=pair[0], demand=demand, limit=limit,
-            unit=steps[0].unit, shown=steps[0].result.shown, relation=relation,
-            trace=self.t.of(*pair), standing=self.standing, bound=self.bound, subject=subject,
-            note=note, scope=self.scope, void=self.void, level=self.level,
-        )  # fmt: skip
+            clause=clause,
+            title=title,
+            symbol=pair[0],
+            demand=demand,
+            limit=limit,
+            unit=steps[0].unit,
+            shown=steps[0].result.shown,
+            relation=relation,
+            trace=self.t.of(*pair),
+            standing=self.standing,
+            bound=self.bound,
+            subject=subject,
+            note=note,
+            scope=self.scope,
+            void=self.void,
+            level=self.level,
+        )

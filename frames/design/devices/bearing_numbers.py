@@ -96,8 +96,14 @@ def enter_bearing(
     _enter_frictions(t, bearing, bounds)
     t("mu_e", "(mu_1_U * R_1 + mu_2_U * R_2) / L", source="docs/theory.md, section 2")
     source = "docs/theory.md (2.7)"
-    t("s_star", "L * mu_h_L - mu_1_U * R_1 - mu_2_U * R_2", "m", shown="mm", source=source,
-      note="slip that holds")  # fmt: skip
+    t(
+        "s_star",
+        "L * mu_h_L - mu_1_U * R_1 - mu_2_U * R_2",
+        "m",
+        shown="mm",
+        source=source,
+        note="slip that holds",
+    )
     note = "slip at which the sliders' overlap ends"
     t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)
     t("s_lim", "max(min(s_cap, s_star), 0)", "m", shown="mm")
@@ -117,8 +123,11 @@ def _enter_pressure(t: Trace, bearing: LIRBearing) -> None:
         t.given("p_0", reference, "Pa", note="at which friction was measured")
     t.given("r_p", law.rate, "1/Pa", note="fall of friction with the pressure")
     for bound, load in (("U", "N_min"), ("L", "N_max")):
-        t(f"k_p_{bound}", f"exp(-r_p * ({load} / (pi * a**2) - p_0))",
-          source="docs/theory.md (11.1)")  # fmt: skip
+        t(
+            f"k_p_{bound}",
+            f"exp(-r_p * ({load} / (pi * a**2) - p_0))",
+            source="docs/theory.md (11.1)",
+        )
 
 
 def _enter_frictions(t: Trace, bearing: LIRBearing, bounds: PropertyBounds | None) -> None:

@@ -110,18 +110,22 @@ class RimRule(NamedTuple):
 RIM_RULES: dict[str, RimRule] = {
     "ASCE 7-22": RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
     "EN 1998-1": RimRule(
-        "EN 1998-1 10.3(2), EN 15129", "gamma_x d_bd", 1.0,
+        "EN 1998-1 10.3(2), EN 15129",
+        "gamma_x d_bd",
+        1.0,
         "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
         "implements them, wants end stops that leave this displacement free. Needs the agreement "
         "of the authority, time histories with the rims, and tests of impact and return",
     ),
     "NCh2745": RimRule(
-        "NCh2745 7.3", "D_TM", 1.0,
+        "NCh2745 7.3",
+        "D_TM",
+        1.0,
         "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
         "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
         "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
     ),
-}  # fmt: skip
+}
 """Rules by code; clauses and shares to be confirmed against the standards."""
 
 
@@ -206,6 +210,11 @@ def _met(
     share = t("eta", "U_rim / D_allowed")
     standing = CONFIRMED if clause == PROJECT_LIMIT else TO_BE_CONFIRMED
     return CheckBuilder(t, at[0], standing).worst(
-        clause, f"displacement where a rim engages, over {symbol}", "eta", ">=", "eta_least",
-        subjects=(f"{name} rim",), note=f"not met below {symbol}" if share >= 1.0 else said,
-    )  # fmt: skip
+        clause,
+        f"displacement where a rim engages, over {symbol}",
+        "eta",
+        ">=",
+        "eta_least",
+        subjects=(f"{name} rim",),
+        note=f"not met below {symbol}" if share >= 1.0 else said,
+    )

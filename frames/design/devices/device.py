@@ -88,10 +88,16 @@ def device_checks(
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
     judge = CheckBuilder(t, "", CONFIRMED)
-    return Checks([
-        *_holds(judge, limits), _stable(judge), *_rims(judge, bearing, limits),
-        _eccentricity(judge, limits), *_pressures(judge, limits), *_lateral(judge, limits),
-    ])  # fmt: skip
+    return Checks(
+        [
+            *_holds(judge, limits),
+            _stable(judge),
+            *_rims(judge, bearing, limits),
+            _eccentricity(judge, limits),
+            *_pressures(judge, limits),
+            *_lateral(judge, limits),
+        ]
+    )
 
 
 def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
@@ -100,13 +106,24 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
     own = limits.clause_of("margin") == PROJECT_LIMIT
     t.given("gamma", limits.margin, note=f"margin; {'of the project' if own else 'a proposal'}")
     for name in ("min", "max"):
-        t(f"F_{name}", f"N_{name} * (mu_e + s_left / L)", "N",
-          source="docs/theory.md (2.1)", note="interface, before a rim is met")  # fmt: skip
+        t(
+            f"F_{name}",
+            f"N_{name} * (mu_e + s_left / L)",
+            "N",
+            source="docs/theory.md (2.1)",
+            note="interface, before a rim is met",
+        )
         t(f"H_{name}", f"mu_h_L * N_{name} / gamma", "N")
         found.append(
-            judge.worst(f"{NO_CODE} (2.1)", "interface holds until a rim is met",
-                        f"F_{name}", "<=", f"H_{name}", subjects=(f"N_{name}",))
-        )  # fmt: skip
+            judge.worst(
+                f"{NO_CODE} (2.1)",
+                "interface holds until a rim is met",
+                f"F_{name}",
+                "<=",
+                f"H_{name}",
+                subjects=(f"N_{name}",),
+            )
+        )
     return found
 
 
@@ -132,9 +149,15 @@ def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> lis
         formula = f"M_P * R_{k + 1} / (R_1**2 + R_2**2)" if shared else f"M_P / R_{k + 1}"
         t(f"P_{k + 1}", formula, "N", note="both rims press" if shared else "this rim alone")
         found.append(
-            judge.worst(f"{NO_CODE} (2.1)", "interface slips before the rim breaks",
-                        f"P_{k + 1}", "<=", "P_R", subjects=(f"{SURFACES[k]} rim",))
-        )  # fmt: skip
+            judge.worst(
+                f"{NO_CODE} (2.1)",
+                "interface slips before the rim breaks",
+                f"P_{k + 1}",
+                "<=",
+                "P_R",
+                subjects=(f"{SURFACES[k]} rim",),
+            )
+        )
     return found
 
 

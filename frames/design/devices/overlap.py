@@ -64,8 +64,12 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
         return t.given(symbol, math.inf, "Pa", note=t[offset].note)
     if s >= 2.0 * t.value("a"):
         return t.given(symbol, math.inf, "Pa", note=f"{offset} = {s:.4g} m: nothing overlaps")
-    t(area, f"2 * a**2 * acos({offset} / (2 * a)) - {offset} / 2 * sqrt(4 * a**2 - {offset}**2)",
-      "m2", note="circles that overlap")  # fmt: skip
+    t(
+        area,
+        f"2 * a**2 * acos({offset} / (2 * a)) - {offset} / 2 * sqrt(4 * a**2 - {offset}**2)",
+        "m2",
+        note="circles that overlap",
+    )
     return t(symbol, f"{load} / {area}", "Pa")
 
 

@@ -105,8 +105,10 @@ def pair_spectrum(
             f"{measure!r} needs: give the pair, or take the measure 'x' or 'y'"
         )
         raise MotionError(msg)
-    pair = [motion.x if motion.x is not None else np.zeros(motion.n_steps),
-            motion.y if motion.y is not None else np.zeros(motion.n_steps)]  # fmt: skip
+    pair = [
+        motion.x if motion.x is not None else np.zeros(motion.n_steps),
+        motion.y if motion.y is not None else np.zeros(motion.n_steps),
+    ]
     rule = MEASURES[measure]
     found = np.empty(len(period))
     for k, each in enumerate(period):

@@ -157,9 +157,16 @@ def scaled_so(
     }
     _warn_of(total, limits, code.least if least is None else least, rule)
     return Scaling(
-        spectrum, rule, kind, wanted, (low, high), damping, total,
-        float(ratio.min()), float(ratio.max()),
-    )  # fmt: skip
+        spectrum,
+        rule,
+        kind,
+        wanted,
+        (low, high),
+        damping,
+        total,
+        float(ratio.min()),
+        float(ratio.max()),
+    )
 
 
 def checked_range(periods: tuple[float, float]) -> tuple[float, float]:

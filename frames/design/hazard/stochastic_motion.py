@@ -37,9 +37,18 @@ if TYPE_CHECKING:
 KILOMETRE = 1000.0
 
 GENERIC_ROCK = (
-    (0.01, 1.00), (0.09, 1.10), (0.16, 1.18), (0.51, 1.42), (0.84, 1.58), (1.25, 1.74),
-    (2.26, 2.06), (3.17, 2.25), (6.05, 2.58), (16.6, 3.13), (61.2, 4.00),
-)  # fmt: skip
+    (0.01, 1.00),
+    (0.09, 1.10),
+    (0.16, 1.18),
+    (0.51, 1.42),
+    (0.84, 1.58),
+    (1.25, 1.74),
+    (2.26, 2.06),
+    (3.17, 2.25),
+    (6.05, 2.58),
+    (16.6, 3.13),
+    (61.2, 4.00),
+)
 """Amplification of generic rock: frequencies [Hz] and factors (Boore and Joyner 1997, Bull. Seism.
 Soc. Am. 87:327-341; to be confirmed against the paper)."""
 
@@ -99,8 +108,13 @@ class PointSource:
             If a value is out of its bounds.
         """
         require_between("magnitude", self.magnitude, 4.0, 9.0, "-", error=MotionError)
-        require_non_negative("distance", self.distance, "km", error=MotionError,
-                             remedy="give the closest distance to the rupture in km")  # fmt: skip
+        require_non_negative(
+            "distance",
+            self.distance,
+            "km",
+            error=MotionError,
+            remedy="give the closest distance to the rupture in km",
+        )
         for name in ("stress_drop", "density", "shear_velocity", "quality"):
             require_positive(name, getattr(self, name), error=MotionError)
         require_non_negative("kappa", self.kappa, "s", error=MotionError)

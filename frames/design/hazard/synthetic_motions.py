@@ -188,26 +188,39 @@ def synthetic_near_fault(
     require_positive("count", count, error=MotionError)
     require_type("seed", seed, int, "a whole number, so that the motions can be made again")
     ratio = require_non_negative("vertical_ratio", vertical_ratio, "-", error=MotionError)
-    require_between("distance", distance, 0.0, 20.0 + 1e-9, "km", error=MotionError,
-                    remedy="farther away a motion has no pulse of this kind")  # fmt: skip
+    require_between(
+        "distance",
+        distance,
+        0.0,
+        20.0 + 1e-9,
+        "km",
+        error=MotionError,
+        remedy="farther away a motion has no pulse of this kind",
+    )
     from_here = PointSource(magnitude=magnitude, distance=distance)
     ground = from_here if source is None else source
     scatter = PulseScatter() if pulses is None else pulses
     require_type("source", ground, PointSource, "a PointSource")
     require_type("pulses", scatter, PulseScatter, "a PulseScatter")
     for name in ("magnitude", "distance"):
-        require_choice(f"source.{name}", getattr(ground, name), (getattr(from_here, name),),
-                       error=MotionError)  # fmt: skip
+        require_choice(
+            f"source.{name}", getattr(ground, name), (getattr(from_here, name),), error=MotionError
+        )
     motions, facts = {}, {}
     for k, rng in enumerate(np.random.default_rng(seed).spawn(count), 1):
         pulse = scatter.pulse(magnitude, rng)
         name = f"near-fault {k}"
         motions[name] = _motion(name, pulse, ground, ratio, dt, rng)
         facts[name] = {
-            "magnitude": magnitude, "distance": distance, "near_fault": True, "pulse": True,
-            "pulse period": pulse.period, "pulse velocity": pulse.velocity,
-            "pulse gamma": pulse.gamma, "pulse phase": pulse.phase,
-        }  # fmt: skip
+            "magnitude": magnitude,
+            "distance": distance,
+            "near_fault": True,
+            "pulse": True,
+            "pulse period": pulse.period,
+            "pulse velocity": pulse.velocity,
+            "pulse gamma": pulse.gamma,
+            "pulse phase": pulse.phase,
+        }
     return MotionSet(motions, facts)
 
 
@@ -228,8 +241,13 @@ def _motion(
     parts = [stochastic_acceleration(source, step, steps, rng) for _ in range(3)]
     x, y, z = (np.concatenate([np.zeros(lead), part]) for part in parts)
     middle = lead * step + strongest
-    placed = NearFaultPulse(velocity=pulse.velocity, period=pulse.period, gamma=pulse.gamma,
-                            phase=pulse.phase, time=middle)  # fmt: skip
+    placed = NearFaultPulse(
+        velocity=pulse.velocity,
+        period=pulse.period,
+        gamma=pulse.gamma,
+        phase=pulse.phase,
+        time=middle,
+    )
     times = step * np.arange(len(x))
     edge = _taper(len(x), step)
     components = {"x": with_pulse(x * edge, placed.accelerations(times), step), "y": y * edge}

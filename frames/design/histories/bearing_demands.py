@@ -15,7 +15,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.suite import names_of, reached
+from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.results.peak_response import PRESSED
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class BearingDemands:
         list of Check
             That of the worst bearing; none without rims.
         """
-        values = reached(self.data, "displacement")
+        values = peaks_of_runs(self.data, "displacement")
 
         def fill(k: int) -> Calculation:
             bearing, t = self._at(k), Trace()
@@ -141,7 +141,7 @@ class BearingDemands:
 
     def slips(self) -> list[Check]:
         """Return the checks of slip over overlap, over the slip that holds, and of what is left."""
-        most, left = reached(self.data, "slip"), reached(self.data, "slip_left")
+        most, left = peaks_of_runs(self.data, "slip"), peaks_of_runs(self.data, "slip_left")
 
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
             def fill(k: int) -> Calculation:
@@ -159,20 +159,21 @@ class BearingDemands:
         after = "s_star" if self.limits.slip_left is None else "s_allowed"
         holds = f"{NO_CODE} (2.7)"
         return [
-            *self._worst(f"{NO_CODE}, section 2", "slip over the overlap",
-                         of("s", most, "s_cap"), self._lir),
+            *self._worst(
+                f"{NO_CODE}, section 2", "slip over the overlap", of("s", most, "s_cap"), self._lir
+            ),
             *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
             *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
-        ]  # fmt: skip
+        ]
 
     def _enter_slip(self, t: Trace, k: int) -> None:
         # The largest slip; with a factor on the displacement at least what that is beyond the rims.
-        slip = reached(self.data, "slip")[:, k]
+        slip = peaks_of_runs(self.data, "slip")[:, k]
         if not self.factor > 1.0:
             self.suite.enter(t, "s", slip, "m", "mm")
             return
         self.suite.enter(t, "s_run", slip, "m", "mm")
-        self.suite.enter(t, "D", reached(self.data, "displacement")[:, k], "m", "mm")
+        self.suite.enter(t, "D", peaks_of_runs(self.data, "displacement")[:, k], "m", "mm")
         t.given("gamma_x", self.factor)
         self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
 
@@ -199,8 +200,8 @@ class BearingDemands:
         bearing = self._at(k)
         if bearing.pressure_dependence is None:
             return enter_bearing(bearing, None)
-        least = float(-np.nanmax(reached(self.data, "axial_tension")[:, k]))
-        most = float(np.nanmax(reached(self.data, "axial_force")[:, k]))
+        least = float(-np.nanmax(peaks_of_runs(self.data, "axial_tension")[:, k]))
+        most = float(np.nanmax(peaks_of_runs(self.data, "axial_force")[:, k]))
         return enter_bearing(bearing, None, (max(least, 0.0), most))
 
     def _pressure(
@@ -208,7 +209,7 @@ class BearingDemands:
     ) -> list[Check]:
         if limit is None:
             return []
-        load = reached(self.data, "axial_force")
+        load = peaks_of_runs(self.data, "axial_force")
 
         def fill(k: int) -> Calculation:
             t = self._entered(k)
@@ -246,7 +247,7 @@ class BearingDemands:
         limit = getattr(self.limits, given)
         if limit is None:
             return []
-        values = reached(self.data, name)
+        values = peaks_of_runs(self.data, name)
 
         def fill(k: int) -> Calculation:
             t = Trace()

@@ -26,7 +26,7 @@ from frames.design.histories.suite import (
     left_out_checks,
     names_of,
     parted,
-    reached,
+    peaks_of_runs,
     suite_of,
 )
 from frames.design.histories.uplift import Uplift
@@ -107,9 +107,12 @@ class BoundChecks:
         clause = self._clause(rules.displacement_clause)
         moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
         found = [
-            *moved, *self._engagement(moved), *bearings.slips(), *bearings.forces(),
+            *moved,
+            *self._engagement(moved),
+            *bearings.slips(),
+            *bearings.forces(),
             *self._uplift(),
-        ]  # fmt: skip
+        ]
         return [*not_evaluated(found, unknown_axial_forces(self.frame), OF_AXIAL_FORCES)]
 
     @cached_property
@@ -136,9 +139,14 @@ class BoundChecks:
     def _bearings(self) -> BearingDemands:
         devices = devices_of(self.data, self.frame)
         return BearingDemands(
-            self.data, self._suite, devices, self.limits, self.bound, self._note,
+            self.data,
+            self._suite,
+            devices,
+            self.limits,
+            self.bound,
+            self._note,
             self.rules.displacement_factor,
-        )  # fmt: skip
+        )
 
     def _motions(self) -> Check:
         t = Trace()
@@ -165,10 +173,12 @@ class BoundChecks:
             return []  # the check of the displacement tells why
         bearing = self.frame.bearings[moved[0].subject].bearing
         found = engagement_checks(
-            bearing, {self.bound: moved[0].demand}, least=least,
+            bearing,
+            {self.bound: moved[0].demand},
+            least=least,
             code=code,  # type: ignore[arg-type]  # one of them
             agreed=self.limits.rim_engagement,
-        )  # fmt: skip
+        )
         named = (replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found)
         return [replace(c, title=f"{c.title} of histories") for c in named]
 
@@ -176,7 +186,7 @@ class BoundChecks:
         found = []
         if not self.rules.uplift_allowed:
             t, gap = Trace(), f"{1e3 * self.rules.least_gap:g} mm"
-            lasts = np.nan_to_num(reached(self.data, "time_lifted"), nan=math.inf)
+            lasts = np.nan_to_num(peaks_of_runs(self.data, "time_lifted"), nan=math.inf)
             open_ = parted(self.data, self.rules.least_gap) | np.isinf(lasts)
             longest = float(np.where(open_, lasts, 0.0).max())
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
@@ -227,7 +237,7 @@ class BoundChecks:
             msg = "runs have no storey shears (reached_storey_shear): compute them anew"
             raise CheckError(msg)
         known, t = self.equivalent.bounds[self.bound].trace, Trace()
-        self._suite.enter(t, "V_st", reached(self.data, "storey_shear")[:, 0], "N")
+        self._suite.enter(t, "V_st", peaks_of_runs(self.data, "storey_shear")[:, 0], "N")
         t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
         self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
         t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
@@ -236,11 +246,15 @@ class BoundChecks:
         more = "where it fails, forces above the isolation count times the ratio"
         return [
             CheckBuilder(t, self.bound, void=self._suite.void).worst(
-                self._clause(self.rules.force_clause), "storey shear of time histories", "V_run",
-                ">=", "V_least", subjects=(self.frame.levels[1].name,),
+                self._clause(self.rules.force_clause),
+                "storey shear of time histories",
+                "V_run",
+                ">=",
+                "V_least",
+                subjects=(self.frame.levels[1].name,),
                 note="; ".join(part for part in (self._note, more) if part),
             )
-        ]  # fmt: skip
+        ]
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.
@@ -265,7 +279,7 @@ class BoundChecks:
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
-        shear, least = reached(self.data, "base_shear"), self._least("V_b_dyn")
+        shear, least = peaks_of_runs(self.data, "base_shear"), self._least("V_b_dyn")
 
         def fill(values: FloatArray) -> Trace:
             t = Trace()
@@ -307,7 +321,7 @@ class BoundChecks:
     ) -> list[Check]:
         # The worst of what a quantity is reached by; `of`: which of several it is, in words.
         note = "; ".join(part for part in (of, self._note) if part)
-        values = reached(self.data, name)
+        values = peaks_of_runs(self.data, name)
         values = values.reshape(len(values), -1)
         each = {}
         for k, label in enumerate(names_of(self.data, name)):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.design.histories.suite import motion_of, names_of, reached, suite_of
+from frames.design.histories.suite import motion_of, names_of, peaks_of_runs, suite_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,8 +21,10 @@ if TYPE_CHECKING:
     from frames.design.histories.suite import Suite
 
 COUNTED = {
-    "uplifts, all bearings": "uplifts", "time lifted": "time_lifted", "gap of uplift": "gap",
-}  # fmt: skip
+    "uplifts, all bearings": "uplifts",
+    "time lifted": "time_lifted",
+    "gap of uplift": "gap",
+}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
 _TABLE = (
@@ -105,13 +107,17 @@ def _numbers(
             run = ", ".join(part for part in (motion_of(data, one), bound) if part)
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
-    return cells | {"envelope": known["envelope"], "where": where, "worst": known["worst"],
-                    "run": run}  # fmt: skip
+    return cells | {
+        "envelope": known["envelope"],
+        "where": where,
+        "worst": known["worst"],
+        "run": run,
+    }
 
 
 def _reached(data: xr.Dataset, name: str) -> FloatArray:
     # Values (n_runs, m); of what is left, none of runs that stopped before their end.
-    values = reached(data, name)
+    values = peaks_of_runs(data, name)
     values = values.reshape(len(values), -1).copy()
     if name.endswith("_left"):
         values[data["status"].to_numpy() != "ok"] = math.nan
@@ -188,9 +194,11 @@ def headed(table: pd.DataFrame) -> pd.DataFrame:
     statistics: dict[str, str] = table.attrs["statistics"]
     heads = {bound: f"{bound}, {words}" for bound, words in statistics.items()}
     heads |= {
-        "envelope": "envelope of these", "where": "where",
-        "worst": f"worst of all {table.attrs['runs']} runs", "run": "in run",
-    }  # fmt: skip
+        "envelope": "envelope of these",
+        "where": "where",
+        "worst": f"worst of all {table.attrs['runs']} runs",
+        "run": "in run",
+    }
     return table.drop(columns="void").rename(columns=heads)
 
 

@@ -62,9 +62,14 @@ class Governing:
         known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
         found = [
             CheckBuilder(c.trace, self.bound, self.standing, void=self.void).worst(
-                clause, title, c.demand, "<=", c.limit, subjects=(name if known else "",),
+                clause,
+                title,
+                c.demand,
+                "<=",
+                c.limit,
+                subjects=(name if known else "",),
                 note=self.note,
             )
             for name, c in each.items()
-        ]  # fmt: skip
+        ]
         return [max(found, key=lambda check: check.compared)] if found else []

@@ -134,12 +134,16 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
             end = time[last] if ends else time[-1]
             landing = (time >= end) & (time <= end + after)
             earlier = (time >= time[first] - after) & (time <= time[first])
-            rows.append((
-                str(name), float(time[first]), float(end - time[first]),
-                float(gap[first:last, b].max()),
-                float(force[landing, b].max()) if ends else math.nan,
-                bool(met[earlier, b].any()),
-            ))  # fmt: skip
+            rows.append(
+                (
+                    str(name),
+                    float(time[first]),
+                    float(end - time[first]),
+                    float(gap[first:last, b].max()),
+                    float(force[landing, b].max()) if ends else math.nan,
+                    bool(met[earlier, b].any()),
+                )
+            )
     columns = ["bearing", "begin", "duration", "gap", "landing_force", "at_impact"]
     return pd.DataFrame(rows, columns=columns)
 

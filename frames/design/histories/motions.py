@@ -25,9 +25,12 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
 
 PERIOD_RANGES = {
-    "ASCE 7-22": (0.75, 1.25), "ASCE 7-10": (0.75, 1.25), "EN 1998-1": (0.2, 2.0),
-    "EN 1998-2": (0.2, 1.5), "NCh2745": (0.5, 1.25),
-}  # fmt: skip
+    "ASCE 7-22": (0.75, 1.25),
+    "ASCE 7-10": (0.75, 1.25),
+    "EN 1998-1": (0.2, 2.0),
+    "EN 1998-2": (0.2, 1.5),
+    "NCh2745": (0.5, 1.25),
+}
 """Range of periods by rule, over the shortest and the longest effective period of the bounds; to
 be confirmed against the standards."""
 

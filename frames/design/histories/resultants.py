@@ -16,9 +16,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _NEEDED = (
-    "interface_eccentricity", "axial_force", "rim_force", "slider_displacement",
+    "interface_eccentricity",
+    "axial_force",
+    "rim_force",
+    "slider_displacement",
     "interface_slip_size",
-)  # fmt: skip
+)
 
 
 def resultant_offsets(
@@ -91,9 +94,17 @@ def resultant_offsets(
         pressed = np.flatnonzero(met[k, b])
         rims = "none" if not len(pressed) else words[2 if len(pressed) == 2 else pressed[0]]
         other = float(clear[k, b, 1 - pressed[0]]) if len(pressed) == 1 else np.nan
-        rows.append((
-            str(name), float(offset[k, b]), float(time[k]), float(load[k, b]), str(rims),
-            float(slip[k, b]), other, float(lasts[offset[:, b] > limit].sum()),
-        ))  # fmt: skip
+        rows.append(
+            (
+                str(name),
+                float(offset[k, b]),
+                float(time[k]),
+                float(load[k, b]),
+                str(rims),
+                float(slip[k, b]),
+                other,
+                float(lasts[offset[:, b] > limit].sum()),
+            )
+        )
     columns = ["bearing", "offset", "time", "load", "rims", "slip", "clearance", "time_above"]
     return pd.DataFrame(rows, columns=columns)

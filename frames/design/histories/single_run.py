@@ -226,10 +226,14 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
         t("eta", "U_rim / D_TM")
         found.append(
             CheckBuilder(t, bound, TO_BE_CONFIRMED).worst(
-                "ASCE 7-22 17.2.4.5", "displacement where a rim engages, over D_TM", "eta", ">=",
-                "eta_least", subjects=(f"{row['bearing']}, {surface} rim",),
+                "ASCE 7-22 17.2.4.5",
+                "displacement where a rim engages, over D_TM",
+                "eta",
+                ">=",
+                "eta_least",
+                subjects=(f"{row['bearing']}, {surface} rim",),
             )
-        )  # fmt: skip
+        )
     return found
 
 

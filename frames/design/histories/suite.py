@@ -132,8 +132,13 @@ class Suite:
             t.given("n", float(len(good)), note="runs")
         formula = f"sum({runs}) / n"
         if any(self.failed):
-            t.given(f"{symbol}_50", self._median(values), unit, shown=shown,
-                    note=f"median, {sum(self.failed)} failed above it")  # fmt: skip
+            t.given(
+                f"{symbol}_50",
+                self._median(values),
+                unit,
+                shown=shown,
+                note=f"median, {sum(self.failed)} failed above it",
+            )
             t.given(f"f_{symbol}", self.median_factor)
             formula = f"max({formula}, f_{symbol} * {symbol}_50)"
         return t(symbol, formula, unit, shown=shown, source=self.source)
@@ -151,7 +156,7 @@ class Suite:
         return float(np.median(np.where(self.failed, math.inf, values)))
 
 
-def reached(data: xr.Dataset, name: str) -> FloatArray:
+def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
     """Return what runs reached of a quantity, (n_runs, ...).
 
     Parameters
@@ -222,10 +227,13 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
     reason = f"{len(words)} of {len(status)} runs failed ({'; '.join(words)})" if words else ""
     return Suite(
-        statistic=statistic, failed=tuple(failed), allowed=rules.unacceptable_allowed,
-        median_factor=rules.median_factor, reason=reason,
+        statistic=statistic,
+        failed=tuple(failed),
+        allowed=rules.unacceptable_allowed,
+        median_factor=rules.median_factor,
+        reason=reason,
         source=f"{rules.code} {rules.statistic_clause}".strip(),
-    )  # fmt: skip
+    )
 
 
 def parted(data: xr.Dataset, least: float) -> BoolArray:
@@ -243,13 +251,13 @@ def parted(data: xr.Dataset, least: float) -> BoolArray:
     ndarray of bool, (n_runs, n_bearings)
         Those; where a gap is not known, those that lifted off.
     """
-    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    time, gap = peaks_of_runs(data, "time_lifted"), peaks_of_runs(data, "gap")
     return np.asarray(np.where(np.isnan(gap), time > 0.0, gap > least))
 
 
 def contact_notes(data: xr.Dataset, least: float) -> str:
     """Return the runs in which bearings lifted off by no more than a gap [m], in words."""
-    time, gap = reached(data, "time_lifted"), reached(data, "gap")
+    time, gap = peaks_of_runs(data, "time_lifted"), peaks_of_runs(data, "gap")
     small = (time > 0.0) & ~parted(data, least)
     words = [
         f"{motion_of(data, int(k))}: {1e3 * gap[k, small[k]].max():.2g} mm, "

@@ -15,7 +15,7 @@ from frames.design.devices.bearing_numbers import enter_geometry
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
 from frames.design.devices.overlap import overlap_area, pressure
 from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.suite import Suite, motion_of, names_of, reached
+from frames.design.histories.suite import Suite, motion_of, names_of, peaks_of_runs
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -113,7 +113,10 @@ class Uplift:
 
     def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> Calculation:
         # Of the runs in which the bearing lifts off, the one that presses it most.
-        force, slip = reached(self.data, "axial_force")[:, k], reached(self.data, "slip")[:, k]
+        force, slip = (
+            peaks_of_runs(self.data, "axial_force")[:, k],
+            peaks_of_runs(self.data, "slip")[:, k],
+        )
         slip = np.zeros_like(force) if bearing.is_dcfp else slip
         area = np.array([overlap_area(bearing.slider_radius, float(s)) for s in slip])
         with np.errstate(divide="ignore"):
@@ -141,7 +144,7 @@ class Uplift:
         return "p_land", "p_lim"
 
     def _with_gap(self, t: Trace, k: int, limit: str) -> Calculation:
-        gap, lifted = reached(self.data, "gap")[:, k], self._lifted[:, k]
+        gap, lifted = peaks_of_runs(self.data, "gap")[:, k], self._lifted[:, k]
         known = np.where(lifted, gap, 0.0)
         failed = tuple(map(bool, self._failed | np.isnan(known)))
         suite = Suite(statistic="largest", failed=failed, reason=self._void)
@@ -158,7 +161,7 @@ class Uplift:
         # Why there is no value for design.
         if self._failed.any():
             return self.reason or "a run failed"
-        unknown = np.isnan(reached(self.data, "gap")) & self._lifted
+        unknown = np.isnan(peaks_of_runs(self.data, "gap")) & self._lifted
         return "a bearing lifted off by a gap that was not recorded" if unknown.any() else ""
 
     @property
@@ -167,8 +170,8 @@ class Uplift:
         runs = np.flatnonzero(self._lifted.any(axis=1))
         if not len(runs):
             return "no bearing lifts off"
-        gap, force = reached(self.data, "gap"), reached(self.data, "axial_force")
-        lasts, count = reached(self.data, "time_lifted"), reached(self.data, "uplifts")
+        gap, force = peaks_of_runs(self.data, "gap"), peaks_of_runs(self.data, "axial_force")
+        lasts, count = peaks_of_runs(self.data, "time_lifted"), peaks_of_runs(self.data, "uplifts")
         wide = np.where(self._lifted, np.nan_to_num(gap, nan=math.inf), 0.0)
         run, k = np.unravel_index(int(np.argmax(wide)), wide.shape)
         return (
@@ -187,7 +190,7 @@ class Uplift:
 
     @property
     def _lifted(self) -> BoolArray:
-        return np.asarray(reached(self.data, "time_lifted") > 0.0)
+        return np.asarray(peaks_of_runs(self.data, "time_lifted") > 0.0)
 
     @property
     def _failed(self) -> BoolArray:
@@ -207,9 +210,19 @@ def _enter_rim(bearing: LIRBearing) -> Trace:
         face = f"(d_rim_{k} * sqrt(R_{k}**2 - a**2) + a * sqrt(R_{k}**2 - d_rim_{k}**2)) / R_{k}"
         t(f"r_{k}", face, "m", shown="mm", note="the rim's face, from the plate's axis")
         t(f"z_{k}", f"R_{k} - sqrt(R_{k}**2 - r_{k}**2)", "m", shown="mm", note="the plate there")
-        t(f"c_{k}", f"h_{k} - (R_{k} - sqrt(R_{k}**2 - a**2))", "m", shown="mm",
-          note="edge of the slider")  # fmt: skip
+        t(
+            f"c_{k}",
+            f"h_{k} - (R_{k} - sqrt(R_{k}**2 - a**2))",
+            "m",
+            shown="mm",
+            note="edge of the slider",
+        )
     t.given("a_h", _FREE_SHARE, note="a proposal: give rim_height")
-    t("h_rim", "a_h * max(min((h - z_1 - z_2) / 2, c_1, c_2), 0)", "m", shown="mm",
-      note="rims that have place between the plates")  # fmt: skip
+    t(
+        "h_rim",
+        "a_h * max(min((h - z_1 - z_2) / 2, c_1, c_2), 0)",
+        "m",
+        shown="mm",
+        note="rims that have place between the plates",
+    )
     return t

@@ -20,7 +20,7 @@ from frames.design.histories.histories import history_checks, history_demands
 from frames.design.histories.impacts import rim_engagement
 from frames.design.histories.motions import motion_checks
 from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
-from frames.design.project.preliminary import groundwork, inputs_of
+from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.testing.programme import ProgrammeDemands, prototype_tests
 from frames.results.storage import as_packed
 from frames.solve.time_history import time_history
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import Groundwork
+    from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
@@ -148,7 +148,7 @@ def run_project(
     AnalysisInterrupted
         After Ctrl-C, with the runs that were complete.
     """
-    known = groundwork(parts)
+    known = preliminary(parts)
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
         governing, case = _governing(parts, known.frame, known.motions, runs)
@@ -158,17 +158,17 @@ def run_project(
         )
         raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
     found = Histories(runs=runs, governing=governing, governing_case=case)
-    return judged_run(parts, known, found)
+    return evaluate_run(parts, known, found)
 
 
-def judged_run(parts: ProjectInputs, known: Groundwork, histories: Histories) -> ProjectRun:
+def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories) -> ProjectRun:
     """Return a project's run from its time histories: demands and checks.
 
     Parameters
     ----------
     parts : ProjectInputs
         The project.
-    known : Groundwork
+    known : Preliminary
         What needs no time history.
     histories : Histories
         Those of this project.
@@ -189,20 +189,34 @@ def judged_run(parts: ProjectInputs, known: Groundwork, histories: Histories) ->
     found += motion_checks(known.motions, known.spectrum, known.equivalent)
     for name, each in runs.items():
         found += history_checks(
-            each, frame, rules, bounds=bounds, limits=parts.limits(), equivalent=minima,
+            each,
+            frame,
+            rules,
+            bounds=bounds,
+            limits=parts.limits(),
+            equivalent=minima,
             action_level=name,
-        )  # fmt: skip
+        )
     demands = demands_at_levels(runs, rules)
     loads, slip = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
     found += _of_the_bearing(parts, known, loads, slip)
     return ProjectRun(
-        frame=frame, spectrum=known.spectrum, motions=known.motions,
-        equivalent=known.equivalent, runs=runs, demands=demands, checks=Checks(found),
-        bounds=bounds, model=frame.check(), loads=known.system.loads,
-        governing=histories.governing, governing_case=histories.governing_case,
-        inputs=inputs_of(parts, known), programme=_programme(parts, known, histories, loads, slip),
+        frame=frame,
+        spectrum=known.spectrum,
+        motions=known.motions,
+        equivalent=known.equivalent,
+        runs=runs,
+        demands=demands,
+        checks=Checks(found),
+        bounds=bounds,
+        model=frame.check(),
+        loads=known.system.loads,
+        governing=histories.governing,
+        governing_case=histories.governing_case,
+        inputs=inputs_of(parts, known),
+        programme=_programme(parts, known, histories, loads, slip),
         rules=rules,
-    )  # fmt: skip
+    )
 
 
 def compare_devices(
@@ -230,7 +244,7 @@ def compare_devices(
     AnalysisInterrupted
         After Ctrl-C, with the runs of one device that were complete.
     """
-    known = groundwork(parts)
+    known = preliminary(parts)
     plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
     frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
     tables = {
@@ -286,7 +300,7 @@ def _has_minima(parts: ProjectInputs) -> bool:
 
 
 def _asked(
-    parts: ProjectInputs, known: Groundwork, demands: pd.DataFrame
+    parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame
 ) -> tuple[tuple[float, float], float]:
     # Least axial load that presses at all and the largest, of all combinations and of the histories
     # at each bound at the level of the bearings [N], and the slip of these [m].
@@ -302,7 +316,7 @@ def _asked(
 
 
 def _of_the_bearing(
-    parts: ProjectInputs, known: Groundwork, loads: tuple[float, float], slip: float
+    parts: ProjectInputs, known: Preliminary, loads: tuple[float, float], slip: float
 ) -> list[Check]:
     # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
     bearing, bounds = parts.bearing(), parts.bounds()
@@ -319,7 +333,7 @@ def _of_the_bearing(
 
 def _programme(
     parts: ProjectInputs,
-    known: Groundwork,
+    known: Preliminary,
     histories: Histories,
     loads: tuple[float, float],
     slip: float,
@@ -328,13 +342,15 @@ def _programme(
     above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
     wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
     demands = ProgrammeDemands(
-        loads=None if known.system.unknown_loads else loads, slip=slip, wind=wind or None,
+        loads=None if known.system.unknown_loads else loads,
+        slip=slip,
+        wind=wind or None,
         impact_speed=float(speeds.max()) if len(speeds) else None,
-    )  # fmt: skip
+    )
     return prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
 
 
-def _loads(known: Groundwork, demands: pd.DataFrame) -> list[float]:
+def _loads(known: Preliminary, demands: pd.DataFrame) -> list[float]:
     # Axial loads of all combinations and of the histories at each bound [N].
     found = [*known.system.loads]
     for loads in known.system.combinations.values():

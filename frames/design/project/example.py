@@ -44,18 +44,24 @@ class _Example(NamedTuple):
 def _examples() -> dict[str, _Example]:
     return {
         "ASCE 7-22": _Example(Spectrum.asce7(1.2, 0.7), {}),
-        "EN 1998": _Example(Spectrum.en1998(3.4, "B"), {
-            "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
-            "kind = 1\n",
-            "bearing": _bearing("2.5 m", 185, 150, 0.04, 0.075),
-            "analysis": _UPLIFT,
-        }),
-        "NCh2745": _Example(Spectrum.nch2745("II", 3), {
-            "spectrum": 'soil = "II"\nzone = 3\n',
-            "bearing": _bearing("1.5 m", 185, 227, 0.04, 0.095),
-            "analysis": _UPLIFT,
-        }),
-    }  # fmt: skip
+        "EN 1998": _Example(
+            Spectrum.en1998(3.4, "B"),
+            {
+                "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
+                "kind = 1\n",
+                "bearing": _bearing("2.5 m", 185, 150, 0.04, 0.075),
+                "analysis": _UPLIFT,
+            },
+        ),
+        "NCh2745": _Example(
+            Spectrum.nch2745("II", 3),
+            {
+                "spectrum": 'soil = "II"\nzone = 3\n',
+                "bearing": _bearing("1.5 m", 185, 227, 0.04, 0.095),
+                "analysis": _UPLIFT,
+            },
+        ),
+    }
 
 
 def _bearing(radius: str, slider: int, capacity: int, friction: float, interface: float) -> str:

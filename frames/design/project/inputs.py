@@ -73,9 +73,13 @@ class ProjectInputs:
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
         bearing = LIRBearing(
-            radius=2.0, slider_height=0.4, slider_radius=0.3, capacity=0.3,
-            friction=CoulombFriction(0.05), interface_friction=0.2,
-        )  # fmt: skip
+            radius=2.0,
+            slider_height=0.4,
+            slider_radius=0.3,
+            capacity=0.3,
+            friction=CoulombFriction(0.05),
+            interface_friction=0.2,
+        )
         return in_section("structure", lambda: self._frame(bearing))
 
     def _frame(self, bearing: LIRBearing) -> Frame:
@@ -145,16 +149,26 @@ def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> 
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
         return moment_frame(
-            given.bays, given.storeys, bearing=bearing, bay_width=given.bay_width,
-            storey_height=given.storey_height, floor_load=given.floor_load,
-            eccentricity=given.eccentricity, name=name,
-        )  # fmt: skip
+            given.bays,
+            given.storeys,
+            bearing=bearing,
+            bay_width=given.bay_width,
+            storey_height=given.storey_height,
+            floor_load=given.floor_load,
+            eccentricity=given.eccentricity,
+            name=name,
+        )
     if isinstance(given, ShearBuilding):
         return shear_building(
-            bearing, given.storey_mass, given.storey_stiffness, base_mass=given.base_mass,
-            storey_height=given.storey_height, plan=(given.bays, given.bay_width),
-            eccentricity=given.eccentricity, name=name,
-        )  # fmt: skip
+            bearing,
+            given.storey_mass,
+            given.storey_stiffness,
+            base_mass=given.base_mass,
+            storey_height=given.storey_height,
+            plan=(given.bays, given.bay_width),
+            eccentricity=given.eccentricity,
+            name=name,
+        )
     return _opensees(given, bearing, name, folder)
 
 
@@ -169,9 +183,12 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
     with _Running(script):
         runpy.run_path(script.name, run_name="__main__")
     return Frame.from_opensees(
-        given.base_nodes, bearing, length_unit=given.length_unit,
-        force_unit=given.force_unit, name=name,
-    )  # fmt: skip
+        given.base_nodes,
+        bearing,
+        length_unit=given.length_unit,
+        force_unit=given.force_unit,
+        name=name,
+    )
 
 
 def motions_of(given: MotionSource, folder: Path) -> MotionSet:

@@ -68,9 +68,16 @@ def histories_at_levels(
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
     record = Recording.everything() if given.histories == "all" else Recording(every=None)
     data = time_histories(
-        models, motions, cases=cases, level=given.level, dt=given.dt, workers=given.workers,
-        progress=progress, record=record, resume=resume,
-    )  # fmt: skip
+        models,
+        motions,
+        cases=cases,
+        level=given.level,
+        dt=given.dt,
+        workers=given.workers,
+        progress=progress,
+        record=record,
+        resume=resume,
+    )
     found: LevelRuns = {level.name: {} for level in levels}
     for k, (level, bound) in enumerate(places):
         rows = slice(k * len(motions), (k + 1) * len(motions))

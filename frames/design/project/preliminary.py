@@ -33,7 +33,7 @@ CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Groundwork:
+class Preliminary:
     """What is known of a project before its time histories.
 
     Attributes
@@ -57,7 +57,7 @@ class Groundwork:
     motions: MotionSet
 
 
-def groundwork(parts: ProjectInputs) -> Groundwork:
+def preliminary(parts: ProjectInputs) -> Preliminary:
     """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
 
     Parameters
@@ -67,7 +67,7 @@ def groundwork(parts: ProjectInputs) -> Groundwork:
 
     Returns
     -------
-    Groundwork
+    Preliminary
         All that needs no time history.
 
     Raises
@@ -90,11 +90,14 @@ def groundwork(parts: ProjectInputs) -> Groundwork:
     _warn(wind_doubts(parts.file, system, parts.bounds()))
     code = CODES[parts.file.project.code]()
     equivalent = equivalent_linear(
-        system, spectrum, bounds=parts.bounds(), superstructure=parts.superstructure(frame),
+        system,
+        spectrum,
+        bounds=parts.bounds(),
+        superstructure=parts.superstructure(frame),
         code=code,
-    )  # fmt: skip
+    )
     motions = scaled_motions(parts, spectrum, equivalent)
-    return Groundwork(
+    return Preliminary(
         frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
     )
 
@@ -133,14 +136,14 @@ def _warn(doubts: tuple[str, ...]) -> None:
         warnings.warn(doubt, ModelWarning, stacklevel=3)
 
 
-def inputs_of(parts: ProjectInputs, known: Groundwork) -> dict[str, str]:
+def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     """Return a digest of each section that the time histories of a project depend on.
 
     Parameters
     ----------
     parts : ProjectInputs
         The project.
-    known : Groundwork
+    known : Preliminary
         Its motions as they are run.
 
     Returns
@@ -161,12 +164,15 @@ def inputs_of(parts: ProjectInputs, known: Groundwork) -> dict[str, str]:
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
     samples = [
-        name.encode() + repr(motion.dt).encode() + b"".join(
-            component.tobytes() for component in (motion.x, motion.y, motion.z)
+        name.encode()
+        + repr(motion.dt).encode()
+        + b"".join(
+            component.tobytes()
+            for component in (motion.x, motion.y, motion.z)
             if component is not None
         )
         for name, motion in known.motions.items()
-    ]  # fmt: skip
+    ]
     found["motions"] = _digest(b"".join(samples))
     found["version of lir-dcfp"] = package_version()
     levels = parts.rules().levels

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic import ValidationError
 
 from frames.design._errors import ProjectError
-from frames.design.project.schema import ProjectFile, Section
+from frames.design.project.schema import ProjectFile, Table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-F = TypeVar("F", bound=Section)
+F = TypeVar("F", bound=Table)
 
 _KINDS = {"moment frame", "shear building", "opensees", "ASCE 7-22", "EN 1998", "NCh2745"}
 """Of unions, which the place of an error names besides its keys."""
@@ -57,7 +57,7 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
 
     Returns
     -------
-    Section
+    Table
         Of that kind.
 
     Raises
@@ -103,7 +103,7 @@ def _place(error: Any) -> list[str]:
     return [str(p) for p in error["loc"] if p not in _KINDS and not str(p).endswith("]")]
 
 
-def _line(name: str, data: dict[str, Any], error: Any, whole: type[Section], hint: str) -> str:
+def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint: str) -> str:
     place = _place(error)
     key, kind = ".".join(place) or "the file", error["type"]
     if kind == "missing":
@@ -148,7 +148,7 @@ def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -
     return [key for key in known if key not in section]
 
 
-def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Section]) -> list[str]:
+def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> list[str]:
     # Keys of the section in which an unknown one stands.
     model: Any = whole
     for part in place[:-1]:

@@ -34,7 +34,7 @@ MOST_IMPORTANT = 3.0
 """Largest importance factor [-]; codes have 0.6 to 1.5."""
 
 
-class Section(BaseModel):
+class Table(BaseModel):
     """A table of the file: no keys but those that it knows."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -50,14 +50,14 @@ class Section(BaseModel):
         return given
 
 
-class About(Section):
+class ProjectTable(Table):
     """``[project]``: its name, and the standard that it is designed by."""
 
     name: str = Field(min_length=1)
     code: CodeName
 
 
-class MomentFrame(Section):
+class MomentFrame(Table):
     """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
 
     kind: Literal["moment frame"]
@@ -69,7 +69,7 @@ class MomentFrame(Section):
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
-class ShearBuilding(Section):
+class ShearBuilding(Table):
     """``[structure]`` of kind "shear building": rigid floors on storey springs, which tilt."""
 
     kind: Literal["shear building"]
@@ -82,7 +82,7 @@ class ShearBuilding(Section):
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
-class OpenSeesModel(Section):
+class OpenSeesModel(Table):
     """``[structure]`` of kind "opensees": a script that builds a model with OpenSeesPy."""
 
     kind: Literal["opensees"]
@@ -95,7 +95,7 @@ class OpenSeesModel(Section):
 Structure = Annotated[MomentFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")]
 
 
-class Above(Section):
+class SuperstructureTable(Table):
     """``[superstructure]``: what design formulas need of it besides the model."""
 
     R: float = Field(gt=0.0)
@@ -103,7 +103,7 @@ class Above(Section):
     wind_shear: Annotated[Force, NotNegative] = 0.0
 
 
-class Friction(Section):
+class Friction(Table):
     """``friction = {f_max = 0.06, f_min = 0.03, rate = "100 s/m"}``."""
 
     f_max: Ratio
@@ -111,7 +111,7 @@ class Friction(Section):
     rate: SpeedRate
 
 
-class Bearing(Section):
+class Bearing(Table):
     """``[bearing]``: the LIR-DCFP under each column; arguments of `lir_element.LIRBearing`."""
 
     radius: Length | tuple[Length, Length]
@@ -122,7 +122,7 @@ class Bearing(Section):
     interface_friction: Ratio
 
 
-class Asce7Spectrum(Section):
+class Asce7Spectrum(Table):
     """``[spectrum]`` of ASCE 7: MCE_R, accelerations in g as the standard has them."""
 
     code: Literal["ASCE 7-22"]
@@ -131,7 +131,7 @@ class Asce7Spectrum(Section):
     t_l: Annotated[Time, Positive] = 8.0
 
 
-class En1998Spectrum(Section):
+class En1998Spectrum(Table):
     """``[spectrum]`` of EN 1998-1."""
 
     code: Literal["EN 1998"]
@@ -141,7 +141,7 @@ class En1998Spectrum(Section):
     importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
 
 
-class NChSpectrum(Section):
+class NChSpectrum(Table):
     """``[spectrum]`` of NCh2745."""
 
     code: Literal["NCh2745"]
@@ -154,7 +154,7 @@ DesignSpectrum = Annotated[
 ]
 
 
-class MotionSource(Section):
+class MotionSource(Table):
     """Records from a folder with a table, PEER files, or a set ready by name."""
 
     folder: Path | None = None
@@ -185,14 +185,14 @@ class Motions(MotionSource):
         return scale
 
 
-class Bounds(Section):
+class Bounds(Table):
     """``[bounds]``: factors on friction, lower and upper; the interface's own if given."""
 
     friction: Pair
     interface: Pair | None = None
 
 
-class Limits(Section):
+class Limits(Table):
     """``[limits]``: what the engineer allows; the fields of `frames.DesignLimits`."""
 
     margin: float | None = None
@@ -213,7 +213,7 @@ class Limits(Section):
     rim_engagement: Ratio | None = None
 
 
-class Target(Section):
+class Target(Table):
     """``[design]``: what ``lir design`` chooses from; fields of `frames.DesignTarget`."""
 
     radii: tuple[Length, ...] | None = None
@@ -226,7 +226,7 @@ class Target(Section):
     max_plan_diameter: Length | None = None
 
 
-class Analysis(Section):
+class Analysis(Table):
     """``[analysis]``: how time histories are run, and whether uplift voids them."""
 
     level: Literal["pendulum", "contact"] = "pendulum"
@@ -238,12 +238,12 @@ class Analysis(Section):
     histories: Literal["governing", "all"] = "governing"
 
 
-class ProjectFile(Section):
+class ProjectFile(Table):
     """A whole file."""
 
-    project: About
+    project: ProjectTable
     structure: Structure
-    superstructure: Above | None = None
+    superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
     spectrum: DesignSpectrum
     motions: Motions

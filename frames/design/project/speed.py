@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 STEPS = (0.02, 0.01, 0.005, 0.0025)
@@ -59,7 +59,7 @@ class Way(NamedTuple):
 
 
 def ways_to_run(
-    model: FrameContents,
+    model: FrameData,
     motion: GroundMotion,
     *,
     steps: Sequence[float] = STEPS,
@@ -121,13 +121,14 @@ def recommended(ways: Sequence[Way], error: float) -> Way | None:
         None where no way keeps it.
     """
     good = [
-        way for way in ways
+        way
+        for way in ways
         if way.status == "ok" and max(way.displacement, way.base_shear, way.acceleration) <= error
-    ]  # fmt: skip
+    ]
     return min(good, key=lambda way: way.seconds, default=None)
 
 
-def _run(model: FrameContents, motion: GroundMotion, dt: float | None, level: str) -> xr.Dataset:
+def _run(model: FrameData, motion: GroundMotion, dt: float | None, level: str) -> xr.Dataset:
     with warnings.catch_warnings():  # the status is in the table
         warnings.simplefilter("ignore", AnalysisWarning)
         return time_history(model, motion, dt=dt, level=level, recording=Recording(every=None))
@@ -139,9 +140,12 @@ def _peaks(data: xr.Dataset) -> list[float]:
 
 
 def _way(
-    runs: Sequence[xr.Dataset], motion: GroundMotion, dt: float | None, level: str,
+    runs: Sequence[xr.Dataset],
+    motion: GroundMotion,
+    dt: float | None,
+    level: str,
     reference: Sequence[float],
-) -> Way:  # fmt: skip
+) -> Way:
     attrs = runs[0].attrs
     seconds = statistics.median(float(run.attrs["seconds_loop"]) for run in runs)
     errors = [math.nan] * len(reference)
@@ -152,7 +156,13 @@ def _way(
         ]
     displacement, base_shear, acceleration = errors
     return Way(
-        dt=math.nan if dt is None else dt, level=level, steps=int(attrs["steps"]),
-        seconds=seconds, share=seconds / motion.duration, displacement=displacement,
-        base_shear=base_shear, acceleration=acceleration, status=str(attrs["status"]),
-    )  # fmt: skip
+        dt=math.nan if dt is None else dt,
+        level=level,
+        steps=int(attrs["steps"]),
+        seconds=seconds,
+        share=seconds / motion.duration,
+        displacement=displacement,
+        base_shear=base_shear,
+        acceleration=acceleration,
+        status=str(attrs["status"]),
+    )

@@ -53,19 +53,23 @@ def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
         "structure": [("The model", lambda: model_view(run.frame))],
         "bearings": [("The bearing, to scale", lambda: bearing_dimensions(device))],
         "motions": [
-            ("Spectra of the motions as they were run, and the design spectrum",
-             lambda: motion_spectra(run.motions, run.spectrum)),
+            (
+                "Spectra of the motions as they were run, and the design spectrum",
+                lambda: motion_spectra(run.motions, run.spectrum),
+            ),
         ],
         "histories": [
-            (f"The bearing before, during and after the impact, {bearing}; {where}",
-             lambda: bearing_sections(data, bearing=bearing)),
+            (
+                f"The bearing before, during and after the impact, {bearing}; {where}",
+                lambda: bearing_sections(data, bearing=bearing),
+            ),
             (f"Force over displacement, {bearing}; {where}", lambda: hysteresis(data, bearing)),
             (f"Orbits, {bearing}; {where}", lambda: orbits(data, bearing)),
             (f"Storeys; {where}", lambda: storey_profiles(data)),
             (f"Bearings in plan; {where}", lambda: bearing_plan(data)),
             (f"Energy; {where}", lambda: energy(data)),
         ],
-    }  # fmt: skip
+    }
     return {
         section: [Picture(title, _embedded(draw())) for title, draw in made]
         for section, made in plans.items()

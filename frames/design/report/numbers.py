@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from frames.design.codes.bounds import with_property_bounds
-from frames.design.histories.suite import reached
+from frames.design.histories.suite import peaks_of_runs
 from frames.recording.recovery import member_forces
 from frames.results.envelopes import envelope
 from frames.statics.modes import modes
@@ -19,10 +19,12 @@ if TYPE_CHECKING:
     from frames.design.project.design_run import ProjectRun
 
 _REACHED = {
-    "displacement [m]": ("displacement", 1.0), "slip [m]": ("slip", 1.0),
-    "rim force [N]": ("rim_force", 1.0), "largest load [N]": ("axial_force", 1.0),
+    "displacement [m]": ("displacement", 1.0),
+    "slip [m]": ("slip", 1.0),
+    "rim force [N]": ("rim_force", 1.0),
+    "largest load [N]": ("axial_force", 1.0),
     "least load [N]": ("axial_tension", -1.0),
-}  # fmt: skip
+}
 """What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
 
 _COUNT = 6
@@ -56,7 +58,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     )
     for title, (name, sign) in _REACHED.items():
         every = (data for each in run.runs.values() for data in each.values())
-        values = [reached(data, name).max(axis=0) for data in every]
+        values = [peaks_of_runs(data, name).max(axis=0) for data in every]
         table[title] = sign * np.max(values, axis=0)
     return table
 
@@ -154,13 +156,18 @@ def member_table(run: ProjectRun) -> pd.DataFrame:
                 largest[members][:, :, c].max(axis=1),
                 smallest[members][:, :, c].min(axis=1),
             )
-            rows.append({
-                "group": group, "members": len(members), "force": component,
-                "unit": _COMPONENTS[component], "smallest": float(low.min()),
-                "member of smallest": names[members[int(low.argmin())]],
-                "largest": float(high.max()),
-                "member of largest": names[members[int(high.argmax())]],
-            })  # fmt: skip
+            rows.append(
+                {
+                    "group": group,
+                    "members": len(members),
+                    "force": component,
+                    "unit": _COMPONENTS[component],
+                    "smallest": float(low.min()),
+                    "member of smallest": names[members[int(low.argmin())]],
+                    "largest": float(high.max()),
+                    "member of largest": names[members[int(high.argmax())]],
+                }
+            )
     table = pd.DataFrame(rows).set_index("group")
     size = table[["smallest", "largest"]].abs().max(axis=1)
     return table[size > _ROUND_OFF * size.groupby(table["unit"]).transform("max")]
@@ -180,6 +187,9 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "bearings", "friction", "modes", "members", "programme" of tests.
     """
     return {
-        "bearings": bearing_table(run), "friction": friction_table(run),
-        "modes": mode_table(run), "members": member_table(run), "programme": run.programme,
-    }  # fmt: skip
+        "bearings": bearing_table(run),
+        "friction": friction_table(run),
+        "modes": mode_table(run),
+        "members": member_table(run),
+        "programme": run.programme,
+    }

@@ -61,9 +61,12 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         The page: styles and pictures are in it, nothing is fetched.
     """
     page = jinja2.Environment(
-        loader=jinja2.PackageLoader("frames.design.report", "."), autoescape=True,
-        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
-    ).get_template("report.html.j2")  # fmt: skip
+        loader=jinja2.PackageLoader("frames.design.report", "."),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    ).get_template("report.html.j2")
     device = next(iter(run.frame.bearings.values())).bearing
     return page.render(
         name=run.frame.name,
@@ -98,8 +101,11 @@ def _levels(run: ProjectRun) -> str:
     levels = run.rules.levels
     if len(levels) < 2:
         return ""
-    words = {"all": "bearings and structure", "isolation": "the bearings",
-             "superstructure": "what stands on the bearings"}  # fmt: skip
+    words = {
+        "all": "bearings and structure",
+        "isolation": "the bearings",
+        "superstructure": "what stands on the bearings",
+    }
     said = (
         f"{words[one.judges]} at the level {one.name!r}, motions times {one.factor:g}"
         for one in levels

@@ -158,9 +158,13 @@ def fitted(
     while True:
         height = max(height, rounded_up(target.height_ratio * max(radii), 1e-3))
         plain = LIRBearing(
-            radius=radius, slider_height=height, slider_radius=max(radii), friction=friction,
-            capacity=math.inf, interface_friction=math.inf,
-        )  # fmt: skip
+            radius=radius,
+            slider_height=height,
+            slider_radius=max(radii),
+            friction=friction,
+            capacity=math.inf,
+            interface_friction=math.inf,
+        )
         analysis = analyse(plain)
         t = _measures(plain, analysis, system, target, bounds)
         if t.value("e_plate") >= LARGEST_SINE * radius:
@@ -171,11 +175,14 @@ def fitted(
         bearings = [_rimmed(plain, each, t) for each in radii]
         found = [
             device_checks(
-                bearing, (size.least, size.largest), slip=t.value("s"), bounds=bounds,
+                bearing,
+                (size.least, size.largest),
+                slip=t.value("s"),
+                bounds=bounds,
                 limits=target.limits,
             )
             for bearing, size in zip(bearings, sizes, strict=True)
-        ]  # fmt: skip
+        ]
         wanted = [
             rounded_up(max(t.value("s"), _growth(checks) * each), target.slider_step)
             for each, checks in zip(radii, found, strict=True)
@@ -185,9 +192,14 @@ def fitted(
         radii = wanted
     checks = Checks(check for each in found for check in each)
     return Candidate(
-        radius=radius, friction=friction, bearings=tuple(bearings), analysis=analysis,
-        checks=checks, trace=t, lacks=tuple(_lacks(t, analysis, checks, wanted, target, radius)),
-    )  # fmt: skip
+        radius=radius,
+        friction=friction,
+        bearings=tuple(bearings),
+        analysis=analysis,
+        checks=checks,
+        trace=t,
+        lacks=tuple(_lacks(t, analysis, checks, wanted, target, radius)),
+    )
 
 
 def _impossible(
@@ -195,9 +207,14 @@ def _impossible(
 ) -> Candidate:
     edge = t["e_plate"].result
     return Candidate(
-        radius=radius, friction=friction, bearings=(), analysis=analysis, checks=Checks(), trace=t,
+        radius=radius,
+        friction=friction,
+        bearings=(),
+        analysis=analysis,
+        checks=Checks(),
+        trace=t,
         lacks=(f"the plates reach {edge.value:.3g} m from their middle: too deep a bowl",),
-    )  # fmt: skip
+    )
 
 
 def rounded_up(value: float, step: float) -> float:
@@ -227,8 +244,13 @@ def _measures(
     t = Trace()
     t.given("W", system.seismic_weight, "N")
     t.given("V_b", analysis.base_shear, "N", note="largest, without rims")
-    t.given("D", analysis.allowed_displacement, "m", shown="mm",
-            note="that bearings must allow, without rims")  # fmt: skip
+    t.given(
+        "D",
+        analysis.allowed_displacement,
+        "m",
+        shown="mm",
+        note="that bearings must allow, without rims",
+    )
     t.given("R", plain.radii[0], "m")
     t.given("a", plain.slider_radius, "m", shown="mm", note="largest slider")
     t.given("h", plain.slider_height, "m", shown="mm")
@@ -238,8 +260,13 @@ def _measures(
     t("s", "D - U_cap", "m", shown="mm", note="left to the interface")
     t("e_plate", "U_cap * R / L + a", "m", shown="mm", note="edge of the concave surfaces")
     t.given("c", target.clearance, "m", shown="mm", note="between the plates' edges at rest")
-    t("h_min", "2 * (R - sqrt(max(R**2 - e_plate**2, 0))) + c", "m", shown="mm",
-      note="least height of the slider")  # fmt: skip
+    t(
+        "h_min",
+        "2 * (R - sqrt(max(R**2 - e_plate**2, 0))) + c",
+        "m",
+        shown="mm",
+        note="least height of the slider",
+    )
     t.given("mu", plain.frictions[0].f_max, note="nominal")
     upper, inner = (1.0, 1.0)
     if bounds is not None:
@@ -261,9 +288,11 @@ def _rimmed(plain: LIRBearing, slider_radius: float, t: Trace) -> LIRBearing:
     with warnings.catch_warnings():  # the slip that holds is among the checks
         warnings.simplefilter("ignore", DesignWarning)
         return replace(
-            plain, slider_radius=slider_radius, capacity=t.value("U_cap"),
+            plain,
+            slider_radius=slider_radius,
+            capacity=t.value("U_cap"),
             interface_friction=t.value("mu_h"),
-        )  # fmt: skip
+        )
 
 
 def _lacks(

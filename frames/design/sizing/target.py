@@ -87,9 +87,15 @@ class DesignTarget:
             require_positive("radius", radius, "m", error=CheckError)
         require_between("rim_share", self.rim_share, 0.0, 1.0, "-", error=CheckError)
         for name in (
-            "rim_share", "pressure", "largest_pressure", "height_ratio", "rim_width",
-            "clearance", "slider_step", "friction_step",
-        ):  # fmt: skip
+            "rim_share",
+            "pressure",
+            "largest_pressure",
+            "height_ratio",
+            "rim_width",
+            "clearance",
+            "slider_step",
+            "friction_step",
+        ):
             require_positive(name, getattr(self, name), error=CheckError)
         for name in ("max_displacement", "max_base_shear", "max_plan_diameter"):
             value = getattr(self, name)

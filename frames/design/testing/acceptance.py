@@ -157,13 +157,24 @@ class _Set:
         t, judge = self._begin(TO_BE_CONFIRMED)
         found = [self._each(judge, "E", "energy of a cycle", "spread")]
         if reached <= own.capacity:
-            t.given_each("k_d", [sum(c.slopes) / 2.0 for c in self._cycles], "N/m",
-                         note="mean slope of loading")  # fmt: skip
-            t.given_each("k_inc", [min(c.slopes) for c in self._cycles], "N/m",
-                         note="lesser slope of loading")  # fmt: skip
+            t.given_each(
+                "k_d",
+                [sum(c.slopes) / 2.0 for c in self._cycles],
+                "N/m",
+                note="mean slope of loading",
+            )
+            t.given_each(
+                "k_inc",
+                [min(c.slopes) for c in self._cycles],
+                "N/m",
+                note="lesser slope of loading",
+            )
             t.given("k_0", 0.0, "N/m")
-            found.append(judge.worst(self.clause, "slope of loading", "k_inc", ">=", "k_0",
-                                     subjects=self._labels))  # fmt: skip
+            found.append(
+                judge.worst(
+                    self.clause, "slope of loading", "k_inc", ">=", "k_0", subjects=self._labels
+                )
+            )
             found.append(self._each(judge, "k_d", "second stiffness", "spread"))
             found += self._stiffness(judge, own) + self._friction(judge, own)
         return found + self._drops(judge, ("k_eff", "beta_eff"))
@@ -178,16 +189,22 @@ class _Set:
         range_ = factors.lower, factors.upper
         return [
             self._each(judge, "E", "energy of a cycle", "spread"),
-            *self._within(judge, "mu_h", mu, range_, said), *self._drops(judge, ("E",)),
-        ]  # fmt: skip
+            *self._within(judge, "mu_h", mu, range_, said),
+            *self._drops(judge, ("E",)),
+        ]
 
     def _begin(self, standing: str) -> tuple[Trace, CheckBuilder]:
         t = Trace()
         cycles = self._cycles
         t.given_each("E", [c.energy for c in cycles], "J", note="of each cycle")
         t.given_each("N", [c.load for c in cycles], "N", note="mean load of each cycle")
-        t.given_each("Delta", [c.travel / 2.0 for c in cycles], "m", shown="mm",
-                     note="half the way between both ends")  # fmt: skip
+        t.given_each(
+            "Delta",
+            [c.travel / 2.0 for c in cycles],
+            "m",
+            shown="mm",
+            note="half the way between both ends",
+        )
         t.given("n", float(len(cycles)), note="cycles")
         t.given("spread", self.limits.spread, shown="%")
         t.given("drop", self.limits.drop, shown="%")
@@ -197,8 +214,14 @@ class _Set:
         # Deviation of each cycle from the mean.
         judge.t(f"{symbol}_mean", f"sum({symbol}) / n", judge.t[symbol].unit)
         judge.t.each(f"dev_{symbol}", f"abs({symbol} / {symbol}_mean - 1)", shown="%")
-        return judge.worst(self._cited(judge), f"{title}, off the set's mean", f"dev_{symbol}",
-                           "<=", limit, subjects=self._labels)  # fmt: skip
+        return judge.worst(
+            self._cited(judge),
+            f"{title}, off the set's mean",
+            f"dev_{symbol}",
+            "<=",
+            limit,
+            subjects=self._labels,
+        )
 
     def _stiffness(self, judge: CheckBuilder, own: FrictionPendulum) -> list[Check]:
         t = judge.t
@@ -254,8 +277,16 @@ class _Set:
             t.given_each(f"{symbol}_1", [v[0] for v in values], unit, note="first cycle")
             t.given_each(f"{symbol}_least", [min(v) for v in values], unit, note="of its test")
             t.each(f"drop_{symbol}", f"1 - {symbol}_least / {symbol}_1", shown="%")
-            found.append(judge.worst(self._cited(judge), f"{_TITLES[symbol]}: drop over the cycles",
-                                     f"drop_{symbol}", "<=", "drop", subjects=names))  # fmt: skip
+            found.append(
+                judge.worst(
+                    self._cited(judge),
+                    f"{_TITLES[symbol]}: drop over the cycles",
+                    f"drop_{symbol}",
+                    "<=",
+                    "drop",
+                    subjects=names,
+                )
+            )
         return found
 
     def _cited(self, judge: CheckBuilder) -> str:

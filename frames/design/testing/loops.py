@@ -150,13 +150,19 @@ def loop_properties(test: PrototypeTest) -> pd.DataFrame:
 
     rows = [
         {
-            "displacement + [m]": c.highest, "displacement - [m]": c.lowest,
-            "force + [N]": c.force_high, "force - [N]": c.force_low,
-            "k_eff [N/m]": c.stiffness, "beta_eff [-]": c.damping, "E_loop [J]": c.energy,
-            "k_d [N/m]": sum(c.slopes) / 2.0, "friction [-]": c.friction, "load [N]": c.load,
+            "displacement + [m]": c.highest,
+            "displacement - [m]": c.lowest,
+            "force + [N]": c.force_high,
+            "force - [N]": c.force_low,
+            "k_eff [N/m]": c.stiffness,
+            "beta_eff [-]": c.damping,
+            "E_loop [J]": c.energy,
+            "k_d [N/m]": sum(c.slopes) / 2.0,
+            "friction [-]": c.friction,
+            "load [N]": c.load,
         }
         for c in test.cycles
-    ]  # fmt: skip
+    ]
     return pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="cycle"))
 
 
@@ -182,9 +188,14 @@ def _cycles_of(
         energy = float(np.trapezoid(np.append(f, f[0]), np.append(d, d[0])))
         (slope_1, top), (slope_2, bottom) = ends
         cycle = Cycle(
-            float(moved[high]), float(moved[low]), top, bottom, energy,
-            float(load[begin : end + 1].mean()), (slope_1, slope_2),
-        )  # fmt: skip
+            float(moved[high]),
+            float(moved[low]),
+            top,
+            bottom,
+            energy,
+            float(load[begin : end + 1].mean()),
+            (slope_1, slope_2),
+        )
         found.append(cycle if sign > 0.0 else _mirrored(cycle))
         begin = end
     if not found:
@@ -199,9 +210,12 @@ def _cycles_of(
 
 def _mirrored(cycle: Cycle) -> Cycle:
     return cycle._replace(
-        highest=-cycle.lowest, lowest=-cycle.highest, force_high=-cycle.force_low,
-        force_low=-cycle.force_high, slopes=cycle.slopes[::-1],
-    )  # fmt: skip
+        highest=-cycle.lowest,
+        lowest=-cycle.highest,
+        force_high=-cycle.force_low,
+        force_low=-cycle.force_high,
+        slopes=cycle.slopes[::-1],
+    )
 
 
 def _half_cycles(moved: FloatArray) -> IntArray:

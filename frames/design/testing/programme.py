@@ -216,8 +216,9 @@ def _loads(
 
 def _wind(d: _Design, clause: str) -> PlannedTest:
     force = math.nan if d.demands.wind is None else d.demands.wind
-    return PlannedTest("wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause,
-                       force)  # fmt: skip
+    return PlannedTest(
+        "wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause, force
+    )
 
 
 def _increments(
@@ -226,38 +227,66 @@ def _increments(
     # Steps of displacement [m] by name with their speed [m/s], at each of three loads.
     for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
         for name, at, speed in steps:
-            yield PlannedTest(f"increments, {words} load, {name}", at, load, 3.0, speed,
-                              "stiffness and energy at each displacement", clause)  # fmt: skip
+            yield PlannedTest(
+                f"increments, {words} load, {name}",
+                at,
+                load,
+                3.0,
+                speed,
+                "stiffness and energy at each displacement",
+                clause,
+            )
 
 
 def _stable(d: _Design, name: str, displacement: float, clause: str) -> PlannedTest:
     return PlannedTest(
-        f"maximum displacement, {name}", displacement, d.average, 3.0, d.speed_at(displacement),
-        f"stable at {name}", clause,
-    )  # fmt: skip
+        f"maximum displacement, {name}",
+        displacement,
+        d.average,
+        3.0,
+        d.speed_at(displacement),
+        f"stable at {name}",
+        clause,
+    )
 
 
 def _many(d: _Design, at: tuple[str, float, float], cycles: float, clause: str) -> PlannedTest:
     name, displacement, speed = at
     return PlannedTest(
-        f"many cycles, {name}", displacement, d.average, cycles, speed,
-        "heat and wear over an earthquake", clause,
-    )  # fmt: skip
+        f"many cycles, {name}",
+        displacement,
+        d.average,
+        cycles,
+        speed,
+        "heat and wear over an earthquake",
+        clause,
+    )
 
 
 def _static(d: _Design, clause: str) -> Iterable[PlannedTest]:
     for words, load in (("largest", d.largest), ("least", d.least)):
         yield PlannedTest(
-            f"static, {words} load, D_TM", d.result.total_displacement, load, 1.0,
-            d.demands.slow_speed, "carries its load at D_TM", clause,
-        )  # fmt: skip
+            f"static, {words} load, D_TM",
+            d.result.total_displacement,
+            load,
+            1.0,
+            d.demands.slow_speed,
+            "carries its load at D_TM",
+            clause,
+        )
 
 
 def _asce7(d: _Design) -> Iterable[PlannedTest]:
     clause, t, moved = _TESTS["ASCE 7-22"], d.result.trace, d.result.displacement
-    yield PlannedTest("production, each bearing", 0.67 * moved, d.average, 3.0,
-                      d.demands.slow_speed, "each bearing is as the prototypes",
-                      "ASCE 7-22 17.8.5")  # fmt: skip
+    yield PlannedTest(
+        "production, each bearing",
+        0.67 * moved,
+        d.average,
+        3.0,
+        d.demands.slow_speed,
+        "each bearing is as the prototypes",
+        "ASCE 7-22 17.8.5",
+    )
     yield _wind(d, f"{clause} (1)")
     steps = [(f"{share:g} D_M", share * moved, d.speed_at(share * moved)) for share in _STEPS]
     yield from _increments(d, steps, f"{clause} (2)")
@@ -297,9 +326,11 @@ def _nch2745(d: _Design) -> Iterable[PlannedTest]:
     design, most = t.value("D_D"), t.value("D_M")
     yield _wind(d, clause)
     steps = (
-        at_design("0.2 D_D", 0.2 * design), at_design("0.5 D_D", 0.5 * design),
-        at_design("D_D", design), ("D_M", most, d.speed_at(most)),
-    )  # fmt: skip
+        at_design("0.2 D_D", 0.2 * design),
+        at_design("0.5 D_D", 0.5 * design),
+        at_design("D_D", design),
+        ("D_M", most, d.speed_at(most)),
+    )
     yield from _increments(d, steps, clause)
     yield _stable(d, "D_TM", d.result.total_displacement, clause)
     yield _many(d, at_design("D_TD", t.value("D_TD")), 10.0, clause)
@@ -330,31 +361,54 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
     for words, load in (("largest", d.largest), ("least", d.least)):
         for pace, at in (("slow", slow), ("fast", speed)):
             yield PlannedTest(
-                f"interface alone, {words} load, {pace}", slip, load, 3.0, at,
-                "friction of the interface: what holds it, and limits the impact", PROPOSAL,
+                f"interface alone, {words} load, {pace}",
+                slip,
+                load,
+                3.0,
+                at,
+                "friction of the interface: what holds it, and limits the impact",
+                PROPOSAL,
                 alone=True,
-            )  # fmt: skip
+            )
     for words, load in (("average", d.average), ("largest", d.largest)):
         yield PlannedTest(
-            f"impact and return, {words} load", rim + slip, load, 3.0, speed,
+            f"impact and return, {words} load",
+            rim + slip,
+            load,
+            3.0,
+            speed,
             "rims met, interface slips and comes back; slip left, liner and rims looked at",
             PROPOSAL,
-        )  # fmt: skip
+        )
     moved = min(d.result.displacement, 0.9 * rim)
-    yield PlannedTest("after the impacts", moved, d.average, 3.0, slow,
-                      "the interface holds again: loop as before", PROPOSAL)  # fmt: skip
+    yield PlannedTest(
+        "after the impacts",
+        moved,
+        d.average,
+        3.0,
+        slow,
+        "the interface holds again: loop as before",
+        PROPOSAL,
+    )
 
 
 def _row(kind: str, test: PlannedTest, design: _Design) -> dict[str, object]:
     least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {
-        "bearings": kind, "what": test.name, "displacement [m]": test.displacement,
-        "vertical load [N]": test.load, "cycles": test.cycles, "period [s]": period,
-        "peak speed [m/s]": test.speed, "least force [N]": least, "largest force [N]": most,
-        "shows": test.shows, "clause": test.clause,
+        "bearings": kind,
+        "what": test.name,
+        "displacement [m]": test.displacement,
+        "vertical load [N]": test.load,
+        "cycles": test.cycles,
+        "period [s]": period,
+        "peak speed [m/s]": test.speed,
+        "least force [N]": least,
+        "largest force [N]": most,
+        "shows": test.shows,
+        "clause": test.clause,
         "standing": "a proposal" if test.clause == PROPOSAL else TO_BE_CONFIRMED,
-    }  # fmt: skip
+    }
 
 
 def pressure_factor(bearing: LIRBearing | FrictionPendulum, load: float) -> float:

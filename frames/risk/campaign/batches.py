@@ -214,13 +214,17 @@ class _Runs:
 
     def _histories(self, frames: dict[str, Frame], rows: dict[str, list[int]]) -> xr.Dataset:
         runs = [(key, self._work.plan.run(row)) for key, own in rows.items() for row in own]
-        return _untimed(time_histories(
-            {key: frames[key] for key in rows},
-            {run.motion: self._work.motions[run.motion] for _, run in runs},
-            cases=[(key, run.motion, run.scale) for key, run in runs],
-            record=self._work.record, workers=self._workers, progress=self._told,
-            **self._work.options,
-        ))  # fmt: skip
+        return _untimed(
+            time_histories(
+                {key: frames[key] for key in rows},
+                {run.motion: self._work.motions[run.motion] for _, run in runs},
+                cases=[(key, run.motion, run.scale) for key, run in runs],
+                record=self._work.record,
+                workers=self._workers,
+                progress=self._told,
+                **self._work.options,
+            )
+        )
 
 
 def _extra(data: xr.Dataset, layout: xr.Dataset) -> str:

@@ -114,9 +114,14 @@ class Campaign:
         factors = tuple(c.scale for c in grid(one, {first: None}, scales, None))
         self.store = CampaignStore(store)
         options = {
-            "duration": duration, "dt": dt, "level": level, "integrator": integrator,
-            "spectral_radius": spectral_radius, "tolerance": tolerance, "features": features,
-        }  # fmt: skip
+            "duration": duration,
+            "dt": dt,
+            "level": level,
+            "integrator": integrator,
+            "spectral_radius": spectral_radius,
+            "tolerance": tolerance,
+            "features": features,
+        }
         plan = Plan(tuple(structures), tuple(grounds), factors, sample, FEWEST)
         if batch is not None:
             plan = replace(plan, batch=whole("batch", batch, 1))

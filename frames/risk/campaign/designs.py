@@ -16,10 +16,18 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 FIELDS = (
-    "radius", "slider_height", "slider_radius", "capacity", "interface_friction",
-    "axial_stiffness", "axial_damping", "rim_stiffness", "rim_damping", "yield_displacement",
+    "radius",
+    "slider_height",
+    "slider_radius",
+    "capacity",
+    "interface_friction",
+    "axial_stiffness",
+    "axial_damping",
+    "rim_stiffness",
+    "rim_damping",
+    "yield_displacement",
     "interface_yield_displacement",
-)  # fmt: skip
+)
 """Fields of `LIRBearing` that a sample may name: one number for both surfaces, SI."""
 
 LAW = "f_max", "f_min", "rate"

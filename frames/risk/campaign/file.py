@@ -11,7 +11,7 @@ from scipy import stats
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.quantities import Length, Ratio, SpeedRate, Time
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, MotionSource, Section, Structure
+from frames.design.project.schema import Bearing, MotionSource, Structure, Table
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
@@ -28,7 +28,7 @@ STORE = "results"
 """Folder of the results beside the file, if nothing is said: the file's name and this."""
 
 
-class About(Section):
+class CampaignTable(Table):
     """``[campaign]``: its name, and whether plain bearings are run beside."""
 
     name: str = Field(min_length=1)
@@ -42,7 +42,7 @@ class CampaignMotions(MotionSource):
     scales: tuple[float, ...] = Field(default=(1.0,), min_length=1)
 
 
-class Sampling(Section):
+class Sampling(Table):
     """``[sample]``: how sets of parameters are chosen."""
 
     kind: Literal["grid", "latin hypercube", "sobol"]
@@ -58,7 +58,7 @@ class Sampling(Section):
         return self
 
 
-class Range(Section, Generic[T]):
+class Range(Table, Generic[T]):
     """Values of a parameter, or bounds between which it is distributed."""
 
     values: tuple[T, ...] | None = Field(default=None, min_length=1)
@@ -82,7 +82,7 @@ class Range(Section, Generic[T]):
         return self
 
 
-class Parameters(Section):
+class Parameters(Table):
     """``[parameters]``: what of the bearings is varied."""
 
     radius: Range[Length] | None = None
@@ -96,7 +96,7 @@ class Parameters(Section):
     interface_friction: Range[Ratio] | None = None
 
 
-class CampaignAnalysis(Section):
+class CampaignAnalysis(Table):
     """``[analysis]``: how time histories are run."""
 
     level: Literal["pendulum", "contact"] = "pendulum"
@@ -105,10 +105,10 @@ class CampaignAnalysis(Section):
     workers: int | None = Field(default=None, ge=1)
 
 
-class CampaignFile(Section):
+class CampaignFile(Table):
     """A whole file."""
 
-    campaign: About
+    campaign: CampaignTable
     structure: Structure
     bearing: Bearing
     motions: CampaignMotions
@@ -150,14 +150,20 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
     bearing, name = bearing_of(file.bearing), file.campaign.name
     frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder))
     given = file.analysis
-    return in_section("campaign", lambda: Campaign(
-        _devices(frame, file.campaign.devices),
-        motions_of(file.motions, folder),
-        store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
-        sample=in_section("sample", lambda: _sample(file)),
-        scales=file.motions.scales, batch=file.campaign.batch,
-        level=given.level, dt=given.dt, duration=given.duration,
-    ))  # fmt: skip
+    return in_section(
+        "campaign",
+        lambda: Campaign(
+            _devices(frame, file.campaign.devices),
+            motions_of(file.motions, folder),
+            store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
+            sample=in_section("sample", lambda: _sample(file)),
+            scales=file.motions.scales,
+            batch=file.campaign.batch,
+            level=given.level,
+            dt=given.dt,
+            duration=given.duration,
+        ),
+    )
 
 
 def workers_of(path: str | Path) -> int | None:

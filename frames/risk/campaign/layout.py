@@ -71,11 +71,14 @@ def lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
     for name in layout.data_vars:
         variable, is_text = layout[name], layout[name].dtype.kind != "f"
         group.create_array(
-            str(name), shape=(plan.runs, *variable.shape[1:]),
+            str(name),
+            shape=(plan.runs, *variable.shape[1:]),
             chunks=(plan.batch, *(max(size, 1) for size in variable.shape[1:])),
-            dtype="string" if is_text else "float64", fill_value="" if is_text else np.nan,
-            dimension_names=tuple(map(str, variable.dims)), attributes=dict(variable.attrs),
-        )  # fmt: skip
+            dtype="string" if is_text else "float64",
+            fill_value="" if is_text else np.nan,
+            dimension_names=tuple(map(str, variable.dims)),
+            attributes=dict(variable.attrs),
+        )
     for name, values in planned.items():
         _fill(group, name, ("run",), values, {})
     for name, variable in labels.items():
@@ -100,8 +103,12 @@ def _planned(plan: Plan) -> dict[str, Any]:
 def _fill(group: Any, name: str, dims: tuple[str, ...], values: Any, attrs: Any) -> None:
     is_text = values.dtype.kind not in "fiu"
     array = group.create_array(
-        name, shape=values.shape, chunks=tuple(max(size, 1) for size in values.shape),
-        dtype="string" if is_text else values.dtype, fill_value="" if is_text else 0,
-        dimension_names=dims, attributes=dict(attrs),
-    )  # fmt: skip
+        name,
+        shape=values.shape,
+        chunks=tuple(max(size, 1) for size in values.shape),
+        dtype="string" if is_text else values.dtype,
+        fill_value="" if is_text else 0,
+        dimension_names=dims,
+        attributes=dict(attrs),
+    )
     array[...] = values.astype(object) if is_text else values

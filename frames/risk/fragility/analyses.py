@@ -17,11 +17,11 @@ from lir_element.argument_checks import require_positive, require_type
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
 
 
 def ida(
-    model: FrameContents,
+    model: FrameData,
     motions: object,
     *,
     intensity: Intensity,
@@ -108,7 +108,7 @@ def _next_cases(
 
 
 def multiple_stripes(
-    model: FrameContents,
+    model: FrameData,
     motions: object,
     levels: Sequence[float],
     *,
@@ -151,7 +151,7 @@ def multiple_stripes(
 
 
 def cloud_analysis(
-    model: FrameContents,
+    model: FrameData,
     motions: object,
     *,
     intensity: Intensity,

@@ -85,10 +85,13 @@ def fit_cloud(
         msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more"
         raise FragilityError(msg)
     common: dict[str, Any] = {
-        "name": name, "unit": unit_of(unit, intensity), "intensity": intensity,
-        "records": tuple(names), "seed": seed,
+        "name": name,
+        "unit": unit_of(unit, intensity),
+        "intensity": intensity,
+        "records": tuple(names),
+        "seed": seed,
         "data": pd.DataFrame({"im": at, "demand": found, "collapsed": fell}),
-    }  # fmt: skip
+    }
     goal = math.log(bound)
     if not fell.any():
 
@@ -98,10 +101,13 @@ def fit_cloud(
 
         median, dispersion = _of_line(line, goal)
         return Fragility(
-            method="cloud (Jalayer et al. 2017)", median=float(median),
-            dispersion=float(dispersion), covariance=_cloud_covariance(x, line, goal),
-            parameters=resampled(len(names), plain, 2, resamples, seed), **common,
-        )  # fmt: skip
+            method="cloud (Jalayer et al. 2017)",
+            median=float(median),
+            dispersion=float(dispersion),
+            covariance=_cloud_covariance(x, line, goal),
+            parameters=resampled(len(names), plain, 2, resamples, seed),
+            **common,
+        )
     fitted = binomial(at, fell.astype(np.float64), np.ones(len(at)), "logit")
     if fitted is None:
         raise FragilityError(no_fit(at, fell.astype(np.float64)))
@@ -115,10 +121,12 @@ def fit_cloud(
         return None if again is None or falls is None else np.array([*again, *falls.parameters])
 
     return CollapseFragility(
-        method="cloud with collapse (Jalayer et al. 2017)", limit=bound,
+        method="cloud with collapse (Jalayer et al. 2017)",
+        limit=bound,
         values=(float(line[0]), float(line[1]), float(line[2]), float(start[0]), float(start[1])),
-        parameters=resampled(len(names), both, 5, resamples, seed), **common,
-    )  # fmt: skip
+        parameters=resampled(len(names), both, 5, resamples, seed),
+        **common,
+    )
 
 
 def _line(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray | None:
@@ -147,7 +155,10 @@ def _cloud_covariance(x: FloatArray, line: FloatArray, goal: float) -> FloatArra
     whole[:2, :2] = spread**2 * np.linalg.inv(design.T @ design)
     whole[2, 2] = 0.5 * spread**2 / (len(x) - 2.0)
     log_median = (goal - start) / slope
-    jacobian = np.array([
-        [-1.0 / slope, -log_median / slope, 0.0], [0.0, -spread / slope**2, 1.0 / slope],
-    ])  # fmt: skip
+    jacobian = np.array(
+        [
+            [-1.0 / slope, -log_median / slope, 0.0],
+            [0.0, -spread / slope**2, 1.0 / slope],
+        ]
+    )
     return np.asarray(jacobian @ whole @ jacobian.T)

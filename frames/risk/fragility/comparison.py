@@ -131,8 +131,10 @@ def compare_fragility(
         require_type(name, curve, (Fragility, CollapseFragility), "a fragility curve")
     require_one_measure(first, second, ("the first curve", "the second"))
     same = (first.records, first.seed, len(first.parameters)) == (
-        second.records, second.seed, len(second.parameters)
-    )  # fmt: skip
+        second.records,
+        second.seed,
+        len(second.parameters),
+    )
     if not same or not first.records:
         msg = (
             "the curves are not of the same records, seed and resamples: fit both to runs under "

@@ -62,9 +62,12 @@ class Estimate(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         measure = "" if self.intensity is None else self.intensity.label
         found = [
-            ("limit state", self.name), ("intensity", measure), *self._numbers(),
-            ("method", self.method), ("records", str(len(self.records))),
-        ]  # fmt: skip
+            ("limit state", self.name),
+            ("intensity", measure),
+            *self._numbers(),
+            ("method", self.method),
+            ("records", str(len(self.records))),
+        ]
         lost = f"{self.lost} of {len(self.parameters)}" if self.lost else ""
         return [*found, ("resamples without a fit", lost)]
 
@@ -172,8 +175,10 @@ class Fragility(Estimate):
 
     def _numbers(self) -> list[tuple[str, str]]:
         added = f" ({self.added:.3g} of it added)" if self.added else ""
-        return [("median", f"{self.median:.4g} {self.unit}"),
-                ("dispersion", f"{self.dispersion:.3g}{added}")]  # fmt: skip
+        return [
+            ("median", f"{self.median:.4g} {self.unit}"),
+            ("dispersion", f"{self.dispersion:.3g}{added}"),
+        ]
 
     def probability(self, im: npt.ArrayLike) -> FloatArray:
         """Return probabilities at intensities, in their shape."""
@@ -366,10 +371,18 @@ def lognormal_fragility(
     middle = require_positive("median", median, own, error=FragilityError)
     spread = require_positive("dispersion", dispersion, "-", error=FragilityError)
     return Fragility(
-        name=name, unit=own, intensity=intensity, method="given", records=(), seed=0,
-        parameters=np.array([[middle, spread]]), data=pd.DataFrame({"im": [2.0 * middle]}),
-        median=middle, dispersion=spread, covariance=np.zeros((2, 2)),
-    )  # fmt: skip
+        name=name,
+        unit=own,
+        intensity=intensity,
+        method="given",
+        records=(),
+        seed=0,
+        parameters=np.array([[middle, spread]]),
+        data=pd.DataFrame({"im": [2.0 * middle]}),
+        median=middle,
+        dispersion=spread,
+        covariance=np.zeros((2, 2)),
+    )
 
 
 def checked_confidence(confidence: float) -> float:

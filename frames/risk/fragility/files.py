@@ -135,12 +135,18 @@ def _read(value: Any) -> Any:
     of: Any = (_KINDS | _PARTS)[kind]
     own = {field.name: value[field.name] for field in fields(of)}
     arrays = {"parameters", "covariance", "resampled", "im", "contribution", "rate"}
-    return of(**{
-        name: _array(each) if name in arrays and isinstance(each, list)
-        else tuple(each) if isinstance(each, list)
-        else _number(each) if name in _NUMBERS else _read(each)
-        for name, each in own.items()
-    })  # fmt: skip
+    return of(
+        **{
+            name: _array(each)
+            if name in arrays and isinstance(each, list)
+            else tuple(each)
+            if isinstance(each, list)
+            else _number(each)
+            if name in _NUMBERS
+            else _read(each)
+            for name, each in own.items()
+        }
+    )
 
 
 _NUMBERS = {"median", "dispersion", "added", "rate", "above", "highest", "limit"}

@@ -100,16 +100,26 @@ def fit_stripes(
     median, dispersion = _lognormal(start)
     b0, b1 = start
     jacobian = np.array([[-1.0 / b1, b0 / b1**2], [0.0, -1.0 / b1**2]])
-    data = pd.DataFrame({
-        "im": levels, "exceeded": np.bincount(level, over), "total": np.bincount(level),
-    })  # fmt: skip
+    data = pd.DataFrame(
+        {
+            "im": levels,
+            "exceeded": np.bincount(level, over),
+            "total": np.bincount(level),
+        }
+    )
     return Fragility(
-        name=name, unit=unit_of(unit, intensity), intensity=intensity,
-        method="maximum likelihood (Baker 2015)", records=tuple(names),
-        seed=seed, parameters=resampled(len(names), again, 2, resamples, seed), data=data,
-        median=float(median), dispersion=float(dispersion),
+        name=name,
+        unit=unit_of(unit, intensity),
+        intensity=intensity,
+        method="maximum likelihood (Baker 2015)",
+        records=tuple(names),
+        seed=seed,
+        parameters=resampled(len(names), again, 2, resamples, seed),
+        data=data,
+        median=float(median),
+        dispersion=float(dispersion),
         covariance=jacobian @ fitted.covariance @ jacobian.T,
-    )  # fmt: skip
+    )
 
 
 def fit_capacities(
@@ -205,13 +215,18 @@ def fit_capacities(
         msg = f"capacities {at.tolist()} determine no curve: run more records, or higher"
         raise FragilityError(msg)
     return Fragility(
-        name=name, unit=unit_of(unit, intensity), intensity=intensity,
+        name=name,
+        unit=unit_of(unit, intensity),
+        intensity=intensity,
         method=f"IDA, {chosen} (Baker 2015)",
-        records=tuple(sorted(map(str, records))), seed=seed,
+        records=tuple(sorted(map(str, records))),
+        seed=seed,
         parameters=resampled(len(at), fit, 2, resamples, seed),
         data=pd.DataFrame({"capacity": at, "censored": open_}),
-        median=float(whole[0]), dispersion=float(whole[1]), covariance=covariance,
-    )  # fmt: skip
+        median=float(whole[0]),
+        dispersion=float(whole[1]),
+        covariance=covariance,
+    )
 
 
 def _lognormal(parameters: FloatArray) -> FloatArray:

@@ -79,8 +79,11 @@ class HazardCurve(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         (low, high), rate = self.ends, np.asarray(self.rate, dtype=np.float64)
         measure = "not stated" if self.intensity is None else self.intensity.label
-        return [("intensity", measure), ("from", f"{low:g} to {high:g} {self.unit}"),
-                ("rates", f"{rate[0]:.3g} to {rate[-1]:.3g} 1/year")]  # fmt: skip
+        return [
+            ("intensity", measure),
+            ("from", f"{low:g} to {high:g} {self.unit}"),
+            ("rates", f"{rate[0]:.3g} to {rate[-1]:.3g} 1/year"),
+        ]
 
     @classmethod
     def power(

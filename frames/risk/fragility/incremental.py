@@ -81,9 +81,12 @@ class IDA(Shown):
             msg = f"motion = {motion!r}: choose one of {', '.join(self.runs.motions)}"
             raise FragilityError(msg)
         own = self.runs.table["motion"].to_numpy() == motion
-        found = pd.DataFrame({
-            "im": self.runs.table["im"].to_numpy()[own], "demand": self.runs.demand(quantity)[own],
-        })  # fmt: skip
+        found = pd.DataFrame(
+            {
+                "im": self.runs.table["im"].to_numpy()[own],
+                "demand": self.runs.demand(quantity)[own],
+            }
+        )
         return found.dropna().sort_values("im", ignore_index=True)
 
     def capacities(self, limit: LimitState | None = None) -> pd.DataFrame:
@@ -232,8 +235,13 @@ def _first_crossing(
     # Of the runs of one motion in rising order.
     if not exceeds.any():
         top = float(im[-1])
-        return {"capacity": top, "lower": top, "upper": math.nan, "censored": True,
-                "resurrects": False}  # fmt: skip
+        return {
+            "capacity": top,
+            "lower": top,
+            "upper": math.nan,
+            "censored": True,
+            "resurrects": False,
+        }
     k = int(np.argmax(exceeds))
     lower, upper = (float(im[k - 1]) if k else 0.0), float(im[k])
     before = 0.0 if k == 0 or values is None else float(values[k - 1])
@@ -241,5 +249,10 @@ def _first_crossing(
         capacity = lower + (upper - lower) * (limit - before) / (float(values[k]) - before)
     else:
         capacity = math.sqrt(lower * upper) if lower > 0.0 else 0.5 * upper
-    return {"capacity": capacity, "lower": lower, "upper": upper, "censored": False,
-            "resurrects": bool((~exceeds[k:]).any())}  # fmt: skip
+    return {
+        "capacity": capacity,
+        "lower": lower,
+        "upper": upper,
+        "censored": False,
+        "resurrects": bool((~exceeds[k:]).any()),
+    }

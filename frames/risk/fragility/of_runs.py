@@ -70,22 +70,38 @@ def fragility_of(
             raise FragilityError(msg)
         found = capacities_of(each, limit)
         return fit_capacities(
-            found["capacity"].to_numpy(), list(found.index), censored=found["censored"].to_numpy(),
-            name=name, intensity=measure, resamples=resamples, seed=seed,
-        )  # fmt: skip
+            found["capacity"].to_numpy(),
+            list(found.index),
+            censored=found["censored"].to_numpy(),
+            name=name,
+            intensity=measure,
+            resamples=resamples,
+            seed=seed,
+        )
     require_beforehand(each.table.assign(plan=HUNT) if is_ida else each.table, chosen)
     if chosen == "stripes":
         return fit_stripes(
-            im, each.exceeded(limit), records,
-            name=name, intensity=measure, resamples=resamples, seed=seed,
-        )  # fmt: skip
+            im,
+            each.exceeded(limit),
+            records,
+            name=name,
+            intensity=measure,
+            resamples=resamples,
+            seed=seed,
+        )
     if limit.quantity is None or limit.limit is None:
         msg = f"{limit.name} has no demand to regress: take method='stripes'"
         raise FragilityError(msg)
     return fit_cloud(
-        im, each.demand(limit.quantity), limit.limit, records,
-        name=name, intensity=measure, resamples=resamples, seed=seed,
-    )  # fmt: skip
+        im,
+        each.demand(limit.quantity),
+        limit.limit,
+        records,
+        name=name,
+        intensity=measure,
+        resamples=resamples,
+        seed=seed,
+    )
 
 
 def _usual(plans: set[str], limit: LimitState) -> Literal["capacities", "stripes", "cloud"]:

@@ -80,8 +80,13 @@ def fragility_curves(
     for k, (name, curve) in enumerate(named):
         look = ps.line_of(k, 0.3)
         if curve.records:
-            panel.fill_between(size * im, *curve.band(im, confidence), color=look["color"],
-                               alpha=0.15, linewidth=0.0)  # fmt: skip
+            panel.fill_between(
+                size * im,
+                *curve.band(im, confidence),
+                color=look["color"],
+                alpha=0.15,
+                linewidth=0.0,
+            )
         panel.plot(size * im, curve.probability(im), **look)
         _data(panel, curve, size, look["color"])
         handles.append(Line2D([], [], label=name, **look))
@@ -165,8 +170,9 @@ def risk_deaggregation(
     handles: list[Artist] = []
     for k, (name, one) in enumerate(named):
         look = ps.line_of(k, 0.3)
-        panel.fill_between(size * one.im, one.contribution, color=look["color"], alpha=0.12,
-                           linewidth=0.0)  # fmt: skip
+        panel.fill_between(
+            size * one.im, one.contribution, color=look["color"], alpha=0.12, linewidth=0.0
+        )
         panel.plot(size * one.im, one.contribution, **look)
         text_of = f"{name}: {one.rate:.2e} a year"
         handles.append(Line2D([], [], label=text_of, **look))
@@ -175,8 +181,9 @@ def risk_deaggregation(
         axis("{x:g}")
     panel.xaxis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     panel.tick_params(which="minor", labelsize=ps.SMALL)
-    panel.set_xlim(size * min(_middle(one)[0] for one in many),
-                   size * max(_middle(one)[1] for one in many))  # fmt: skip
+    panel.set_xlim(
+        size * min(_middle(one)[0] for one in many), size * max(_middle(one)[1] for one in many)
+    )
     panel.set_ylim(bottom=0.0)
     ps.caption(panel, x=text, y="contribution to the rate\nby ln of the intensity [1/year]")
     ps.add_legend(figure, handles, columns=2, title="Mean annual frequency of exceedance")
@@ -219,9 +226,14 @@ def tornado_chart(found: Tornado, *, label: str = "result", unit: str = "") -> F
         for k, (result, value) in enumerate(zip(table[column], table[name], strict=True)):
             side = 1.0 if result >= found.base else -1.0
             panel.annotate(
-                f"{value:.4g}", (result, k), xytext=(4.0 * side, 0.0), textcoords="offset points",
-                ha="left" if side > 0.0 else "right", va="center", fontsize=ps.SMALL,
-            )  # fmt: skip
+                f"{value:.4g}",
+                (result, k),
+                xytext=(4.0 * side, 0.0),
+                textcoords="offset points",
+                ha="left" if side > 0.0 else "right",
+                va="center",
+                fontsize=ps.SMALL,
+            )
     panel.axvline(found.base, color=ps.GREY, linewidth=1.0)
     panel.set_yticks(places, list(table.index))
     panel.margins(x=0.14)

@@ -142,12 +142,21 @@ def stripes(runs: IntensityRuns, quantity: str, *, limit: LimitState | None = No
     done, fell = outcome == COMPLETE, outcome == FAILURE
     handles += _marks(panel, factor * demand, size * im, done & ~over, "none", "complete")
     if limit is not None:
-        handles += _marks(panel, factor * demand, size * im, done & over, ps.PALETTE[0],
-                          f"exceeds: {limit.name}")  # fmt: skip
+        handles += _marks(
+            panel, factor * demand, size * im, done & over, ps.PALETTE[0], f"exceeds: {limit.name}"
+        )
         if limit.quantity == quantity and limit.limit is not None:
             panel.axvline(factor * limit.limit, color=ps.GREY, linewidth=1.0, linestyle="--")
-    handles += _marks(panel, np.full(len(im), end), size * im, fell, ps.PALETTE[1],
-                      "failure of a bearing", color=ps.PALETTE[1], marker=">")  # fmt: skip
+    handles += _marks(
+        panel,
+        np.full(len(im), end),
+        size * im,
+        fell,
+        ps.PALETTE[1],
+        "failure of a bearing",
+        color=ps.PALETTE[1],
+        marker=">",
+    )
     panel.set_xlim(0.0, end)
     panel.set_ylim(bottom=0.0)
     ps.caption(panel, x=ps.text_of(quantity, unit), y=text)
@@ -171,9 +180,13 @@ def _marks(
     if not which.any():
         return []
     look: dict[str, Any] = {
-        "linestyle": "none", "marker": marker, "markersize": 4.0, "markeredgewidth": 0.8,
-        "color": color, "markerfacecolor": fill,
-    }  # fmt: skip
+        "linestyle": "none",
+        "marker": marker,
+        "markersize": 4.0,
+        "markeredgewidth": 0.8,
+        "color": color,
+        "markerfacecolor": fill,
+    }
     panel.plot(x[which], y[which], clip_on=False, **look)
     return [Line2D([], [], label=label, **look)]
 

@@ -61,9 +61,12 @@ class Risk(Shown):
 
     def _rows(self) -> list[tuple[str, str]]:
         measure = "" if self.intensity is None else self.intensity.label
-        return [("limit state", self.name), ("intensity", measure),
-                ("rate", f"{self.rate:.3g} 1/year"),
-                ("in 50 years", f"{100.0 * self.probability(50.0):.3g} %")]  # fmt: skip
+        return [
+            ("limit state", self.name),
+            ("intensity", measure),
+            ("rate", f"{self.rate:.3g} 1/year"),
+            ("in 50 years", f"{100.0 * self.probability(50.0):.3g} %"),
+        ]
 
     def probability(self, years: float = 50.0) -> float:
         """Return the probability of at least one exceedance.
@@ -177,8 +180,16 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
             RiskWarning,
             stacklevel=2,
         )
-    return Risk(curve.name, curve.unit, rate, np.asarray(resampled), float(rates[-1]), im,
-                np.asarray(probability * density), curve.intensity or hazard.intensity)  # fmt: skip
+    return Risk(
+        curve.name,
+        curve.unit,
+        rate,
+        np.asarray(resampled),
+        float(rates[-1]),
+        im,
+        np.asarray(probability * density),
+        curve.intensity or hazard.intensity,
+    )
 
 
 def _weighted(probability: FloatArray, drops: FloatArray) -> FloatArray:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.model.frame_data import FrameContents
+    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
 
 COMPLETE, FAILURE, UNKNOWN = "complete", "bearing failure", "numerical failure"
@@ -119,11 +119,12 @@ class IntensityRuns(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         counts = Counter(self.table["outcome"]).most_common()
         return [
-            ("runs", str(len(self.table))), ("motions", str(len(self.motions))),
+            ("runs", str(len(self.table))),
+            ("motions", str(len(self.motions))),
             ("intensity", self.intensity.label),
             ("outcomes", "; ".join(f"{count} {name}" for name, count in counts)),
             ("intensities chosen by", "; ".join(dict.fromkeys(plans_of(self.table)))),
-        ]  # fmt: skip
+        ]
 
     @classmethod
     def from_dataset(
@@ -180,15 +181,18 @@ class IntensityRuns(Shown):
         scale = own["scale"].to_numpy()
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
-        table = pd.DataFrame({
-            "motion": used,
-            "scale": scale,
-            "im": [_round(abs(s) * each[name]) for s, name in zip(scale, used, strict=True)],
-            "outcome": [outcome_of(s) for s in status],
-            "status": status,
-            "message": [str(m) for m in own["message"].to_numpy()],
-            PLAN: plan,
-        } | {q: own["peak"].sel(quantity=q).to_numpy() for q in quantities})  # fmt: skip
+        table = pd.DataFrame(
+            {
+                "motion": used,
+                "scale": scale,
+                "im": [_round(abs(s) * each[name]) for s, name in zip(scale, used, strict=True)],
+                "outcome": [outcome_of(s) for s in status],
+                "status": status,
+                "message": [str(m) for m in own["message"].to_numpy()],
+                PLAN: plan,
+            }
+            | {q: own["peak"].sel(quantity=q).to_numpy() for q in quantities}
+        )
         units = dict(zip(quantities, (str(u) for u in own["unit"].to_numpy()), strict=True))
         return cls(table, intensity, units)
 
@@ -291,7 +295,7 @@ def _round(im: float) -> float:
 
 
 def run_at(
-    model: FrameContents,
+    model: FrameData,
     motions: Mapping[str, GroundMotion],
     cases: Sequence[tuple[str, float]],
     intensity: Intensity,

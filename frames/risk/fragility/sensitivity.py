@@ -94,11 +94,16 @@ def tornado(results_of: Batch, parameters: Mapping[str, tuple[float, float, floa
         sets += [{**base, name: float(low)}, {**base, name: float(high)}]
     found = _results(results_of, sets)
     lows, highs = found[1::2], found[2::2]
-    table = pd.DataFrame({
-        "low": [float(v[0]) for v in parameters.values()],
-        "high": [float(v[2]) for v in parameters.values()],
-        "at low": lows, "at high": highs, "swing": np.abs(highs - lows),
-    }, index=pd.Index(list(parameters), name="parameter"))  # fmt: skip
+    table = pd.DataFrame(
+        {
+            "low": [float(v[0]) for v in parameters.values()],
+            "high": [float(v[2]) for v in parameters.values()],
+            "at low": lows,
+            "at high": highs,
+            "swing": np.abs(highs - lows),
+        },
+        index=pd.Index(list(parameters), name="parameter"),
+    )
     return Tornado(float(found[0]), table.sort_values("swing", ascending=False, kind="stable"))
 
 
@@ -194,9 +199,9 @@ def sobol_indices(
         raise FragilityError(msg)
     table = values.reshape(d + 2, samples)
     whole = _indices(table)
-    again = np.array([
-        _indices(table[:, rng.integers(0, samples, samples)]) for _ in range(INTERVAL_RESAMPLES)
-    ])  # fmt: skip
+    again = np.array(
+        [_indices(table[:, rng.integers(0, samples, samples)]) for _ in range(INTERVAL_RESAMPLES)]
+    )
     tail = 0.5 * (1.0 - checked_confidence(confidence))
     low, high = np.quantile(again, [tail, 1.0 - tail], axis=0)
     shares = {
@@ -206,8 +211,10 @@ def sobol_indices(
     }
     return SobolIndices(
         pd.DataFrame(shares, index=pd.Index(names, name="parameter")),
-        float(table[:2].mean()), float(table[:2].std(ddof=1)), len(values),
-    )  # fmt: skip
+        float(table[:2].mean()),
+        float(table[:2].std(ddof=1)),
+        len(values),
+    )
 
 
 def _indices(table: FloatArray) -> FloatArray:

@@ -135,9 +135,12 @@ def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
         for a in range(3):
             new.displacement[k, a] = w.try_displacement[k, a] + factor * w.step[6 * k + a]
         turn_by(
-            w.try_turn[k], factor * w.step[6 * k + 3], factor * w.step[6 * k + 4],
-            factor * w.step[6 * k + 5], new.turn[k],
-        )  # fmt: skip
+            w.try_turn[k],
+            factor * w.step[6 * k + 3],
+            factor * w.step[6 * k + 4],
+            factor * w.step[6 * k + 5],
+            new.turn[k],
+        )
 
 
 @kernel

@@ -44,9 +44,17 @@ def set_tangents(w: Scratch, x: float, y: float, z: float) -> None:
 
 @kernel
 def sphere(
-    p: Props, side: int, w: Scratch, old: Touch, new: Touch, stiffness: float, damping: float,
-    dt: float, static_speed: float, grip: float,
-) -> None:  # fmt: skip
+    p: Props,
+    side: int,
+    w: Scratch,
+    old: Touch,
+    new: Touch,
+    stiffness: float,
+    damping: float,
+    dt: float,
+    static_speed: float,
+    grip: float,
+) -> None:
     """Set force and derivative of a point on the concave sphere `side` (0 bottom, 1 top).
 
     `grip` is its friction coefficient over that of the surface as a whole. `w.d` runs from the
@@ -68,10 +76,19 @@ def sphere(
     before = old.increment
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, z_n1, z_n2 = friction_map(
-        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        max(p.yield_displacement[side], w.soft_low[side]), kept, by_push, before[0], before[1],
+        p.bouc_wen,
+        p.exponent,
+        old.hysteresis[0],
+        old.hysteresis[1],
+        dw_1,
+        dw_2,
+        max(p.yield_displacement[side], w.soft_low[side]),
+        kept,
+        by_push,
+        before[0],
+        before[1],
         w.share,
-    )  # fmt: skip
+    )
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
         speed, by_slip = speed_at_end(slid, dt, old.slid, w.step_before, w.share)
@@ -125,10 +142,19 @@ def plane(
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, z_n1, z_n2 = friction_map(
-        p.bouc_wen, p.exponent, old.hysteresis[0], old.hysteresis[1], dw_1, dw_2,
-        max(p.interface_yield, w.soft_high), kept, by_push, old.increment[0], old.increment[1],
+        p.bouc_wen,
+        p.exponent,
+        old.hysteresis[0],
+        old.hysteresis[1],
+        dw_1,
+        dw_2,
+        max(p.interface_yield, w.soft_high),
+        kept,
+        by_push,
+        old.increment[0],
+        old.increment[1],
         w.share,
-    )  # fmt: skip
+    )
     mu = p.interface_friction
     new.spot[0], new.spot[1], new.spot[2] = d[0], d[1], d[2]
     new.hysteresis[0], new.hysteresis[1] = z_1, z_2
@@ -147,9 +173,15 @@ def plane(
 
 @kernel
 def bond(
-    w: Scratch, old: Touch, new: Touch, home_1: float, home_2: float, stiffness: float,
-    damping: float, dt: float,
-) -> None:  # fmt: skip
+    w: Scratch,
+    old: Touch,
+    new: Touch,
+    home_1: float,
+    home_2: float,
+    stiffness: float,
+    damping: float,
+    dt: float,
+) -> None:
     """Set force and derivative of a point where both sliders are one piece: an elastic bond."""
     rate = damping / dt if dt > 0.0 else 0.0
     home = (home_1, home_2, 0.0)

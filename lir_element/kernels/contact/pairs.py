@@ -88,8 +88,17 @@ def locate(w: Scratch, body: int, carrier: int, x: float, y: float, z: float, up
 
 
 @kernel
-def cross_rows(row: Floats, x: float, y: float, z: float, sign: float, k: Floats, first: int,
-               body: int, carrier: int) -> None:  # fmt: skip
+def cross_rows(
+    row: Floats,
+    x: float,
+    y: float,
+    z: float,
+    sign: float,
+    k: Floats,
+    first: int,
+    body: int,
+    carrier: int,
+) -> None:
     """Add ``sign * (x, y, z) x row`` to the rows `first`.. of `k`, columns of both bodies."""
     for half in range(2):
         col = 6 * (body if half == 0 else carrier)
@@ -201,16 +210,32 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
             body, carrier, friction = 1, 0, LOW_BOTTOM
             locate(w, 1, 0, arm[0], arm[1], arm[2], p.lever[0])
             sphere(
-                p, 0, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_bottom,
+                p,
+                0,
+                w,
+                s.touch_old[j],
+                s.touch_new[j],
+                stiffness,
+                damping,
+                dt,
+                speed_bottom,
                 c.grip[0],
-            )  # fmt: skip
+            )
         elif pair == 2:
             body, carrier, friction = 2, 3, LOW_TOP
             locate(w, 2, 3, arm[0], arm[1], arm[2], -p.lever[1])
             sphere(
-                p, 1, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, speed_top,
+                p,
+                1,
+                w,
+                s.touch_old[j],
+                s.touch_new[j],
+                stiffness,
+                damping,
+                dt,
+                speed_top,
                 c.grip[1],
-            )  # fmt: skip
+            )
         else:
             body, carrier, friction = 2, 1, HIGH
             locate(w, 2, 1, arm[0], arm[1], arm[2], c.plane[0])

@@ -212,10 +212,22 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
     z_1, z_2, h_11, h_12, h_21, h_22, slid, s_1, s_2, n_1, n_2 = friction_step(
-        p.bouc_wen, p.exponent, old.hysteresis[k, 0], old.hysteresis[k, 1], w.z_size[k], d_1, d_2,
-        p.yield_displacement[k], w.per_yield[k], w.kept_low, w.kept_low_n, w.softer_low, before[0],
-        before[1], w.share,
-    )  # fmt: skip
+        p.bouc_wen,
+        p.exponent,
+        old.hysteresis[k, 0],
+        old.hysteresis[k, 1],
+        w.z_size[k],
+        d_1,
+        d_2,
+        p.yield_displacement[k],
+        w.per_yield[k],
+        w.kept_low,
+        w.kept_low_n,
+        w.softer_low,
+        before[0],
+        before[1],
+        w.share,
+    )
     w.slid[k] = slid
     # sliding that unloads has no speed: friction must not grow meanwhile
     w.speed[k], by_slip = w.static_speed[k], 0.0
@@ -252,10 +264,22 @@ def interface(p: Props, old: State, w: Work) -> None:
         x, y = turn_with_sliders(-w.spin, x, y)
     d_1, d_2 = x - old.slip[0], y - old.slip[1]
     z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_step(
-        p.bouc_wen, p.exponent, old.interface_hysteresis[0], old.interface_hysteresis[1],
-        w.z_size[2], d_1, d_2, p.interface_yield, w.per_yield[2],
-        w.kept, w.kept_n, w.softer, before[0], before[1], w.share,
-    )  # fmt: skip
+        p.bouc_wen,
+        p.exponent,
+        old.interface_hysteresis[0],
+        old.interface_hysteresis[1],
+        w.z_size[2],
+        d_1,
+        d_2,
+        p.interface_yield,
+        w.per_yield[2],
+        w.kept,
+        w.kept_n,
+        w.softer,
+        before[0],
+        before[1],
+        w.share,
+    )
     if spins:
         d_1, d_2 = turn_with_sliders(w.spin, d_1, d_2)
         z_1, z_2 = turn_with_sliders(w.spin, z_1, z_2)

@@ -126,11 +126,26 @@ def string_rates(
 
 @kernel
 def balance_rate(
-    p: Props, w: Work, d_s1: float, d_s2: float, d_n: float, g_d1: float, g_d2: float,
-    f_11: float, f_12: float, f_21: float, f_22: float,
-    w_11: float, w_12: float, w_21: float, w_22: float,
-    p_11: float, p_12: float, p_21: float, p_22: float,
-) -> float:  # fmt: skip
+    p: Props,
+    w: Work,
+    d_s1: float,
+    d_s2: float,
+    d_n: float,
+    g_d1: float,
+    g_d2: float,
+    f_11: float,
+    f_12: float,
+    f_21: float,
+    f_22: float,
+    w_11: float,
+    w_12: float,
+    w_21: float,
+    w_22: float,
+    p_11: float,
+    p_12: float,
+    p_21: float,
+    p_22: float,
+) -> float:
     """Return the derivative of the moments that spin the sliders (2.6)."""
     s_1, s_2 = w.sigma[0], w.sigma[1]
     g_1, g_2 = w.n_hat * w.phi_s[0], w.n_hat * w.phi_s[1]
@@ -165,8 +180,11 @@ def by_turn(p: Props, w: Work, a: int) -> Rates:
     else:
         d_s2, w_12, w_22 = d_s2 + w.l, w_12 - w.old[0, 2], w_22 - w.old[1, 2]
     w_11, w_12, w_21, w_22 = (
-        p.radius[0] * w_11, p.radius[0] * w_12, p.radius[1] * w_21, p.radius[1] * w_22,
-    )  # fmt: skip
+        p.radius[0] * w_11,
+        p.radius[0] * w_12,
+        p.radius[1] * w_21,
+        p.radius[1] * w_22,
+    )
     if p.fixed_load > 0.0:  # the height follows, so that the length stays
         d_s1, d_s2 = d_s1 + w.t[0, 2] * d_l / w.n[2], d_s2 + w.t[1, 2] * d_l / w.n[2]
         d_l = 0.0
@@ -207,9 +225,26 @@ def by_turn(p: Props, w: Work, a: int) -> Rates:
     balance = 0.0
     if w.spins > 0.0:
         balance = balance_rate(
-            p, w, d_s1, d_s2, d_n, g_d1, g_d2, f_11, f_12, f_21, f_22, w_11, w_12, w_21, w_22,
-            p_11, p_12, p_21, p_22,
-        )  # fmt: skip
+            p,
+            w,
+            d_s1,
+            d_s2,
+            d_n,
+            g_d1,
+            g_d2,
+            f_11,
+            f_12,
+            f_21,
+            f_22,
+            w_11,
+            w_12,
+            w_21,
+            w_22,
+            p_11,
+            p_12,
+            p_21,
+            p_22,
+        )
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
 
 
@@ -235,9 +270,26 @@ def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
     balance = 0.0
     if w.spins > 0.0:
         balance = balance_rate(
-            p, w, d_1, d_2, d_n, g_d1, g_d2, f_11, f_12, f_21, f_22, 0.0, 0.0, 0.0, 0.0,
-            0.0, 0.0, 0.0, 0.0,
-        )  # fmt: skip
+            p,
+            w,
+            d_1,
+            d_2,
+            d_n,
+            g_d1,
+            g_d2,
+            f_11,
+            f_12,
+            f_21,
+            f_22,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        )
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, 0.0, 0.0, 0.0, 0.0, 0.0, balance
 
 
@@ -259,9 +311,26 @@ def by_plate(p: Props, w: Work, v_1: float, v_2: float, v_3: float) -> Rates:
     balance = 0.0
     if w.spins > 0.0:
         balance = balance_rate(
-            p, w, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f_21, f_22, 0.0, 0.0, w_21, w_22,
-            0.0, 0.0, p_21, p_22,
-        )  # fmt: skip
+            p,
+            w,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            f_21,
+            f_22,
+            0.0,
+            0.0,
+            w_21,
+            w_22,
+            0.0,
+            0.0,
+            p_21,
+            p_22,
+        )
     if p.fixed_load > 0.0 and p.fused:
         d_n = held_rate_fused(w, 0.0, 0.0, r_1, r_2)
         f_21, f_22 = f_21 + w.phi[1, 0] * d_n, f_22 + w.phi[1, 1] * d_n

@@ -81,9 +81,19 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     """
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
     z, _, slope, _, _, _, _, _, _, by_n, _ = friction_map(
-        p.bouc_wen, p.exponent, old.twist_hysteresis, 0.0, new.twist - old.twist, 0.0,
-        p.torsion_yield, w.kept, w.kept_n, 0.0, 0.0, 0.0,
-    )  # fmt: skip
+        p.bouc_wen,
+        p.exponent,
+        old.twist_hysteresis,
+        0.0,
+        new.twist - old.twist,
+        0.0,
+        p.torsion_yield,
+        w.kept,
+        w.kept_n,
+        0.0,
+        0.0,
+        0.0,
+    )
     w.torque_axial = p.torsion_lever * mu * (z + w.n_pos * by_n)
     w.torque = p.torsion_lever * mu * z * w.n_pos
     w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope

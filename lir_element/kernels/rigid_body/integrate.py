@@ -81,9 +81,15 @@ def kinetic_energy(run: RigidRun, at: int) -> float:
 def body_step(run: RigidRun, before: int, after: int) -> BodyStep:
     """Return the bodies over the step between two of their states."""
     return BodyStep(
-        run.props[0], run.sliders[0], run.points, run.bodies[before], run.bodies[after],
-        run.touches[before], run.touches[after], run.scratch[0],
-    )  # fmt: skip
+        run.props[0],
+        run.sliders[0],
+        run.points,
+        run.bodies[before],
+        run.bodies[after],
+        run.touches[before],
+        run.touches[after],
+        run.scratch[0],
+    )
 
 
 @kernel
@@ -134,9 +140,15 @@ def difference(run: RigidRun) -> float:
 
 @kernel
 def implicit(
-    run: RigidRun, given: RigidInput, setup: RigidSetup, start: int, end: int, time: float,
-    dt: float, output: int,
-) -> bool:  # fmt: skip
+    run: RigidRun,
+    given: RigidInput,
+    setup: RigidSetup,
+    start: int,
+    end: int,
+    time: float,
+    dt: float,
+    output: int,
+) -> bool:
     """Take one implicit step from the bodies `start` to `end`, which is reached at `time`."""
     set_instant(run, given, time, dt, output)
     return implicit_step(body_step(run, start, end), run, setup, dt)
@@ -225,16 +237,24 @@ def start(run: RigidRun, given: RigidInput) -> None:
         for b in range(3):
             w.q[0][a, b] = 1.0 if a == b else 0.0
     begin = BodyStep(
-        run.props[0], run.sliders[0], run.points, run.bodies[0], run.bodies[0], run.touches[0],
-        run.touches[1], w,
-    )  # fmt: skip
+        run.props[0],
+        run.sliders[0],
+        run.points,
+        run.bodies[0],
+        run.bodies[0],
+        run.touches[0],
+        run.touches[1],
+        w,
+    )
     press(begin, 0.0, 0.0, 0.0, False)
     set_accelerations(run, run.bodies[0])
     write_output(run, given, 0)
 
 
 @kernel
-def march(run: RigidRun, given: RigidInput, setup: RigidSetup, last: int, tries: int) -> int:
+def integrate_bodies(
+    run: RigidRun, given: RigidInput, setup: RigidSetup, last: int, tries: int
+) -> int:
     """Go on until `last` outputs are written, or `tries` steps were tried; return a status code.
 
     ``run.clock`` and ``run.counts`` tell where it stands, and the next call goes on from there.

@@ -151,9 +151,12 @@ def move_bodies(old: Bodies, new: Bodies, w: Scratch, factor: float) -> None:
             w.shift[3 * k + a] = w.try_shift[3 * k + a] + factor * w.step[6 * k + a]
             new.displacement[k, a] = old.displacement[k, a] + w.shift[3 * k + a]
         turn_by(
-            w.try_turn[k], factor * w.step[6 * k + 3], factor * w.step[6 * k + 4],
-            factor * w.step[6 * k + 5], new.turn[k],
-        )  # fmt: skip
+            w.try_turn[k],
+            factor * w.step[6 * k + 3],
+            factor * w.step[6 * k + 4],
+            factor * w.step[6 * k + 5],
+            new.turn[k],
+        )
 
 
 @kernel

@@ -1,6 +1,6 @@
 """The block of a bearing that stands in an OpenSees model, as compiled callbacks read it.
 
-Addresses are those of arrays and objects that Python owns (`hosted.Hosted` keeps them), or of
+Addresses are those of arrays and objects that Python owns (`ElementMemory` keeps them), or of
 functions of the OpenSees library.
 """
 

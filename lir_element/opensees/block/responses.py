@@ -22,10 +22,16 @@ _NAMES = {
     "basic_force": ("basicForce", "basicForces"),
     "local_displacement": ("localDisplacement", "localDisplacements"),
     "deformation": (
-        "deformation", "deformations", "defo", "basicDeformation", "basicDeformations",
-        "basicDefo", "basicDisplacement", "basicDisplacements",
+        "deformation",
+        "deformations",
+        "defo",
+        "basicDeformation",
+        "basicDeformations",
+        "basicDefo",
+        "basicDisplacement",
+        "basicDisplacements",
     ),
-}  # fmt: skip
+}
 GLOBAL_NAMES = ("globalForce", "globalForces", "forces")
 """The force in global axes; OpenSees knows it as "force", too."""
 

@@ -101,12 +101,29 @@ def single(
     axial, torsion, rocking, _ = tags
     orientation = (1, 0, 0) if apart else (0, 0, 1, 1, 0, 0)  # local y; or x and y
     return (
-        "element", "singleFPBearing", *head, axial + 3, values.length, values.initial_stiffness,
-        "-P", axial, "-T", torsion, "-My", rocking, "-Mz", rocking,
-        "-shearDist", 0.5, *(("-inclVertdisp",) if lift else ()),
-        "-iter", _ITERATIONS, _FORCE_TOLERANCE * load,
-        "-orient", *orientation,  # last, for it swallows the word after a single vector
-    )  # fmt: skip
+        "element",
+        "singleFPBearing",
+        *head,
+        axial + 3,
+        values.length,
+        values.initial_stiffness,
+        "-P",
+        axial,
+        "-T",
+        torsion,
+        "-My",
+        rocking,
+        "-Mz",
+        rocking,
+        "-shearDist",
+        0.5,
+        *(("-inclVertdisp",) if lift else ()),
+        "-iter",
+        _ITERATIONS,
+        _FORCE_TOLERANCE * load,
+        "-orient",
+        *orientation,  # last, for it swallows the word after a single vector
+    )
 
 
 def ptv(
@@ -121,10 +138,33 @@ def ptv(
     pressure = load / (math.pi * bearing.slider_radius**2)
     steel = (4.4e-6, 18.0)  # thermal diffusivity [m2/s] and conductivity [W/(m K)]: not used
     return (
-        "element", "FPBearingPTV", *head, values.friction_max, 0, pressure, 0, *steel, speed,
-        values.rate, values.length, bearing.slider_radius, values.initial_stiffness, *tags,
-        0, 0, 1, 1, 0, 0, 0.5, 0, 0.0, _ITERATIONS, _FORCE_TOLERANCE * load, 1,
-    )  # fmt: skip
+        "element",
+        "FPBearingPTV",
+        *head,
+        values.friction_max,
+        0,
+        pressure,
+        0,
+        *steel,
+        speed,
+        values.rate,
+        values.length,
+        bearing.slider_radius,
+        values.initial_stiffness,
+        *tags,
+        0,
+        0,
+        1,
+        1,
+        0,
+        0,
+        0.5,
+        0,
+        0.0,
+        _ITERATIONS,
+        _FORCE_TOLERANCE * load,
+        1,
+    )
 
 
 def triple(
@@ -142,10 +182,24 @@ def triple(
     rims = (0.0, *(reach * part / length for part in outer))
     mu = values.friction_max + values.yield_displacement / length
     element = (
-        "element", "TripleFrictionPendulum", *head, start + 3, start + 3, start + 3,
-        start, start + 1, start + 2, start + 2, *lengths, *rims, load,
-        values.yield_displacement, _TENSION * values.axial_stiffness, _LEAST_LOAD * load, _SAME_SUM,
-    )  # fmt: skip
+        "element",
+        "TripleFrictionPendulum",
+        *head,
+        start + 3,
+        start + 3,
+        start + 3,
+        start,
+        start + 1,
+        start + 2,
+        start + 2,
+        *lengths,
+        *rims,
+        load,
+        values.yield_displacement,
+        _TENSION * values.axial_stiffness,
+        _LEAST_LOAD * load,
+        _SAME_SUM,
+    )
     return (friction_law(start + 3, mu, mu, 0.0), element)
 
 
@@ -156,12 +210,30 @@ def tfp(
     half = 0.5 * bearing.slider_height
     arms = [r - half for r in bearing.radii]
     frictions = [
-        law.f_min * r / arm for law, r, arm in zip(bearing.frictions, bearing.radii, arms,
-                                                   strict=True)
-    ]  # fmt: skip
+        law.f_min * r / arm
+        for law, r, arm in zip(bearing.frictions, bearing.radii, arms, strict=True)
+    ]
     far = [2.0 * _FAR * values.length] * 4  # diameters
     return (
-        "element", "TFP", *head, *arms, *bearing.radii, *far, 0.0, 0.0, 0.0, 0.0,
-        _LOCKED, _LOCKED, *frictions, 0.0, 0.0, half, half, bearing.height, load,
-        0.5 * values.yield_displacement, values.axial_stiffness,
-    )  # fmt: skip
+        "element",
+        "TFP",
+        *head,
+        *arms,
+        *bearing.radii,
+        *far,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        _LOCKED,
+        _LOCKED,
+        *frictions,
+        0.0,
+        0.0,
+        half,
+        half,
+        bearing.height,
+        load,
+        0.5 * values.yield_displacement,
+        values.axial_stiffness,
+    )

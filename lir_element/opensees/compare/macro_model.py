@@ -160,9 +160,14 @@ def macro_model(
         stiffness = limit * weight / soft
         interface = build.slider(middle, node_j, build.coulomb(limit), stiffness, axial)
     return MacroModel(
-        middle if middle != node_j else None, pendulum, rims, interface, springs,
-        tuple(build.materials), tuple(build.frictions),
-    )  # fmt: skip
+        middle if middle != node_j else None,
+        pendulum,
+        rims,
+        interface,
+        springs,
+        tuple(build.materials),
+        tuple(build.frictions),
+    )
 
 
 class _Builder:
@@ -224,15 +229,31 @@ class _Builder:
         return share * self.load / bearing.yield_displacement + restoring
 
     def slider(
-        self, i: int, j: int, friction: int, stiffness: float, axial: int,
+        self,
+        i: int,
+        j: int,
+        friction: int,
+        stiffness: float,
+        axial: int,
         radius: float | None = None,
-    ) -> int:  # fmt: skip
+    ) -> int:
         """Make a slider, flat or on a sphere of a radius."""
         tag = next(self.tags)
         options = (
-            "-P", axial, "-T", self.slack, "-My", self.slack, "-Mz", self.slack, "-orient", *_UP,
-            "-iter", _ITERATIONS, _TOLERANCE * self.load,
-        )  # fmt: skip
+            "-P",
+            axial,
+            "-T",
+            self.slack,
+            "-My",
+            self.slack,
+            "-Mz",
+            self.slack,
+            "-orient",
+            *_UP,
+            "-iter",
+            _ITERATIONS,
+            _TOLERANCE * self.load,
+        )
         if radius is None:
             self.ops.element("flatSliderBearing", tag, i, j, friction, stiffness, *options)
         else:
@@ -271,9 +292,26 @@ class _Builder:
                 x, y = math.cos(angle), math.sin(angle)
                 tag = next(self.tags)
                 self.ops.element(
-                    "zeroLength", tag, i, j, "-mat", *pair, *pair, "-dir", 1, 1, 2, 2,
-                    "-orient", x, y, 0.0, -y, x, 0.0,
-                )  # fmt: skip
+                    "zeroLength",
+                    tag,
+                    i,
+                    j,
+                    "-mat",
+                    *pair,
+                    *pair,
+                    "-dir",
+                    1,
+                    1,
+                    2,
+                    2,
+                    "-orient",
+                    x,
+                    y,
+                    0.0,
+                    -y,
+                    x,
+                    0.0,
+                )
                 found.append(tag)
         return tuple(found)
 

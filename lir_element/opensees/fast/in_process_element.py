@@ -15,7 +15,7 @@ from lir_element.opensees.fast.vtable_patch import Graft, address_of, common_fun
 if TYPE_CHECKING:
     import socket
 
-    from lir_element.opensees.element_memory import Hosted
+    from lir_element.opensees.element_memory import ElementMemory
 
 _HOST_RESPONSES = {"force"}
 """Names that the host element answers by itself, from our resisting force."""
@@ -26,7 +26,7 @@ class Grafted:
 
     Parameters
     ----------
-    hosted : Hosted
+    hosted : ElementMemory
         The bearing.
     farewell : socket
         The host element's connection, which its destructor writes to.
@@ -39,7 +39,7 @@ class Grafted:
 
     route = "fast"
 
-    def __init__(self, hosted: Hosted, farewell: socket.socket) -> None:
+    def __init__(self, hosted: ElementMemory, farewell: socket.socket) -> None:
         self.hosted = hosted
         self.device = hosted.bearing
         self.level = hosted.level
@@ -49,9 +49,12 @@ class Grafted:
         self._set_objects()
         self._graft.set_responses(host_responses(hosted.placement), _state_words())
         self._graft.set_printed(
-            name=hosted.tag, type="LIRBearing", nodes=[int(n) for n in hosted.placement.nodes],
-            level=hosted.level, route=self.route,
-        )  # fmt: skip
+            name=hosted.tag,
+            type="LIRBearing",
+            nodes=[int(n) for n in hosted.placement.nodes],
+            level=hosted.level,
+            route=self.route,
+        )
         self._graft.replace(_callbacks(hosted.level))
 
     @property
@@ -68,11 +71,11 @@ class Grafted:
         self.hosted.start_recording(every)
 
     def recorded(self) -> tuple[Any, ...]:
-        """Return what `Hosted.recorded` does."""
+        """Return what `ElementMemory.recorded` does."""
         return self.hosted.recorded()
 
     def outcome(self) -> tuple[int, bool, float]:
-        """Return what `Hosted.outcome` does."""
+        """Return what `ElementMemory.outcome` does."""
         return self.hosted.outcome()
 
     def detach(self) -> None:

@@ -50,9 +50,12 @@ class Manners:
         self._graft = Graft(tag, placement, block, bearing_messages(tag, load, placement))
         self._graft.set_responses(host_responses(placement))
         self._graft.set_printed(
-            name=tag, type="LIRBearing", nodes=[int(node) for node in placement.nodes],
-            level=level, route="portable",
-        )  # fmt: skip
+            name=tag,
+            type="LIRBearing",
+            nodes=[int(node) for node in placement.nodes],
+            level=level,
+            route="portable",
+        )
         own = {"revert_to_last_commit": callbacks.revert_remote.address}
         self._graft.replace(common_functions() | own)
 

@@ -24,7 +24,7 @@ from lir_element._compile.cache import keep
 from lir_element._compile.jit import OWN
 from lir_element._compile.progress import say
 from lir_element.opensees.connection import add_host_element
-from lir_element.opensees.element_memory import Hosted
+from lir_element.opensees.element_memory import ElementMemory
 from lir_element.opensees.fast.in_process_element import Grafted
 from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
 from lir_element.opensees.library import child_environment, opensees
@@ -79,8 +79,11 @@ def _run_child() -> str:
         done = subprocess.run(
             [sys.executable, "-m", "lir_element.opensees.fast.selftest"],
             env=child_environment(),
-            capture_output=True, text=True, timeout=_LONGEST, check=False,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            timeout=_LONGEST,
+            check=False,
+        )
     except subprocess.TimeoutExpired:
         return f"its self-test did not end within {_LONGEST:g} s"
     if done.returncode != 0:
@@ -98,10 +101,16 @@ def main() -> None:
         If they differ.
     """
     bearing = LIRBearing(
-        radius=1.0, slider_height=0.1, slider_radius=0.1, capacity=0.2,
-        friction=CoulombFriction(0.05), interface_friction=0.15,
-        axial_stiffness=_STIFFNESS, axial_damping=0.0, design_load=1e4,
-    )  # fmt: skip
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.2,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.15,
+        axial_stiffness=_STIFFNESS,
+        axial_damping=0.0,
+        design_load=1e4,
+    )
     for turn in (1, 2):
         expected, got = _run(None), _run(bearing)
         error = float(np.abs(got - expected).max() / np.abs(expected).max())
@@ -126,7 +135,7 @@ def _run(bearing: LIRBearing | None) -> np.ndarray[Any, Any]:
         ops.element("zeroLength", 7, 1, 2, "-mat", 1, "-dir", 3)
     else:
         placement = place(ops, 1, 2, bearing, None, 1.0, 1.0)
-        hosted = Hosted(7, bearing, "pendulum", placement)
+        hosted = ElementMemory(7, bearing, "pendulum", placement)
         grafted = Grafted(hosted, add_host_element(ops, 7, placement))
     moves = [*_settle(ops), *_shake(ops)]
     force = ops.eleForce(7, 9)

@@ -84,8 +84,17 @@ class Graft:
         block["domain"] = domain
         for name, node in zip(("node_i", "node_j"), placement.nodes, strict=True):
             block[name] = _call("get_node", domain, node)
-        for name in ("get_displacement", "get_velocity", "get_time", "step_size", "destroy",
-                     "destroy_free", "new_response", "set_vector", "allocate"):  # fmt: skip
+        for name in (
+            "get_displacement",
+            "get_velocity",
+            "get_time",
+            "step_size",
+            "destroy",
+            "destroy_free",
+            "new_response",
+            "set_vector",
+            "allocate",
+        ):
             block[name] = where[name]
         block["host_set_response"] = where["set_response"]
         block["host_get_response"] = where["get_response"]
@@ -216,8 +225,15 @@ def common_functions() -> dict[str, int]:
     """Return the addresses of the callbacks of both routes; compiled on first use."""
     from lir_element.opensees.kernels import callbacks
 
-    names = ("set_response", "get_response", "print_element", "send_self", "receive_self",
-             "destroy", "destroy_free")  # fmt: skip
+    names = (
+        "set_response",
+        "get_response",
+        "print_element",
+        "send_self",
+        "receive_self",
+        "destroy",
+        "destroy_free",
+    )
     return {name: getattr(callbacks, name).address for name in names}
 
 

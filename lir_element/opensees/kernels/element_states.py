@@ -131,9 +131,16 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     look_at_load(h, old[0].axial_force, moves)
     time = old[0].time + (max(dt, 0.0) if moves else 0.0)
     code = bearing_trial(
-        carray(pointer(h.props), 1, PROPS), old, new, carray(pointer(h.work), 1, WORK), contacts,
-        0, h.u, h.v, time,
-    )  # fmt: skip
+        carray(pointer(h.props), 1, PROPS),
+        old,
+        new,
+        carray(pointer(h.work), 1, WORK),
+        contacts,
+        0,
+        h.u,
+        h.v,
+        time,
+    )
     if has_no_state(code):
         return refuse(h, code)
     h.last_status = _OK
@@ -210,11 +217,15 @@ def host_commit(h: Host, contacts: Contacts | None) -> None:
     old = carray(pointer(h.old), 1, STATE)
     new = carray(pointer(h.new), 1, STATE)
     bearing_commit(
-        carray(pointer(h.props), 1, PROPS), old, new,
+        carray(pointer(h.props), 1, PROPS),
+        old,
+        new,
         carray(pointer(h.old), (1, STATE_WORDS), WORDS),
         carray(pointer(h.new), (1, STATE_WORDS), WORDS),
-        carray(pointer(h.heat), (1, 3, HEAT_PARTS), NUMBERS), contacts, 0,
-    )  # fmt: skip
+        carray(pointer(h.heat), (1, 3, HEAT_PARTS), NUMBERS),
+        contacts,
+        0,
+    )
     if contacts is not None and h.has_tangent == 0:
         h.has_tangent = 2
     if old[0].axial_force > 0.0:

@@ -103,13 +103,13 @@ class Remote:
         self._recording = every > 0
 
     def recorded(self) -> tuple[Any, ...]:
-        """Return what `Hosted.recorded` does."""
+        """Return what `ElementMemory.recorded` does."""
         if self._records is not None:  # the element is gone, its records were kept
             return self._records
         return tuple(self._server.ask("recorded", self._key))
 
     def outcome(self) -> tuple[int, bool, float]:
-        """Return what `Hosted.outcome` does."""
+        """Return what `ElementMemory.outcome` does."""
         if self._records is None:
             self._outcome = self._server.ask("outcome", self._key)
         return self._outcome

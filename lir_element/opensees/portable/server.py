@@ -24,7 +24,7 @@ import numpy as np
 from lir_element.errors import RunStatus
 from lir_element.opensees.block import protocol
 from lir_element.opensees.block.layout import MOST_DOFS
-from lir_element.opensees.element_memory import Hosted
+from lir_element.opensees.element_memory import ElementMemory
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -43,7 +43,7 @@ _PATIENCE = 2.0
 class Channel:
     """A host element's connection, and the bearing that answers it."""
 
-    def __init__(self, sock: socket.socket, hosted: Hosted) -> None:
+    def __init__(self, sock: socket.socket, hosted: ElementMemory) -> None:
         self.sock = sock
         self.hosted = hosted
         count = hosted.placement.dofs
@@ -134,7 +134,7 @@ class Service:
     def __init__(self, pipe: Connection, parent: int) -> None:
         self._pipe = pipe
         self._parent = parent
-        self._hosted: dict[int, Hosted] = {}
+        self._hosted: dict[int, ElementMemory] = {}
         self._channels: dict[int, Channel] = {}
         self._requests: collections.deque[tuple[Any, ...]] = collections.deque()
         self._selector = selectors.DefaultSelector()
@@ -190,7 +190,7 @@ class Service:
             self._pipe.send((True, result))
 
     def _do_prepare(self, key: int, *arguments: Any) -> None:
-        self._hosted[key] = Hosted(*arguments)
+        self._hosted[key] = ElementMemory(*arguments)
 
     def _do_connect(self, key: int, sock: socket.socket) -> None:
         channel = Channel(sock, self._hosted[key])
