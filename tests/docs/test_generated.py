@@ -1,4 +1,4 @@
-"""Generated pages are up to date, links resolve, and every public name is in the documentation."""
+"""Generated pages are up to date, and links resolve."""
 
 import importlib.util
 import re
@@ -7,10 +7,6 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-
-import frames
-import frames.plots
-import lir_element
 
 ROOT = Path(__file__).parents[2]
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
@@ -30,11 +26,6 @@ def script(name: str) -> ModuleType:
 @pytest.fixture(scope="module")
 def build() -> ModuleType:
     return script("build")
-
-
-@pytest.fixture(scope="module")
-def modules() -> ModuleType:
-    return script("build_modules")
 
 
 def anchors(page: Path) -> set[str]:
@@ -76,23 +67,6 @@ def test_links_resolve(page: Path) -> None:
         assert file.exists(), f"{page.name}: {target}"
         if anchor:
             assert anchor in anchors(file), f"{page.name}: {target}"
-
-
-@pytest.mark.parametrize("package", [lir_element, frames, frames.plots], ids=lambda p: p.__name__)
-def test_every_public_name_is_documented(package: ModuleType) -> None:
-    text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
-    source = Path(str(package.__file__)).read_text(encoding="utf-8")
-    names = set(re.findall(r" as (\w+)$", source, re.MULTILINE))
-    assert names
-    missing = {name for name in names if not re.search(rf"\b{name}\b", text)}
-    assert not missing
-
-
-def test_rooms_and_modules_are_up_to_date(modules: ModuleType) -> None:
-    page = modules.PAGE.read_text(encoding="utf-8")
-    shown = page.split(modules.BEGIN)[1].split(modules.END)[0].strip()
-    assert shown == modules.generated(), "run: python docs/build_modules.py"
-    assert all(line.split("|")[2].strip() for line in shown.splitlines() if line[:3] == "| `")
 
 
 def test_figures_are_small() -> None:

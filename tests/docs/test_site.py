@@ -14,8 +14,18 @@ import pytest
 pytest.importorskip("sphinx")
 
 ROOT = Path(__file__).parents[2]
-MODULES = ("lir_element", "lir_element.opensees", "frames", "frames.plots")
-ELSEWHERE = {"frames": {"AnalysisInterrupted", "Features"}}
+MODULES = (
+    "lir_element",
+    "lir_element.opensees",
+    "frames",
+    "frames.laws",
+    "frames.plots",
+    "frames.design",
+    "frames.design.plots",
+    "frames.risk",
+    "frames.risk.plots",
+)
+ELSEWHERE = {"frames": {"AnalysisInterrupted"}}
 """Names of `lir_element` that `frames` hands on."""
 
 
