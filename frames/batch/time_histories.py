@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 _ATTENTIVE = 0.02  # s between two looks whether a run is done
+_GRAVE = ("equilibrium: ", "accelerations: ")  # doubts that are named before all others
 
 
 def time_histories(
@@ -316,10 +317,12 @@ def _warn_of_runs(rows: Sequence[RunResult]) -> None:
         )
     marked = [row for row in rows if row.doubts and math.isnan(row.failed_at)]
     if marked:
-        first = min(marked, key=_place)
+        grave = [row for row in marked if any(kind in row.doubts for kind in _GRAVE)]
+        first = min(grave or marked, key=_place)
+        which = f"{len(grave)} with forces or accelerations beyond reason, the" if grave else "the"
         warnings.warn(
-            f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; the first, "
-            f"run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
+            f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; {which} "
+            f"first, run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
             AuditWarning,
             stacklevel=3,
         )

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike, SparseMatrix
 
 _SYMMETRY = 1e-8  # of the largest entry, that a matrix may differ from its transpose
+_ROUND_OFF = 1e-12  # of the entries that a node's mass is the sum of, up to which it has none
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,5 +181,6 @@ def lumped(mass: SparseMatrix) -> FloatArray:
     found = mass.diagonal().reshape(count, 6).copy()
     for axis in range(3):
         unit = np.tile(np.eye(6)[axis], count)
-        found[:, axis] = (mass @ unit)[axis::6]
+        total, size = (mass @ unit)[axis::6], (abs(mass) @ unit)[axis::6]
+        found[:, axis] = np.where(np.abs(total) > _ROUND_OFF * size, total, 0.0)
     return found

@@ -1,6 +1,8 @@
 """A completed run with a mark in its audit is told apart wherever it is shown."""
 
+import math
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from frames import (
     save,
     time_history,
 )
+from frames.batch.time_histories import _warn_of_runs
 from frames.plots import histories
 from frames.results.assumption_checks import needed_level
 from frames.results.summary import status_of, table_of, write_results
@@ -91,3 +94,18 @@ def test_auto_hands_sliders_that_spin_to_the_bodies(model):
     kept = time_history(model, push, level="auto")
     assert kept.attrs["level"] == "contact"
     assert "see the level 'contact'" not in kept.attrs["audit"]
+
+
+def test_of_many_runs_the_gravest_doubt_is_named():
+    edge, thrown = "interface eccentricity reached 0.8", "accelerations: node top reached 79 g"
+    said = ["", edge, f"{edge}; {thrown}", thrown]
+    rows = [
+        SimpleNamespace(place=k, status="ok", message="", failed_at=math.nan, doubts=doubts)
+        for k, doubts in enumerate(said)
+    ]
+    with pytest.warns(AuditWarning, match=f"first, run 2: {edge}; {thrown}") as found:
+        _warn_of_runs(rows)
+    assert "3 of 4 runs are complete" in str(found[0].message)
+    assert "; 2 with forces or accelerations beyond reason" in str(found[0].message)
+    with pytest.warns(AuditWarning, match=f"audit; the first, run 1: {edge}"):
+        _warn_of_runs(rows[:2])

@@ -63,6 +63,11 @@ rim_strength = "5 MN"
 ASCE = SMALL.replace('"NCh2745"', '"ASCE 7-22"').replace(
     'soil = "II"\nzone = 2', "s_ms = 1.0\ns_m1 = 0.5"
 )  # uplift does not void its runs
+AT_LOADS_OF_RUNS = [
+    "interface holds until a rim is met",
+    "slip that holds",
+    "resultant between the sliders",
+]
 run = CliRunner().invoke
 
 
@@ -289,6 +294,7 @@ def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
 
 def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
+    voids = set()
     for line, is_void in said.items():
         tall = SMALL.replace('storey_height = "3 m"', 'storey_height = "8 m"')
         (folder / "uplift.toml").write_text(f"{tall}\n[analysis]\n{line}\n")
@@ -298,10 +304,22 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
         assert ("lower: " in str(demands["void"].iloc[0])) == is_void
         head = next(name for name in demands.columns if name.startswith("lower, "))
         assert (" reached, " in head) == is_void
-        assert demands[head].drop("interface slip left").notna().sum() > 10
+        level = demands[demands["level"] == "maximum"]  # at which bearings are judged
+        why = str(level["void"].fillna("").iloc[0]).removeprefix("level maximum, ")
+        checks = pd.read_csv(folder / "up" / "checks.csv", keep_default_na=False)
+        of_loads = checks[checks["title"].isin(AT_LOADS_OF_RUNS)]
+        assert len(of_loads) == 4
+        assert set(of_loads["void"]) == {why}
+        assert of_loads["verdict"].eq("FAILS").all() or not why
+        tests = pd.read_csv(folder / "up" / "programme.csv")
+        at_loads = tests["what"].str.contains("largest load|least load|interface|impact")
+        marked = tests["standing"].str.contains("no values for design")
+        assert (marked == (at_loads & bool(why))).all()
+        voids.add(bool(why))
         is_told = "count as contact" in (folder / "up" / "checks.csv").read_text()
         if line != 'least_gap = "0.01 mm"':  # up to which there may be gaps as well
             assert is_told == (not line)
+    assert voids == {False, True}
 
 
 def test_the_devices_are_compared(folder: Path) -> None:

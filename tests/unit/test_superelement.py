@@ -5,9 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from frames import Frame, ModelError, Section
+from frames import Frame, ModelError, Section, shear_building
 from frames.assembly.assemble import assemble
 from frames.assembly.elimination import eliminate, separate_massless
+from lir_element import CoulombFriction, LIRBearing
 
 SECTION = Section.box(0.3, 0.3, 0.01)
 
@@ -103,6 +104,26 @@ def test_a_mass_at_a_lever_leaves_directions_without_mass():
     assert massless.tolist() in ([1], [2])
     assert_allclose(turned[massless[0]], 0.0, atol=1e-12)
     assert np.linalg.matrix_rank(turned) == 2
+
+
+def test_masses_that_cancel_are_none():
+    """A slab's mass on its middle, given as a plane through the bearings: they carry none of it."""
+    bearing = LIRBearing(
+        radius=2.5,
+        slider_height=0.225,
+        slider_radius=0.225,
+        capacity=0.356,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.105,
+    )
+    frame = shear_building(bearing, 3e5, 9e8, storeys=5, storey_height=3.5, plan=((3, 2), 7.0))
+    system = assemble(frame)
+    has_mass = (system.node_mass[:, :3] != 0.0).any(axis=1)
+    assert [name for name, one in zip(system.node_names, has_mass, strict=True) if one] == [
+        "base",
+        *(f"floor-{k}" for k in range(1, 6)),
+    ]
+    assert_allclose(system.node_mass[has_mass, :3], 3e5, rtol=1e-12)
 
 
 def test_what_cannot_be_is_refused():

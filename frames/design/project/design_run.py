@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import pandas as pd
 import xarray as xr
@@ -21,7 +21,7 @@ from frames.design.histories.impacts import rim_engagement
 from frames.design.histories.motions import motion_checks
 from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.testing.programme import ProgrammeDemands, prototype_tests
+from frames.design.testing.programme import ProgrammeDemands
 from frames.results.storage import as_packed
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning
@@ -198,8 +198,8 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
             action_level=name,
         )
     demands = demands_at_levels(runs, rules)
-    loads, slip = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
-    found += _of_the_bearing(parts, known, loads, slip)
+    asked = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
+    found += _of_the_bearing(parts, known, asked)
     return ProjectRun(
         frame=frame,
         spectrum=known.spectrum,
@@ -214,7 +214,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         governing=histories.governing,
         governing_case=histories.governing_case,
         inputs=inputs_of(parts, known),
-        programme=_programme(parts, known, histories, loads, slip),
+        programme=_programme(parts, known, histories, asked),
         rules=rules,
     )
 
@@ -299,28 +299,35 @@ def _has_minima(parts: ProjectInputs) -> bool:
     return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
 
 
-def _asked(
-    parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame
-) -> tuple[tuple[float, float], float]:
+class _Asked(NamedTuple):
+    # What bearings are checked and tested for.
+    loads: tuple[float, float]  # N
+    slip: float  # m
+    void: str  # why neither is a value for design, as after runs that failed
+
+
+def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> _Asked:
     # Least axial load that presses at all and the largest, of all combinations and of the histories
     # at each bound at the level of the bearings [N], and the slip of these [m].
     loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
     slip = float(demands.loc["interface slip", "envelope"])
-    if demands["void"].any():  # runs failed: the most that it holds
+    void = next((str(why) for why in demands["void"] if why), "")
+    if void:  # runs failed: the most that it holds
         slip = parts.bearing().resolved()["slip_capacity"]
     bearing, factor = parts.bearing(), parts.rules().displacement_factor
     moved = float(demands.loc["isolator displacement", "envelope"])
-    if factor > 1.0 and not demands["void"].any():  # what is beyond the rims by the code
+    if factor > 1.0 and not void:  # what is beyond the rims by the code
         slip = max(slip, factor * moved - bearing.lateral_capacity)
-    return (min(loads), max(loads)), slip
+    return _Asked((min(loads), max(loads)), slip, void)
 
 
-def _of_the_bearing(
-    parts: ProjectInputs, known: Preliminary, loads: tuple[float, float], slip: float
-) -> list[Check]:
+def _of_the_bearing(parts: ProjectInputs, known: Preliminary, asked: _Asked) -> list[Check]:
     # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
     bearing, bounds = parts.bearing(), parts.bounds()
-    checks = device_checks(bearing, loads, slip=slip, bounds=bounds, limits=parts.limits())
+    checks = device_checks(
+        bearing, asked.loads, slip=asked.slip, bounds=bounds, limits=parts.limits()
+    )
+    checks = Checks(replace(check, void=asked.void) for check in checks)
     checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
     level = _of_bearings(parts)
     allowed: dict[Bound, float] = {
@@ -332,22 +339,22 @@ def _of_the_bearing(
 
 
 def _programme(
-    parts: ProjectInputs,
-    known: Preliminary,
-    histories: Histories,
-    loads: tuple[float, float],
-    slip: float,
+    parts: ProjectInputs, known: Preliminary, histories: Histories, asked: _Asked
 ) -> pd.DataFrame:
     # Tests at the loads, the slip and the speed of impact that the histories gave.
     above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
     wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
     demands = ProgrammeDemands(
-        loads=None if known.system.unknown_loads else loads,
-        slip=slip,
+        loads=None if known.system.unknown_loads else asked.loads,
+        slip=asked.slip,
         wind=wind or None,
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )
-    return prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
+    table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
+    if asked.void:
+        of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
+        table.loc[of_runs, "standing"] += f"; no values for design: {asked.void}"
+    return table
 
 
 def _loads(known: Preliminary, demands: pd.DataFrame) -> list[float]:
