@@ -21,7 +21,7 @@ from frames.design.histories.impacts import rim_engagement
 from frames.design.histories.motions import motion_checks
 from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.testing.programme import ProgrammeDemands
+from frames.design.testing.programme import ProgrammeDemands, prototype_tests
 from frames.results.storage import as_packed
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning
