@@ -235,7 +235,7 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
 
 def device_records(system: System) -> Array:
     """Return the properties of all bearings with everything modelled."""
-    return np.concatenate([bearing.to_record() for _, _, _, bearing in system.bearings])
+    return np.concatenate([placed.bearing.to_record() for placed in system.bearings])
 
 
 def run_arrays(model: ReducedModel) -> IntegrationState:
@@ -384,4 +384,4 @@ def contacts_of(system: System, levels: Sequence[str]) -> Contacts | None:
     chosen = [level == "contact" for level in levels]
     if not any(chosen):
         return None
-    return contact_arrays([b for _, _, _, b in system.bearings], chosen, system.gravity)
+    return contact_arrays([placed.bearing for placed in system.bearings], chosen, system.gravity)

@@ -1,4 +1,4 @@
-"""Bundles of arrays with which largest values are kept while a run goes on (kernels/peaking.py)."""
+"""Bundles of arrays with which largest values are kept while a run goes on (kernels/peaks.py)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,15 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     Array = npt.NDArray[Any]
+
+PRESSED = 0.05
+"""Axial force over the static one below which eccentricities are left to uplift."""
+
+FULL_SLIP = 1.0 - 1e-9
+"""Share of what the interface's friction holds from which on it counts as slipping."""
+
+LEAST_SHARE = 1e-3
+"""Axial force over the static one that the interface's friction is taken for at least."""
 
 
 class Devices(NamedTuple):

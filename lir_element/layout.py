@@ -228,7 +228,8 @@ WORK_FIELDS = (
     Field("inverse", "1/(N m)", "", "inverse of the jacobian, by rows", (4,)),
     Field("still", "m, rad", "", "no shift of a centre, no spin", _W_VECTOR),
     Field("along", "rad", "", "spin of the top plate, axes of the bottom plate", _W_VECTOR),
-    Field("sums", "", "", "spare", _W_VECTOR),
+    Field("moment", "N m", "", "of the surfaces on the slider, before its arm", _W_VECTOR),
+    Field("centre_speed", "m/s", "", "of one sphere's centre to the other", _W_VECTOR),
 )
 
 

@@ -22,8 +22,8 @@ from frames.assembly.node_loads import lumped_masses, permanent_loads
 from frames.assembly.nonlinear import nonlinear_parts
 from frames.assembly.span_loads import span_end_forces
 from frames.assembly.system import MemberTable as MemberTable
+from frames.assembly.system import PlacedBearing, element_dofs
 from frames.assembly.system import System as System
-from frames.assembly.system import element_dofs
 from frames.model.applied_loads import applied_loads
 from frames.model.axes import default_up, matrix_to_global, to_local
 from frames.model.components import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
@@ -104,7 +104,7 @@ def assemble(
         load=np.asarray(transform.T @ node_load),
         inertia_load=np.asarray(masked.T @ (mass @ translations)),
         bearings=tuple(
-            (link.name, index[link.i], index[link.j], link.bearing)
+            PlacedBearing(link.name, index[link.i], index[link.j], link.bearing)
             for link in frame.bearings.values()
         ),
         gravity=frame.gravity,
@@ -115,8 +115,8 @@ def assemble(
         parts=nonlinear,
     )
     check_mass(system)
-    levers = [coordinates[j] - coordinates[i] for _, i, j, _ in system.bearings]
-    ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
+    levers = [coordinates[b.j] - coordinates[b.i] for b in system.bearings]
+    ends = np.array([(b.i, b.j) for b in system.bearings], dtype=np.int64).reshape(-1, 2)
     pushes = [
         [bearing_axial_stiffness(bearing)] * 3
         + [bearing_rocking_stiffness(bearing) if name in with_points else 0.0] * 3

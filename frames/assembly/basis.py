@@ -32,7 +32,7 @@ def bearing_rows(system: System) -> SparseMatrix:
     """Return the rows of the transform that give the bearings' displacements, (12 n, n_free)."""
     # those of rotations are empty where plate rotation is left out: neither do the nodes' rotations
     # reach a bearing, nor its moments the nodes
-    nodes = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64).reshape(-1, 2)
+    nodes = np.array([(b.i, b.j) for b in system.bearings], dtype=np.int64).reshape(-1, 2)
     rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
     if system.features.plate_rotation:
         return system.transform[rows]

@@ -83,7 +83,7 @@ def load_path(
     forces = np.asarray((system.node_stiffness + geometric) @ moves) - system.node_load
     reactions = forces[2::6]
     taken = [(system.node_names[k], float(reactions[k])) for k in np.flatnonzero(above & held)]
-    standing = [above[j] and not above[i] for _, i, j, _ in system.bearings]
+    standing = [above[b.j] and not above[b.i] for b in system.bearings]
     return LoadPath(
         weight=float(-system.node_load[2::6][above].sum()),
         bearings=float(np.asarray(axial_forces)[standing].sum()),
@@ -112,5 +112,5 @@ def above_bearings(system: System) -> BoolArray:
     tied = of_node @ abs(system.transform)
     joined = sparse.csr_array(of_node @ abs(system.node_stiffness) @ of_node.T + tied @ tied.T)
     _, part = csgraph.connected_components(joined, directed=False)
-    tops = {int(part[j]) for _, _, j, _ in system.bearings}
+    tops = {int(part[placed.j]) for placed in system.bearings}
     return np.isin(part, list(tops))

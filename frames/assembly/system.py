@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -16,6 +16,15 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.nonlinear_parts import NonlinearParts
     from lir_element import Features, LIRBearing
+
+
+class PlacedBearing(NamedTuple):
+    """A bearing of a system: its name, the indices of its nodes, what it is."""
+
+    name: str
+    i: int
+    j: int
+    bearing: LIRBearing
 
 
 @dataclass(frozen=True)
@@ -100,7 +109,7 @@ class System:
     inertia_load : ndarray, (n_free, 3)
         transform.T @ M @ unit translation along x, y, z [kg]: a ground acceleration a_g acts as
         the load `-inertia_load @ a_g`.
-    bearings : tuple of (name, i, j, LIRBearing)
+    bearings : tuple of PlacedBearing
         Bearings with the indices of the nodes below and above.
     gravity : float
         Acceleration of gravity [m/s2].
@@ -126,7 +135,7 @@ class System:
     node_mass: FloatArray
     load: FloatArray
     inertia_load: FloatArray
-    bearings: tuple[tuple[str, int, int, LIRBearing], ...]
+    bearings: tuple[PlacedBearing, ...]
     gravity: float
     node_stiffness: SparseMatrix
     node_load: FloatArray

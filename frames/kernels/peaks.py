@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
 from frames.kernel_data import ENERGY_TERMS
+from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -53,9 +54,6 @@ WHOLE_PLACES = (
 )
 """Quantities in `Reached.whole`."""
 
-_PRESSED = 0.05  # frames.results.peak_response.PRESSED and FULL_SLIP
-_FULL_SLIP = 1.0 - 1e-9
-_LEAST_SHARE = 1e-3  # of the static force, where the interface holds next to nothing
 _INPUT = ENERGY_TERMS.index("input")
 _YIELDING = ENERGY_TERMS.index("yielding")
 _NUMERICAL = ENERGY_TERMS.index("numerical")
@@ -75,7 +73,7 @@ def eccentricity(
 ) -> float:
     """Return the interface's eccentricity over the slider's radius, 0 where hardly pressed."""
     load = state.axial_force
-    if not (load > _PRESSED * static and load > floor):
+    if not (load > PRESSED * static and load > floor):
         return 0.0
     n_x, n_y = state.axis[0], state.axis[1]
     size = math.sqrt(n_x * n_x + n_y * n_y)
@@ -120,10 +118,10 @@ def peak_contact(
     raise_to(values, times, 10, rim, t)
     raise_to(values, times, 11, 1.0 if rim > 0.0 else 0.0, t)
     h_x, h_y = state.interface_force[0], state.interface_force[1]
-    holds = p.interface_friction * max(load, _LEAST_SHARE * static)
+    holds = p.interface_friction * max(load, LEAST_SHARE * static)
     share = math.sqrt(h_x * h_x + h_y * h_y) / holds
     raise_to(values, times, 13, share, t)
-    raise_to(values, times, 14, 1.0 if share >= _FULL_SLIP else 0.0, t)
+    raise_to(values, times, 14, 1.0 if share >= FULL_SLIP else 0.0, t)
     raise_to(values, times, 16, abs(state.spin), t)
 
 

@@ -152,7 +152,7 @@ def build_dataset(
         "resultant": list(state.resultants.names),
         "level": [lv.name for lv in frame.levels],
         **names,
-        **bearing_coordinates([name for name, _, _, _ in system.bearings]),
+        **bearing_coordinates([placed.name for placed in system.bearings]),
     }
     return xr.Dataset(variables, coordinates)
 
@@ -224,7 +224,7 @@ class _Motion:
 
     def base_shear(self) -> FloatArray:
         system = self._state.system
-        grounded = np.isin([6 * i for _, i, _, _ in system.bearings], system.fixed_dofs)
+        grounded = np.isin([6 * placed.i for placed in system.bearings], system.fixed_dofs)
         forces = self._states["force"][: self._count, grounded, 6:9].sum(axis=1)
         beyond = self._out.beyond[: self._count]
         found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
@@ -264,7 +264,7 @@ def peak_velocity(motion: GroundMotion, end: float) -> FloatArray:
 
 def _device_variables(system: System) -> dict[str, xr.Variable]:
     variables = device_variables(device_records(system))
-    ends = np.array([(i, j) for _, i, j, _ in system.bearings], dtype=np.int64)
+    ends = np.array([(b.i, b.j) for b in system.bearings], dtype=np.int64)
     variables["bearing_node"] = labelled(
         ("bearing", "end"), ends, "1", "place of the node among the nodes"
     )

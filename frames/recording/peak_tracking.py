@@ -77,7 +77,7 @@ def devices_of(state: GravityState) -> Devices:
         radius=props["radius"][:, 0].copy(),
         floor=props["axial_floor"].copy(),
         static=np.asarray(state.axial_forces, dtype=np.float64),
-        on_ground=np.isin([6 * i for _, i, _, _ in system.bearings], system.fixed_dofs).astype(
+        on_ground=np.isin([6 * placed.i for placed in system.bearings], system.fixed_dofs).astype(
             np.int64
         ),
     )

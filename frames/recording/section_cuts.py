@@ -78,7 +78,7 @@ def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Se
         constant = np.zeros(6 * count)
         np.add.at(constant, table.dofs[crosses], fixed_end[crosses])
         rows = others + scatter(whole[crosses], table.nodes[crosses], count)
-        crossed = np.array([bool(above[j] and not above[i]) for _, i, j, _ in system.bearings])
+        crossed = np.array([bool(above[b.j] and not above[b.i]) for b in system.bearings])
         found.append(SectionCut(above, rows, constant, crossed))
     return found
 

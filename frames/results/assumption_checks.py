@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.peak_data import FULL_SLIP
 from frames.results.energy_balance import Remark, equilibrium, time_step
-from frames.results.peak_response import FULL_SLIP, Extreme, largest, left_out, total
+from frames.results.peak_response import Extreme, largest, left_out, total
 from lir_element.device.features import Features
 
 if TYPE_CHECKING:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
 from frames.results.hinge_extremes import hinge_rotation, link_ductility, of_hinges, of_links
 from frames.results.measures import (
     ABSORBED,
@@ -31,13 +32,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import BoolArray, FloatArray
-
-PRESSED = 0.05
-"""Axial force over the static one below which the audit leaves eccentricities to uplift."""
-
-FULL_SLIP = 1.0 - 1e-9
-"""Share of what the interface's friction holds from which on it counts as slipping."""
-
 
 VIOLENT = 50.0 * STANDARD_GRAVITY
 """Acceleration of a node from which on it is looked at [m/s2]."""
@@ -221,7 +215,7 @@ def _sliding(data: xr.Dataset) -> FloatArray:
 
 def _interface_share(data: xr.Dataset) -> FloatArray:
     normal = np.maximum(
-        _of(data, "axial_force"), 1e-3 * data.variables["static_axial_force"].to_numpy()
+        _of(data, "axial_force"), LEAST_SHARE * data.variables["static_axial_force"].to_numpy()
     )
     holds = data.variables["interface_friction"].to_numpy() * normal
     return np.asarray(_of(data, "interface_force") / holds)

@@ -128,7 +128,7 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     status, detail = end
     data.attrs |= _exceeded(state, status)
     data.attrs["audit"] = audit_report(data)
-    name = state.system.bearings[int(state.run.counts["bearing"][0])][0]
+    name = state.system.bearings[int(state.run.counts["bearing"][0])].name
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = evaluated(data)
@@ -151,7 +151,7 @@ def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
         "exceeded": name,
         "exceeded_value": float(value),
         "exceeded_at": float(run.clock["time"][0]),
-        "exceeded_bearing": state.system.bearings[k][0],
+        "exceeded_bearing": state.system.bearings[k].name,
     }
 
 

@@ -116,7 +116,7 @@ def rigid_time_history(
     explicit = _explicit_step(state, run, dt) if integrator == "explicit" else 0.0
     given, recorded = _input(state, motion, interval, steps + 1)
     chosen = DEFAULT_TOLERANCE if tolerance is None else tolerance
-    length_scale = state.system.bearings[0][3].effective_radius
+    length_scale = state.system.bearings[0].bearing.effective_radius
     largest = min(interval / record_every, motion.dt)
     setup = rigid_setup(length_scale, largest, tolerance=chosen, explicit=explicit)
     run.clock["step"] = min(FIRST_STEP, interval)
@@ -146,7 +146,7 @@ def rigid_time_history(
         "recording": str(Recording(every=record_every)),
     }
     data.attrs["audit"] = audit_report(data)
-    where = f'bearing "{state.system.bearings[0][0]}"'
+    where = f'bearing "{state.system.bearings[0].name}"'
     detail = limit_detail(run.props, run.states[2:], 0)
     if status is RunStatus.OK:
         status, detail = evaluated(data)
@@ -202,7 +202,7 @@ def _input(
     state: GravityState, motion: GroundMotion, interval: float, count: int
 ) -> tuple[RigidInput, RigidOutput]:
     # What the run is given, and where it writes.
-    node = state.system.bearings[0][2]
+    node = state.system.bearings[0].j
     load = np.tile(state.system.node_load[6 * node : 6 * node + 6], (count, 1))
     times = np.arange(count, dtype=np.float64) * interval
     return rigid_input((motion.components, motion.dt), times, np.zeros((count, 2)), load)
@@ -232,7 +232,7 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
         )
         raise ModelError(msg)
     free: IntArray = np.array([row.any() for row in rows[6:]], dtype=np.int64)
-    node = system.bearings[0][2]
+    node = system.bearings[0].j
     masses = system.node_mass[node]
     lacking = [name for a, name in enumerate("xyzxyz") if free[a] and not masses[a] > 0.0]
     if lacking:

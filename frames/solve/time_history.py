@@ -314,7 +314,7 @@ def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
     radius = options.spectral_radius
     if options.integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
-    length = min(bearing.effective_radius for _, _, _, bearing in state.system.bearings)
+    length = min(placed.bearing.effective_radius for placed in state.system.bearings)
     tolerance = options.tolerance
     if tolerance is None:
         tolerance = _ERROR_TOLERANCE if state.contacts is None else _CONTACT_TOLERANCE

@@ -117,7 +117,7 @@ def without_inertia(state: AtRest, stiffness: SparseMatrix) -> BoolArray:
     """
     system = state.system
     mass, held = system.mass.diagonal(), stiffness.diagonal()
-    length = min(bearing.effective_radius for _, _, _, bearing in system.bearings)
+    length = min(placed.bearing.effective_radius for placed in system.bearings)
     rate = 2.0 * math.pi / (FASTEST * math.sqrt(length / system.gravity))
     carried = float(system.node_mass[:, :3].mean(axis=1).sum()) / len(system.bearings)
     turns = np.array([label.rsplit(" ", 1)[1].startswith("r") for label in system.dof_labels])

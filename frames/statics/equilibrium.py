@@ -79,7 +79,7 @@ def find_equilibrium(
         If there is no equilibrium, or a bearing carries no compression.
     """
     model = model_arrays(system, basis, static_load)
-    chosen = [levels[name] for name, _, _, _ in system.bearings]
+    chosen = [levels[placed.name] for placed in system.bearings]
     tolerance = force_tolerance(system, _FORCE_TOLERANCE)
     guess = linear[basis.bearing_dofs]
     empty = run_arrays(model), contacts_of(system, chosen)
@@ -200,12 +200,12 @@ def _raise_failure(
     elif len(beyond):
         place = int(beyond[0])
         status = RunStatus(int(run.new["status"][place]))
-        props = np.concatenate([b.to_record() for _, _, _, b in system.bearings])
+        props = np.concatenate([placed.bearing.to_record() for placed in system.bearings])
         detail = limit_detail(props, run.new, place)
     if status in {RunStatus.NEWTON_FAILED, RunStatus.NO_EQUILIBRIUM, RunStatus.SINGULAR}:
         status = RunStatus.NO_REST
     if status is not RunStatus.OK:
-        name = system.bearings[place][0]
+        name = system.bearings[place].name
         raise AnalysisError(status, 0.0, f'gravity, bearing "{name}"', detail)
 
 

@@ -40,7 +40,7 @@ def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
         friction depends on speed; rims and interface where no bearing has them.
     """
     system = assemble(frame)
-    bearings = [bearing for _, _, _, bearing in system.bearings]
+    bearings = [placed.bearing for placed in system.bearings]
     lacking = []
     if bearings and all(b.is_dcfp for b in bearings):
         lacking.append("interface")

@@ -92,7 +92,7 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
 
 
 def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
-    devices = [bearing for _, _, _, bearing in state.system.bearings]
+    devices = [placed.bearing for placed in state.system.bearings]
     values = np.zeros((len(devices), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
     if bearings == "sliding":

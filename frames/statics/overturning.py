@@ -81,10 +81,10 @@ def overturning_share(system: System) -> Overturning:
     Overturning
         The smaller share of the two, for motion along x and along y.
     """
-    tops = np.array([j for _, _, j, _ in system.bearings])
+    tops = np.array([placed.j for placed in system.bearings])
     mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
-    axial = np.array([bearing_axial_stiffness(b) for _, _, _, b in system.bearings])
-    rocking = np.array([bearing_rocking_stiffness(b) for _, _, _, b in system.bearings])
+    axial = np.array([bearing_axial_stiffness(placed.bearing) for placed in system.bearings])
+    rocking = np.array([bearing_rocking_stiffness(placed.bearing) for placed in system.bearings])
     springs = np.column_stack([axial, axial, axial, rocking, rocking, rocking])
     stiffness = sparse.csr_array(system.stiffness + spring_matrix(system, springs))
     factors = Factors(stiffness)

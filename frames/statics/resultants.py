@@ -133,7 +133,7 @@ def _rigid_motions(state: AtRestMoving) -> tuple[FloatArray, FloatArray, float]:
     # and half the extent of the structure.
     system = state.system
     transform = sparse.csr_array(system.transform)
-    ends = [i for _, i, _, _ in system.bearings]
+    ends = [placed.i for placed in system.bearings]
     arms = system.coordinates - system.coordinates[ends].mean(axis=0)
     x, y, z = arms.T
     nodes = np.zeros((len(arms), 6, 6))

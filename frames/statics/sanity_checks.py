@@ -89,7 +89,7 @@ def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad
 
 def isolated_period(system: System, axial_forces: FloatArray) -> float:
     """Return the period of the mass that the bearings carry as one pendulum [s]."""
-    lengths = np.array([bearing.effective_radius for _, _, _, bearing in system.bearings])
+    lengths = np.array([placed.bearing.effective_radius for placed in system.bearings])
     if system.gravity <= 0.0 or not axial_forces.sum() > 0.0:
         return math.inf
     stiffness = float((axial_forces / lengths).sum())
@@ -138,7 +138,7 @@ def sanity_warnings(
         If a slider is pressed as no material can be.
     """
     loads = bearing_loads(system, axial_forces)
-    devices = {name: bearing for name, _, _, bearing in system.bearings}
+    devices = {placed.name: placed.bearing for placed in system.bearings}
     return (
         *_of_pressure(loads),
         *_of_settlement(loads, devices),

@@ -34,7 +34,7 @@ def guessed_springs(system: System, with_points: Collection[str] = ()) -> Sparse
         Their stiffness.
     """
     values = np.zeros((len(system.bearings), 6))
-    values[:, 2] = [bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings]
+    values[:, 2] = [bearing_axial_stiffness(placed.bearing) for placed in system.bearings]
     values[:, :2] = 0.01 * values[:, 2:3]
     for k, (name, _, _, bearing) in enumerate(system.bearings):
         if name in with_points:
@@ -81,7 +81,7 @@ def spring_forces(system: System, displacement: FloatArray) -> FloatArray:
         Axial forces [N].
     """
     moves = np.asarray(bearing_rows(system) @ displacement).reshape(-1, 12)
-    axial = np.array([bearing_axial_stiffness(bearing) for _, _, _, bearing in system.bearings])
+    axial = np.array([bearing_axial_stiffness(placed.bearing) for placed in system.bearings])
     return np.asarray(axial * (moves[:, 2] - moves[:, 8]))
 
 

@@ -16,7 +16,7 @@ from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.results.peak_response import PRESSED
+from frames.peak_data import PRESSED
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -151,7 +151,7 @@ def aim_on(p: Props, old: State, w: Work) -> None:
 @kernel
 def static_speeds(p: Props, w: Work, v: Floats) -> None:
     """Set the sliding speeds of a trial at the committed time from the nodes' velocities."""
-    rate = w.sums
+    rate = w.centre_speed
     for k in range(3):
         rate[k] = v[6 + k] - v[k]
     # levers: + a_i e_i x omega_i + a_j e_j x omega_j, then the turn of the bottom plate

@@ -48,12 +48,12 @@ def set_forces(w: Work, p: Props, new: State, old: State) -> None:
     t, n, q = w.t, w.n, w.q_i
     for a in range(3):
         w.g[a] = -w.n_true * n[a] + t[0, a] * w.f_s[0] + t[1, a] * w.f_s[1]  # (2.2)
-        w.sums[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2)
+        w.moment[a] = p.radius[1] * (t[0, a] * k_1 + t[1, a] * k_2)
         if rim > 0.0:
-            w.sums[a] -= rim * w.r_top[a]
+            w.moment[a] -= rim * w.r_top[a]
     if p.fixed_load > 0.0:
         w.g[2] = -w.vertical
-    m = w.sums
+    m = w.moment
     m_0, m_1, m_2 = n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]
     f = new.force
     for a in range(3):
