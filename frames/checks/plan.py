@@ -185,7 +185,12 @@ def vertical_checks(
 
 
 def capacity_check(
-    t: Trace, system: IsolationSystem, judge: Judge, clause: str, demand: str
+    t: Trace,
+    system: IsolationSystem,
+    judge: Judge,
+    clause: str,
+    demand: str,
+    words: str = "the total displacement",
 ) -> Check:
     """Return the check of the rims' displacement against the demand, for the worst bearing.
 
@@ -199,6 +204,8 @@ def capacity_check(
         Makes the check.
     clause, demand : str
         Clause, and symbol of the demand.
+    words : str
+        What the code calls the demand, for the title.
 
     Returns
     -------
@@ -207,7 +214,7 @@ def capacity_check(
     """
     t.given_each("d_rim", [p.capacity for p in system.pendulums], "m", shown="mm",
                  note="displacement at the first rim contact")  # fmt: skip
-    title = "rims free at the total displacement"
+    title = f"rims free at {words}"
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:

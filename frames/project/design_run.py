@@ -80,6 +80,8 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    doubts : tuple of str
+        What of the input was warned of.
     """
 
     frame: Frame
@@ -97,6 +99,7 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -201,7 +204,7 @@ def judged_run(parts: Parts, known: Groundwork, histories: Histories) -> Project
         bounds=bounds, model=frame.check(), loads=known.system.loads,
         governing=histories.governing, governing_case=histories.governing_case,
         inputs=inputs_of(parts, known), programme=_programme(parts, known, histories, loads, slip),
-        rules=rules,
+        rules=rules, doubts=known.doubts,
     )  # fmt: skip
 
 
