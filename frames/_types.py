@@ -10,6 +10,9 @@ import numpy.typing as npt
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 """Array of float64; the shape is given in each docstring."""
 
+ComplexArray: TypeAlias = npt.NDArray[np.complex128]
+"""Array of complex128; the shape is given in each docstring."""
+
 IntArray: TypeAlias = npt.NDArray[np.int64]
 """Array of int64; the shape is given in each docstring."""
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp
 
+import numpy as np
+
 from lir_element.argument_checks import require_between, require_non_negative
 from lir_element.units import per_cent
 
@@ -101,6 +103,6 @@ def as_laws(given: object) -> object:
     """Return friction with numbers as `CoulombFriction`; anything else is left to its check."""
     if isinstance(given, tuple):
         return tuple(as_laws(each) for each in given)
-    if isinstance(given, (int, float)) and not isinstance(given, bool):
+    if isinstance(given, (int, float, np.number)) and not isinstance(given, bool):
         return CoulombFriction(float(given))
     return given

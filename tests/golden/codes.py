@@ -317,6 +317,9 @@ def compare(project, tally):
         own = found[bound] = analysed(project, bound, above)
         moved = own.get("moved", own["centre"])
         tally.same(name, f"{bound} displacement", row["displacement [m]"], moved)
+        if project.code == "EN 1998":
+            allowed = row["allowed_displacement [m]"]
+            tally.same(name, f"{bound} allowed displacement", allowed, own["allowed"])
         for column, key in COLUMNS.items():
             if row[column] != "" or key in own:
                 tally.same(name, f"{bound} {column}", row[column] or np.nan, own[key])

@@ -17,6 +17,7 @@ from frames import GroundMotion, MotionWarning, load
 from frames.command.app import app
 from frames.design import MotionSet, Spectrum
 from frames.design.hazard.motion_folder import read_table
+from frames.design.hazard.sanity_checks import twins
 from frames.design.project.example import write_example
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project
@@ -102,6 +103,19 @@ def test_one_record_under_two_names(example: Path, tmp_path: Path) -> None:
     assert "artificial-1 and other: identical or proportional histories" in output
 
 
+def test_one_record_that_begins_later(example: Path) -> None:
+    motions = dict(read_table(example / "motions", "motions.csv")[0].items())
+    assert twins(motions) == ()
+    first = motions["artificial-1"]
+    late = {
+        axis: np.concatenate([np.zeros(300), factor * values])
+        for axis, factor, values in (("x", 1.3, first.y), ("y", -1.3, first.x))
+        if values is not None
+    }
+    (doubt,) = twins(motions | {"late": GroundMotion(**late, dt=first.dt)})
+    assert doubt.startswith("artificial-1 and late: identical or proportional histories")
+
+
 @pytest.mark.parametrize("factor", [9.81, 0.102, 0.01])
 def test_a_factor_that_changes_a_unit(factor: float, example: Path, tmp_path: Path) -> None:
     output = checked(example, tmp_path, 'scale = "spectrum"', f"scale = {factor}")
@@ -148,6 +162,16 @@ def test_importance_in_one_section(tmp_path: Path) -> None:
     assert "[superstructure] importance = 1.4, [spectrum] importance = 1" in output
 
 
+def test_importance_that_changes_nothing(tmp_path: Path) -> None:
+    write_example(tmp_path, "NCh2745")
+    file = tmp_path / "project.toml"
+    assert file_doubts(read_project(file)) == ()
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("importance = 1.0", "importance = 1.2"), encoding="utf-8")
+    (doubt,) = file_doubts(read_project(file))
+    assert "[superstructure] importance = 1.2 changes nothing: NCh2745" in doubt
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -175,7 +199,15 @@ def test_ground_that_moves_nothing(code: str, tmp_path: Path) -> None:
     file.write_text(text.replace('"3.4 m/s2"', '"0.25 m/s2"'), encoding="utf-8")
     output = CliRunner().invoke(app, ["check", str(file)]).output
     assert "nothing slides at this hazard" in output
+    assert "or lower the friction" in output
     assert "does not settle" not in output
+
+
+def test_an_acceleration_without_a_unit_may_be_in_g() -> None:
+    with pytest.raises(ValueError, match=r'write "0\.25 g" or "0\.25 m/s2" if that is meant'):
+        si(0.25, "m/s^2", "3.5 m/s2")
+    with pytest.raises(ValueError, match=r'write "3\.4 m/s2" if that is meant'):
+        si(3.4, "m/s^2", "3.5 m/s2")
 
 
 def test_friction_is_a_number_too() -> None:
@@ -187,6 +219,9 @@ def test_friction_is_a_number_too() -> None:
     )
     pair = LIRBearing(**given, capacity=0.3, friction=(0.05, 0.06))  # type: ignore[arg-type]
     assert pair.frictions == (CoulombFriction(0.05), CoulombFriction(0.06))
+    for number in (np.float32(0.125), np.float64(0.125), 0.125):
+        taken = LIRBearing(**given, capacity=0.3, friction=number)  # type: ignore[arg-type]
+        assert taken.frictions == (CoulombFriction(0.125), CoulombFriction(0.125))
     with pytest.raises(TypeError, match=r"give a number as 0\.05"):
         LIRBearing(**given, capacity=0.3, friction=True)  # type: ignore[arg-type]
 

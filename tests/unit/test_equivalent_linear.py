@@ -482,6 +482,23 @@ def test_displacement_by_en1998() -> None:
     np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
 
 
+def test_what_bearings_must_allow_stands_beside_the_displacement() -> None:
+    """The limit of the rims is held against gamma_x d_bd: the table has that number too."""
+    found = nominal(SYSTEM, En(8.0))
+    one = found["nominal"]
+    assert one.allowed_displacement == pytest.approx(1.2 * one.total_displacement)
+    table = found.to_dataframe()
+    assert table.loc["nominal", "allowed_displacement [m]"] == one.allowed_displacement
+    assert "allowed displacement [mm]" in found.head()
+    assert f"{1e3 * one.allowed_displacement:.0f} mm" in repr(found)
+    (rims,) = (c for c in found.checks if c.title.startswith("rims free"))
+    assert rims.title == "rims free at gamma_x d_bd"
+    assert rims.demand == pytest.approx(one.allowed_displacement)
+    asce = nominal(SYSTEM, Asce(0.6))  # where it is the same, it is not there twice
+    assert "allowed_displacement [m]" not in asce.to_dataframe()
+    assert "must allow" not in repr(asce)
+
+
 def test_drifts_of_en1998_at_damage_limitation() -> None:
     """EN 1998-1 4.4.3.2: d_r = q d_e of the design forces, nu = 0.5 of it, 5/1000 of the height."""
     found = nominal(SYSTEM, En(8.0), superstructure=ABOVE)["nominal"]

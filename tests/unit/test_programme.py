@@ -179,6 +179,18 @@ def test_type_tests_of_en15129_by_hand() -> None:
     assert list(own["vertical load [N]"])[-3:-1] == [900e3, 300e3]
 
 
+def test_impacts_of_en1998_go_to_what_bearings_must_allow() -> None:
+    found, table = programme(EN1998(), Spectrum.en1998(5.0, "C"), loads=LOADS)
+    result = min(found.bounds.values(), key=lambda each: (-each.total_displacement, each.period))
+    allowed = 1.2 * result.total_displacement
+    assert allowed - U_CAP > 0.25 * 0.15
+    tests = table.set_index("what")
+    impact = tests.loc["impact and return, largest load"]
+    assert impact["displacement [m]"] == pytest.approx(allowed)
+    speed = 2.0 * math.pi / result.period * math.sqrt(allowed**2 - U_CAP**2)
+    assert impact["peak speed [m/s]"] == pytest.approx(speed)
+
+
 def test_of_alike_displacements_the_faster_tests_are_made() -> None:
     """Beyond T_D, eta at its least, both bounds ask for one displacement: not round-off decides."""
     own, bounds = system(), PropertyBounds(PropertyModificationFactors(1.0, 1.25))

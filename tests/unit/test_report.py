@@ -25,6 +25,8 @@ from frames.design.report.numbers import mode_table
 from lir_element import LIRBearing
 from tests.patience import patience
 
+pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
+
 PROJECT = """
 [project]
 name = "One storey <& small>"
@@ -39,6 +41,7 @@ storey_height = "3 m"
 base_mass = "100 t"
 [superstructure]
 R = 6.0
+wind_shear = "500 kN"
 [bearing]
 radius = "1.5 m"
 slider_height = "200 mm"
@@ -136,6 +139,13 @@ def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> 
     assert table.count(" *</td>") == checks["standing"].str.startswith("to be confirmed").sum()
     verdict = page[page.index('class="verdict') : page.index('<h2 id="structure">')]
     assert f"{len(checks)} checks" in verdict
+
+
+def test_doubtful_input_is_named_under_the_verdict(page: str) -> None:
+    verdict = page.partition('<div class="verdict')[2].partition("</div>")[0]
+    assert "Doubtful input" in verdict
+    assert "wind_shear = 500 kN is above" in verdict
+    assert verdict.count("slides in wind") == 1
 
 
 def test_it_stands_alone(results: Path, page: str) -> None:

@@ -197,7 +197,12 @@ def vertical_checks(
 
 
 def capacity_check(
-    t: Trace, system: IsolationSystem, judge: CheckBuilder, clause: str, demand: str
+    t: Trace,
+    system: IsolationSystem,
+    judge: CheckBuilder,
+    clause: str,
+    demand: str,
+    words: str = "the total displacement",
 ) -> Check:
     """Return the check of the rims' displacement against the demand, for the worst bearing.
 
@@ -211,6 +216,8 @@ def capacity_check(
         Makes the check.
     clause, demand : str
         Clause, and symbol of the demand.
+    words : str
+        What the code calls the demand, for the title.
 
     Returns
     -------
@@ -224,7 +231,7 @@ def capacity_check(
         shown="mm",
         note="displacement at the first rim contact",
     )
-    title = "rims free at the total displacement"
+    title = f"rims free at {words}"
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:

@@ -144,9 +144,12 @@ class BoundResult:
 
     def __repr__(self) -> str:
         """Return the main numbers on one line."""
+        allowed = ""
+        if self.symbols.allowed:
+            allowed = f", bearings must allow {1e3 * self.allowed_displacement:.0f} mm"
         return (
             f"{self.bound}: displacement {1e3 * self.displacement:.0f} mm, with torsion "
-            f"{1e3 * self.total_displacement:.0f} mm; period {self.period:.2f} s, damping "
+            f"{1e3 * self.total_displacement:.0f} mm{allowed}; period {self.period:.2f} s, damping "
             f"{100.0 * self.damping:.1f} %, base shear {1e-3 * self.base_shear:.0f} kN"
         )
 
@@ -154,6 +157,7 @@ class BoundResult:
 _COLUMNS = (
     ("displacement", "m", "mm"),
     ("total_displacement", "m", "mm"),
+    ("allowed_displacement", "m", "mm"),
     ("period", "s", "s"),
     ("damping", "-", "%"),
     ("damping_factor", "-", "-"),
@@ -219,15 +223,21 @@ class EquivalentLinear:
             raise CheckError(msg)
         return self.bounds[bound]
 
+    @property
+    def _columns(self) -> list[tuple[str, str, str]]:
+        # What bearings must allow stands beside the total displacement where it is more.
+        more = any(each.symbols.allowed for each in self.bounds.values())
+        return [column for column in _COLUMNS if more or column[0] != "allowed_displacement"]
+
     def to_dataframe(self) -> pd.DataFrame:
         """Return a table with a row for each bound, numbers in SI units."""
         import pandas as pd
 
         rows = {
-            name: [getattr(each, column) for column, *_ in _COLUMNS]
+            name: [getattr(each, column) for column, *_ in self._columns]
             for name, each in self.bounds.items()
         }
-        columns = [f"{name} [{unit}]" for name, unit, _ in _COLUMNS]
+        columns = [f"{name} [{unit}]" for name, unit, _ in self._columns]
         return pd.DataFrame.from_dict(rows, orient="index", columns=columns)
 
     def __str__(self) -> str:
@@ -244,7 +254,7 @@ class EquivalentLinear:
 
     def head(self) -> tuple[str, ...]:
         """Return the titles of `rows`, with units: mm, kN, per cent."""
-        return ("bound", *(f"{name.replace('_', ' ')} [{u}]" for name, _, u in _COLUMNS))
+        return ("bound", *(f"{name.replace('_', ' ')} [{u}]" for name, _, u in self._columns))
 
     def rows(self) -> list[tuple[str, ...]]:
         """Return a row for each bound as text, for tables."""
@@ -255,7 +265,7 @@ class EquivalentLinear:
                     ""
                     if (value := getattr(each, column)) is None
                     else quantity(value, unit, shown, units=False)
-                    for column, unit, shown in _COLUMNS
+                    for column, unit, shown in self._columns
                 ),
             )
             for name, each in self.bounds.items()

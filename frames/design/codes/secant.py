@@ -112,7 +112,8 @@ def iterate_displacement(
             msg = (
                 f"nothing slides at this hazard: the displacement falls below {_NOTHING:g} m, as "
                 "the acceleration at short periods over its damping factor is below the friction"
-                f"{held}: look at the unit of the spectrum (0.25 g are 2.45 m/s2), or lower it"
+                f"{held}: look at the unit of the spectrum (0.25 g are 2.45 m/s2), or "
+                "lower the friction"
             )
             raise CheckError(msg)
         assumed = found

@@ -6,13 +6,14 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
 
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from frames._types import FloatArray
+    from frames._types import ComplexArray
     from frames.motion.ground_motion import GroundMotion
 
 SAME = 0.999
@@ -46,17 +47,20 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
     -------
     tuple of str
         A sentence that names all pairs, also where one is the other times a factor, turned by 90
-        degrees or followed by zeros; empty without any.
+        degrees, later by some seconds or followed by zeros; empty without any.
     """
     flat = {
-        name: [a for a in (motion.x, motion.y) if a is not None and a.any()]
+        name: [a / np.linalg.norm(a) for a in (motion.x, motion.y) if a is not None and a.any()]
         for name, motion in motions.items()
     }
+    longest = max((len(a) for each in flat.values() for a in each), default=1)
+    size = next_fast_len(2 * longest, real=True)
+    spectra = {name: [rfft(a, size) for a in each] for name, each in flat.items()}
     found = [
         f"{one} and {other}"
-        for one, other in combinations(flat, 2)
+        for one, other in combinations(spectra, 2)
         if motions[one].dt == motions[other].dt
-        and any(_same(a, b) for a in flat[one] for b in flat[other])
+        and any(_same(a, b, size) for a in spectra[one] for b in spectra[other])
     ]
     if not found:
         return ()
@@ -67,10 +71,11 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
     )
 
 
-def _same(a: FloatArray, b: FloatArray) -> bool:
-    size = min(len(a), len(b))
-    product = abs(float(a[:size] @ b[:size]))
-    return product > SAME * float(np.linalg.norm(a) * np.linalg.norm(b))
+def _same(a: ComplexArray, b: ComplexArray, size: int) -> bool:
+    # Of spectra of components of norm 1: their correlation at any delay, first a bound on it.
+    if 2.0 / size * float(np.abs(a) @ np.abs(b)) < SAME:
+        return False
+    return float(np.abs(irfft(a * np.conj(b), size)).max()) > SAME
 
 
 def factor_doubts(factor: float, motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:

@@ -80,6 +80,8 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    doubts : tuple of str
+        What of the input was warned of.
     """
 
     frame: Frame
@@ -97,6 +99,7 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -216,6 +219,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
+        doubts=known.doubts,
     )
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from frames._errors import ModelWarning
+from frames._errors import ModelWarning, MotionWarning
 from frames.design.codes.analysis import equivalent_linear
 from frames.design.codes.asce7 import ASCE7
 from frames.design.codes.en1998 import EN1998
@@ -48,6 +48,8 @@ class Preliminary:
         Equivalent-linear analysis at both bounds.
     motions : MotionSet
         Scaled as the file asks.
+    doubts : tuple of str
+        What was warned of on the way: of the file, the bearing and the motions.
     """
 
     frame: Frame
@@ -55,6 +57,7 @@ class Preliminary:
     spectrum: Spectrum
     equivalent: EquivalentLinear
     motions: MotionSet
+    doubts: tuple[str, ...] = ()
 
 
 def preliminary(parts: ProjectInputs) -> Preliminary:
@@ -83,6 +86,20 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
         On values that are probably in another unit, a record that is there twice, and wind that
         slides the bearings.
     """
+    told: list[warnings.WarningMessage] = []
+    try:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            known = _made(parts)
+    finally:
+        for each in told:
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    kinds = (ModelWarning, MotionWarning)
+    doubts = dict.fromkeys(str(each.message) for each in told if issubclass(each.category, kinds))
+    return replace(known, doubts=tuple(doubts))
+
+
+def _made(parts: ProjectInputs) -> Preliminary:
     parts.limits(), parts.rules()  # refused before anything is run
     _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()

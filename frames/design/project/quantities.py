@@ -15,6 +15,7 @@ _POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
 
 
 _LEAST_IN_MM = 20.0  # a smaller length without a unit was probably meant in m
+_LARGEST_IN_G = 2.0  # a smaller acceleration without a unit was probably meant in g
 
 
 @cache
@@ -76,9 +77,11 @@ def si(value: object, unit: str, example: str) -> float:
 
 
 def _written(value: float, unit: str, example: str) -> str:
-    # A number with its unit; of lengths that are too short for mm, m.
+    # A number with its unit; of lengths that are too short for mm, m; of accelerations below 2, g.
     if unit == "m" and abs(value) < _LEAST_IN_MM:
         return f'write "{value:g} m" or "{1e3 * value:g} mm" if that is meant'
+    if unit == "m/s^2" and abs(value) < _LARGEST_IN_G:
+        return f'write "{value:g} g" or "{value:g} m/s2" if that is meant'
     return f'write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames.design.project.schema import En1998Spectrum, MomentFrame, ShearBuilding
+from frames.design.project.schema import En1998Spectrum, MomentFrame, NChSpectrum, ShearBuilding
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -126,6 +126,13 @@ def _of_storeys(file: ProjectFile) -> list[str]:
 
 def _of_importance(file: ProjectFile) -> list[str]:
     above, spectrum = file.superstructure, file.spectrum
+    if above is not None and isinstance(spectrum, NChSpectrum):
+        if math.isclose(above.importance, 1.0):
+            return []
+        return [
+            f"[superstructure] importance = {above.importance:g} changes nothing: NCh2745's "
+            "formulas and spectrum are without an importance factor here; leave it out"
+        ]
     if above is None or not isinstance(spectrum, En1998Spectrum):
         return []
     if above.importance == spectrum.importance:

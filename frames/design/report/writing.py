@@ -74,6 +74,7 @@ def report_html(run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame]
         device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
         case=run.governing_case,
         failed=[_judged(check) for check in run.checks.failed],
+        doubts=run.doubts,
         checks=[_judged(check) for check in run.checks],
         limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
         model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)

@@ -61,11 +61,11 @@ class ProgrammeDemands:
     service : float, optional
         Displacement without an earthquake, of temperature for instance [m].
     slip : float, optional
-        Interface slip of time histories [m]. What the design displacement with torsion is beyond
-        the rims, and a quarter of the slip that holds, are tested at least.
+        Interface slip of time histories [m]. What the displacement that bearings must allow is
+        beyond the rims, and a quarter of the slip that holds, are tested at least.
     impact_speed : float, optional
         Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
-        displacement with torsion; its largest, where that does not reach a rim.
+        the displacement that bearings must allow; its largest, where that does not reach a rim.
     slow_speed : float
         Peak speed of tests that are not dynamic [m/s]; EN 15129 has 50 mm/s.
 
@@ -349,7 +349,7 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
     bearing = d.bearing
     if not isinstance(bearing, LIRBearing) or bearing.is_dcfp:
         return
-    rim, total = bearing.lateral_capacity, d.result.total_displacement
+    rim, total = bearing.lateral_capacity, d.result.allowed_displacement
     if not math.isfinite(rim):
         return
     holds = min(bearing.resolved()["slip_capacity"], max(bearing.slip_stability, 0.0))
