@@ -21,6 +21,7 @@ from lir_element.device.plausible import (
     USUAL_PRESSURE,
     pressure_remedy,
 )
+from lir_element.door import shown
 from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
@@ -280,12 +281,12 @@ def check_analysis(model: object, motion: object) -> None:
         msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
         raise TypeError(msg)
     if not isinstance(model, FrameContents):
-        msg = f"model = {model!r} must be a Frame: time_history(model, motion)"
+        msg = f"model = {shown(model)} must be a Frame: time_history(model, motion)"
         raise TypeError(msg)
     if not isinstance(motion, GroundMotion):
-        shape = getattr(motion, "shape", None)
-        given = repr(motion) if shape is None else f"an array of shape {shape}"
-        msg = f"motion = {given} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
+        msg = (
+            f"motion = {shown(motion)} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
+        )
         raise TypeError(msg)
     for doubt in motion_doubts(model, motion):
         warnings.warn(doubt, ModelWarning, stacklevel=3)

@@ -29,6 +29,7 @@ from frames.assembly.basis import Basis, build_basis
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import plausible
+from frames.model.contents import FrameContents
 from lir_element.door import require_choice, require_type
 from lir_element.element import LEVELS
 from lir_element.tables import html_table
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
     from frames.kernel_data import Model, Run
-    from frames.model.contents import FrameContents
     from frames.parts_data import Parts
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
@@ -166,6 +166,8 @@ def gravity(
     ------
     ModelError
         If the model cannot work, or is unstable under its permanent loads.
+    TypeError
+        If it is no Frame.
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     KeyboardInterrupt
@@ -177,6 +179,7 @@ def gravity(
         If supports take weight past the bearings, or numbers look as if given in other units
         (`Frame.check` lists the same).
     """
+    require_type("frame", frame, FrameContents, "a Frame")
     with blas_threads_for(frame):
         prepared = prepare(frame, features, level)
         began = perf_counter()
