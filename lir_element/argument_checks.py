@@ -18,6 +18,37 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
+_LONGEST = 120  # characters of a value in a message
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it: what is long by its kind, and its shape if it has one.
+
+    Parameters
+    ----------
+    value : object
+        What the caller gave.
+
+    Returns
+    -------
+    str
+        In one line.
+
+    Examples
+    --------
+    >>> shown(2.5), shown(np.zeros((3, 600))), shown([0.0] * 600)
+    ('2.5', 'an array of shape (3, 600)', 'a list of 600')
+    """
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return f"an array of shape {value.shape}"
+    text = repr(value)
+    if len(text) <= _LONGEST and "\n" not in text:
+        return text
+    size = f" of {len(value)}" if isinstance(value, (list, tuple, dict, str)) else ""
+    kind = type(value).__name__
+    return f"{'an' if kind[0] in 'AEIOUaeiou' else 'a'} {kind}{size}"
+
+
 def as_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, infinity and NaN included.
 
@@ -42,7 +73,7 @@ def as_number(name: str, value: object, unit: str = "") -> float:
     """
     no_number = isinstance(value, (bool, np.bool_, complex, np.complexfloating))
     if no_number or not hasattr(value, "__float__") or getattr(value, "ndim", 0) > 0:
-        msg = f"{name} = {value!r} is not a number: give one number in {unit or 'SI units'}"
+        msg = f"{name} = {shown(value)} is not a number: give one number in {unit or 'SI units'}"
         raise TypeError(msg)
     return float(value)
 
@@ -125,7 +156,7 @@ def require_vector(
     try:
         array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError) as cause:
-        msg = f"{name} = {values!r} must be {size} real numbers: give them in SI units"
+        msg = f"{name} = {shown(values)} must be {size} real numbers: give them in SI units"
         raise error(msg) from cause
     if array.shape != (size,):
         msg = (
@@ -144,7 +175,7 @@ def require_type(
 ) -> None:
     """Raise a TypeError unless `value` is of one of the kinds."""
     if not isinstance(value, kinds):
-        msg = f"{name} = {value!r} must be {what_it_must_be}"
+        msg = f"{name} = {shown(value)} must be {what_it_must_be}"
         raise TypeError(msg)
 
 
@@ -157,7 +188,7 @@ def require_choice(
 ) -> None:
     """Raise unless `value` is one of those allowed."""
     if value not in allowed:
-        msg = f"{name} = {value!r}: choose one of {tuple(allowed)}"
+        msg = f"{name} = {shown(value)}: choose one of {tuple(allowed)}"
         raise error(msg)
 
 

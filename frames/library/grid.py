@@ -7,13 +7,20 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from lir_element.argument_checks import require_positive
+from lir_element.argument_checks import require_positive, shown
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
 
     Bearings: TypeAlias = LIRBearing | Mapping[tuple[int, int], LIRBearing]
     """One bearing for every place of a grid, or one for each place (ix, iy)."""
+
+
+def require_device(name: str, device: object) -> None:
+    """Raise a TypeError unless `device` is what a bearing element is made of."""
+    if not isinstance(getattr(device, "height", None), (int, float)):
+        msg = f"{name} = {shown(device)} must be an LIRBearing, the device itself"
+        raise TypeError(msg)
 
 
 def bearing_grid(
@@ -49,6 +56,8 @@ def bearing_grid(
     ------
     ModelError
         If the mapping lacks a place of the grid or has one outside.
+    TypeError
+        If a device is no bearing.
     """
     chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(places, bearing)
     missing = [place for place in places if place not in chosen]
@@ -60,6 +69,8 @@ def bearing_grid(
             "all, or a mapping with every place (ix, iy)"
         )
         raise ModelError(message)
+    for place, device in chosen.items():
+        require_device(f"bearing at {place}" if isinstance(bearing, Mapping) else "bearing", device)
     level = max(chosen[place].height for place in places)
     for ix, iy in places:
         device = chosen[ix, iy]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.frame import Frame
+from frames.library.grid import require_device
 from frames.library.moment_frames import moment_frame as moment_frame
 from frames.library.shear_buildings import shear_building as shear_building
 from lir_element.argument_checks import require_positive
@@ -52,9 +53,7 @@ def lumped_mass(
     ModelError
         If mass, inertia or gravity is not positive.
     """
-    if not isinstance(getattr(bearing, "height", None), (int, float)):
-        msg = f"bearing = {bearing!r} must be an LIRBearing, the device itself"
-        raise TypeError(msg)
+    require_device("bearing", bearing)
     frame = Frame(name, gravity)
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.add_node("mass", 0.0, 0.0, bearing.height)

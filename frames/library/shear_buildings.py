@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from frames.library.grid import bearing_grid, pair
+from frames.library.grid import bearing_grid, pair, require_device
 from frames.library.moment_frames import DEFAULT_DAMPING
 from frames.library.tilting_base import VERTICAL_PERIOD, GridPlan, add_tilting_base
 from frames.model.components import bearing_axial_stiffness
@@ -308,6 +308,7 @@ def _one_bearing(frame: Frame, bearing: Bearings) -> float:
         raise ModelError(message)
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.fix("ground", "all")
+    require_device("bearing", bearing)
     frame.add_node("base", 0.0, 0.0, bearing.height)
     frame.add_bearing("bearing", "ground", "base", bearing)
     return bearing.height

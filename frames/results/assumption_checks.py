@@ -10,16 +10,16 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from frames.peak_data import FULL_SLIP
 from frames.results.energy_balance import Remark, equilibrium, time_step
 from frames.results.peak_response import Extreme, largest, left_out, total
+from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    import xarray as xr
 
 NEAR = 0.95
 """Share of a limit at which it counts as reached in a run that left out something else as well."""
@@ -109,12 +109,18 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
         all forces, and where it applies one on nodes accelerated by more than 50 g and one on the
         error of a step that was given.
 
+    Raises
+    ------
+    TypeError
+        If it is no Dataset.
+
     Notes
     -----
     A recording that leaves steps or variables out (`Recording`) keeps what was reached at all
     steps, so that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the
     recorded steps are seen.
     """
+    require_type("data", data, xr.Dataset, "a Dataset of time_history")
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
     remarks = tuple(_remarked(each) for each in (*equilibrium(data), *time_step(data)))

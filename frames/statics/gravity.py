@@ -22,6 +22,7 @@ from frames.assembly.basis import Basis, build_basis
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import sanity_checks
+from frames.model.frame_data import FrameData
 from frames.statics.accelerations import accelerating, has_light_nodes
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
     from frames.kernel_data import IntegrationState, ReducedModel
-    from frames.model.frame_data import FrameData
     from frames.nonlinear_data import NonlinearElements
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
@@ -166,6 +166,8 @@ def gravity(
     ------
     ModelError
         If the model cannot work, or is unstable under its permanent loads.
+    TypeError
+        If it is no Frame.
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     KeyboardInterrupt
@@ -177,6 +179,7 @@ def gravity(
         If supports take weight past the bearings, or numbers look as if given in other units
         (`Frame.check` lists the same).
     """
+    require_type("frame", frame, FrameData, "a Frame")
     with blas_threads_for(frame):
         prepared = prepare(frame, features, level)
         began = perf_counter()

@@ -15,6 +15,7 @@ import numpy as np
 from frames._errors import ModelError, ModelWarning
 from frames.model.frame_data import FrameData
 from frames.motion.ground_motion import GroundMotion
+from lir_element.argument_checks import shown
 from lir_element.device.sanity_checks import (
     LARGEST_PRESSURE,
     STRANGE_SHORTENING,
@@ -282,12 +283,12 @@ def check_analysis(model: object, motion: object) -> None:
         msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
         raise TypeError(msg)
     if not isinstance(model, FrameData):
-        msg = f"model = {model!r} must be a Frame: time_history(model, motion)"
+        msg = f"model = {shown(model)} must be a Frame: time_history(model, motion)"
         raise TypeError(msg)
     if not isinstance(motion, GroundMotion):
-        shape = getattr(motion, "shape", None)
-        given = repr(motion) if shape is None else f"an array of shape {shape}"
-        msg = f"motion = {given} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
+        msg = (
+            f"motion = {shown(motion)} must be a GroundMotion, such as GroundMotion(x=..., dt=0.01)"
+        )
         raise TypeError(msg)
     for doubt in motion_doubts(model, motion):
         warnings.warn(doubt, ModelWarning, stacklevel=3)

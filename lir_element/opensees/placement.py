@@ -76,7 +76,8 @@ def place(
     Warns
     -----
     PlacementWarning
-        If the model seems to stand on its y axis, and no `orient` is given.
+        If the model seems to stand on its y axis, and no `orient` is given; or if nodes that
+        coincide are held as if they were swapped.
     """
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
@@ -93,6 +94,12 @@ def place(
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     rise = metre * (points[1] - points[0])
     _check_rise(i, j, rise, axes, bearing.height)
+    if np.linalg.norm(rise) <= _TOLERANCE and _hangs(ops, i, j, ndm):
+        msg = (
+            f"node {j}, the upper one, is held by a support and node {i}, the lower one, is not: "
+            f"where the bearing stands on node {j} the nodes are swapped, give i={j} and j={i}"
+        )
+        warnings.warn(msg, PlacementWarning, stacklevel=3)
     matrix = np.zeros((12, 12))
     for block in range(4):
         rows = slice(3 * block, 3 * block + 3)
@@ -101,6 +108,13 @@ def place(
         matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
     factor = 1.0 / (newton * metre)
     return Placement((int(i), int(j)), matrix.shape[1], matrix, factor, axes, newton)
+
+
+def _hangs(ops: Any, i: int, j: int, ndm: int) -> bool:
+    # Whether supports hold all displacements of node j and none of node i.
+    moves = set(range(1, ndm + 1))
+    lower, upper = (moves.intersection(ops.getFixedDOFs(tag) or ()) for tag in (i, j))
+    return not lower and upper == moves
 
 
 def _stands_on_y(ops: Any, node: int) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -11,7 +12,11 @@ from lir_element.argument_checks import require_choice, require_positive
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
+from lir_element.device.bearing_checks import (
+    AT_RIGID_BODY,
+    DesignWarning,
+    require_constant_friction,
+)
 from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
@@ -26,6 +31,7 @@ from lir_element.results.dataset import (
     temperature_variables,
 )
 from lir_element.rig.rigid_rig import drive_path
+from lir_element.units import FORCES, meant
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -35,6 +41,7 @@ if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats
 
+_TOO_LIGHT = 2e-3  # of the design load: kilonewtons
 _TOO_FAR = 10.0  # of the radius: a path in millimetres
 _INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
 
@@ -78,6 +85,11 @@ def cyclic_test(
     lir_element.AnalysisInterrupted
         After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
 
+    Warns
+    -----
+    DesignWarning
+        If the axial load is next to nothing beside the design load: kilonewtons, probably.
+
     Examples
     --------
     >>> from lir_element import CoulombFriction, LIRBearing
@@ -97,6 +109,7 @@ def cyclic_test(
             f"the plates, {longest:g} m: give metres, 150 mm as 0.15"
         )
         raise ValueError(msg)
+    _tell_of_small_loads(bearing, float(loads.max()))
     speed = require_positive("velocity", velocity, "m/s")
     if level == "rigid_body":
         require_constant_friction(bearing, AT_RIGID_BODY)
@@ -153,6 +166,17 @@ def _path(displacement: ArrayLike) -> Floats:
         msg = f"displacement[{where}] = {path[where]} is not finite: remove or replace it"
         raise ValueError(msg)
     return np.ascontiguousarray(path)
+
+
+def _tell_of_small_loads(bearing: LIRBearing, largest: float) -> None:
+    design = bearing.resolved()["design_load"]
+    if largest >= _TOO_LIGHT * design:
+        return
+    told = (
+        f"axial_load = {largest:g} N is {largest / design:.2g} of the design load, {design:.3g} N: "
+        f"{meant(largest, 'N', FORCES, 0.01 * design, 10.0 * design)}"
+    )
+    warnings.warn(told, DesignWarning, stacklevel=3)
 
 
 def _loads(axial_load: float | ArrayLike, displacement: ArrayLike) -> Floats:

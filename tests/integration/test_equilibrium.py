@@ -21,8 +21,10 @@ from frames import (
     shear_building,
     step_sensitivity,
     time_histories,
+    time_history,
 )
 from frames.results.assumption_checks import doubts_of
+from frames.solve import time_history as time_history_module
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.units import STANDARD_GRAVITY
 
@@ -230,15 +232,22 @@ def test_half_a_step_and_noise_are_compared():
 
 
 @pytest.mark.meant(".")
+@pytest.mark.parametrize("steps", ["given", "chosen"])
 @pytest.mark.parametrize("scene", ["impacts", "both ways"])
-def test_similar_scenes_move_alike(run, scene):
-    """Lengths times four, masses times eight, times twice: to the last digit, powers of two."""
+def test_similar_scenes_move_alike(run, scene, steps, monkeypatch):
+    """Lengths times four, masses times eight, times twice: to the last digit, powers of two.
+
+    Chosen steps know one time without a scale, beside the largest step.
+    """
     capacity, found = (0.08 if scene == "impacts" else 0.15), []
+    impulse = time_history._ERROR_EVENT
     for s in (1.0, 4.0):
+        monkeypatch.setattr(time_history_module, "_ERROR_EVENT", impulse * s**0.5)
         c = 1.2 * MOTION.components
         motion = GroundMotion(x=c[:, 0], y=c[:, 1], dt=0.01 * s**0.5)
+        motion = motion.resampled(0.0025 * s**0.5)  # below the largest step
         frame = lumped_mass(device(s, capacity=capacity * s), 2e5 * s**1.5)
-        found.append(run(frame, motion, dt=0.005 * s**0.5))
+        found.append(run(frame, motion, dt=0.005 * s**0.5 if steps == "given" else None))
     assert float(np.abs(found[0]["slider_spin"]).max()) > 0.01  # rims turn the sliders
     assert float(found[0]["rim_force"].max()) > 0.0
     pair: list[xr.DataArray] = [each["bearing_displacement"] for each in found]

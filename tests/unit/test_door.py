@@ -3,11 +3,25 @@
 import math
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from frames import GroundMotion, lumped_mass, peaks, summary, time_history
+from frames import (
+    GroundMotion,
+    audit,
+    gravity,
+    load,
+    lumped_mass,
+    modes,
+    moment_frame,
+    peaks,
+    shear_building,
+    summary,
+    time_histories,
+    time_history,
+)
 from lir_element import CoulombFriction, Element, LIRBearing, cyclic_test
 from lir_element.argument_checks import (
     as_number,
@@ -118,3 +132,36 @@ def test_results_and_devices_of_another_kind_are_told() -> None:
             lumped_mass(wrong, 15e3)
     with pytest.raises(ValueError, match=r"reaches 150 m, .* 0.75 m: give metres, 150 mm as 0.15"):
         cyclic_test(bearing, [0.0, 150.0, 0.0], 150e3)
+    with pytest.warns(UserWarning, match=r"1000 N is .* of the design load.*1000 kN are 1e\+06 N"):
+        cyclic_test(bearing, [0.0, 0.001], 1e3)
+
+
+def test_messages_are_short_whatever_was_given(tmp_path: Path) -> None:
+    """A swapped argument does not print all of its numbers, and no attribute is missed."""
+    bearing = LIRBearing(
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.05),
+        interface_friction=0.15,
+    )
+    model, many = lumped_mass(bearing, 15e3), np.linspace(0.0, 1.0, 600)
+    data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
+    tries: dict[str, Callable[[], object]] = {
+        "data = a list of 1 must be a Dataset": lambda: audit([data]),  # type: ignore[arg-type]
+        "data = a list of 1 must be": lambda: peaks([data]),  # type: ignore[arg-type]
+        r"array of shape \(600,\) must be a Ground": lambda: time_histories(model, many),
+        "dt = a list of 600 is not a number": lambda: GroundMotion(x=0.01, dt=many.tolist()),  # type: ignore[arg-type]
+        "frame = a Dataset must be a Frame": lambda: modes(data),  # type: ignore[arg-type]
+        "frame = GroundMotion.* must be a Frame": lambda: gravity(GroundMotion(x=many, dt=0.1)),  # type: ignore[arg-type]
+        "bearing = an Element must be": lambda: moment_frame(bearing=Element(bearing)),  # type: ignore[arg-type]
+        "bearing = 5.0 must be": lambda: shear_building(5.0, 1e4, 1e7, storeys=1),  # type: ignore[arg-type]
+    }
+    for words, attempt in tries.items():
+        with pytest.raises(TypeError, match=words) as told:
+            attempt()
+        assert len(str(told.value)) < 200
+    (tmp_path / "notes.nc").write_text("no results")
+    with pytest.raises(OSError, match=r"notes\.nc holds no results .*: give a file that save"):
+        load(tmp_path / "notes.nc")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.opensees.placement import place
+from lir_element.opensees.placement import PlacementWarning, place
 
 pytest.importorskip("openseespy")
 
@@ -38,6 +38,15 @@ def test_swapped_nodes_are_told_and_the_remedy_helps(ops):
     with pytest.raises(ValueError, match="the nodes are swapped, give i=1 and j=2"):
         place(ops, 2, 1, BEARING, None, 1.0, 1.0)
     place(ops, 1, 2, BEARING, None, 1.0, 1.0)
+
+
+def test_swapped_nodes_that_coincide_are_told_by_the_supports(ops):
+    nodes(ops, 0.0)
+    with pytest.warns(PlacementWarning, match="where the bearing stands on node 1 .* i=1 and j=2"):
+        place(ops, 2, 1, BEARING, None, 1.0, 1.0)
+    place(ops, 1, 2, BEARING, None, 1.0, 1.0)
+    ops.fix(2, 1, 1, 1, 1, 1, 1)  # nothing to be told of two supports
+    place(ops, 2, 1, BEARING, None, 1.0, 1.0)
 
 
 def test_a_tag_of_numpy_is_taken(ops):

@@ -143,6 +143,23 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
         ('folder = "motions"', "", "motions: needs one source"),
         ("[limits]", "[limit]", 'limit is not known; is "limits" meant'),
+        (
+            'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',
+            'friction = "a lot"',
+            r"^[^\n]*bearing.friction = .a lot. is no number",
+        ),
+        (
+            'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',
+            "friction = {f_mox = 0.06}",
+            'friction.f_mox is not known; is "f_max" m',
+        ),
+        (
+            'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',
+            "friction = {f_mox = 0.06}",
+            "friction.f_min is missing",
+        ),
+        ("[0.8, 1.3]", '"a lot"', r"bounds.friction = .a lot. must be a list: \[0.8, 1.3\]"),
+        ("[0.8, 1.3]", "[0.8, 1.0, 1.3]", "bounds.friction has 3 entries: give at most 2"),
         ("zone = 2", "zone = true", r"spectrum.*: zone = true must be a number or a text"),
         (
             "[limits]",

@@ -18,7 +18,15 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Table)
 
-_KINDS = {"moment frame", "shear building", "opensees", "ASCE 7-22", "EN 1998", "NCh2745"}
+_KINDS = {
+    "moment frame",
+    "shear building",
+    "opensees",
+    "ASCE 7-22",
+    "EN 1998",
+    "NCh2745",
+    "Friction",
+}
 """Of unions, which the place of an error names besides its keys."""
 
 
@@ -81,9 +89,20 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
         return kind.model_validate(data)
     except ValidationError as cause:
         lines: dict[str, str] = {}  # of the ways that a key may be given, the first
-        for error in cause.errors():
+        for error in _told(cause.errors()):
             lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
         raise ProjectError("\n".join(lines.values())) from cause
+
+
+def _told(errors: Sequence[Any]) -> list[Any]:
+    # Without those of a table where its keys are told: the other way of giving it was not meant.
+    inside = {tuple(_place(error)[:-1]) for error in errors}
+    return [
+        error
+        for error in errors
+        if not (isinstance(error["input"], dict) and tuple(_place(error)) in inside)
+        or error["type"] == "missing"
+    ]
 
 
 def _mended(error: str) -> str:
@@ -115,6 +134,14 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         return f"{name}: {key} is not known{meant}"
     if kind.startswith("union_tag"):
         return _of_a_kind(name, key, error)
+    if kind in _LISTS:
+        return (
+            f"{name}: {key} = {json.dumps(error['input'], default=str)} must be a list: [0.8, 1.3]"
+        )
+    if kind in _LENGTHS:
+        held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
+        bound = "at most" if kind == "too_long" else "at least"
+        return f"{name}: {key} has {error['ctx']['actual_length']} entries: give {bound} {held}"
     if kind in _TABLES:
         return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
     text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
@@ -123,6 +150,12 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         return f"{name}: {key}: {text}"
     return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
 
+
+_LISTS = {"tuple_type", "list_type"}
+"""Kinds of errors where a list was expected."""
+
+_LENGTHS = {"too_long", "too_short"}
+"""The same where it has more or fewer entries."""
 
 _TABLES = {"model_type", "model_attributes_type", "dict_type"}
 """Kinds of errors where a section was expected."""
@@ -159,9 +192,10 @@ def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> li
 
 def _section(annotation: Any, given: Any) -> Any:
     # The class of a section: of several, the one of its kind.
-    parts = [one for one in getattr(annotation, "__args__", (annotation,)) if one is not type(None)]
+    every = getattr(annotation, "__args__", (annotation,))
+    parts = [one for one in every if isinstance(one, type) and hasattr(one, "model_fields")]
     for one in parts:
         kind = getattr(one, "model_fields", {}).get("kind")
         if kind is not None and given.get("kind") in getattr(kind.annotation, "__args__", ()):
             return one
-    return parts[0]
+    return parts[0] if parts else annotation

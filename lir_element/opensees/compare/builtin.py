@@ -13,6 +13,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from lir_element.argument_checks import require_choice
 from lir_element.opensees.compare.builtin_mapping import builtin_values
 from lir_element.opensees.compare.builtin_writing import (
@@ -188,10 +190,21 @@ def builtin_element(
     ------
     ValueError
         If the element cannot represent the bearing, or nodes or tags do not fit.
+    TypeError
+        If a tag is no integer.
     ImportError
         If openseespy is not installed.
+
+    Notes
+    -----
+    The model is of three dimensions, in m, N and s. `bearing_element` takes planes and other units.
     """
     ops = opensees()
+    for name, value in {"tag": tag, "i": i, "j": j}.items():
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+            msg = f"{name} = {value!r} is no tag: give an integer"
+            raise TypeError(msg)
+    tag, i, j = int(tag), int(i), int(j)  # OpenSees takes no integers of numpy
     apart = _check_nodes(ops, tag, i, j, bearing)
     commands = builtin_commands(
         kind, tag, i, j, bearing, axial_load, first_tag=first_tag, lift=lift, apart=apart
@@ -222,7 +235,8 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
         if (size, freedoms) != (3, 6):
             msg = (
                 f"node {node} has {size} coordinates and {freedoms} degrees of freedom, the "
-                'bearing needs 3 and 6: ops.model("basic", "-ndm", 3, "-ndf", 6)'
+                'bearing needs 3 and 6: ops.model("basic", "-ndm", 3, "-ndf", 6); in the plane '
+                "take bearing_element"
             )
             raise ValueError(msg)
     if tag in (ops.getEleTags() or ()):
@@ -234,7 +248,8 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
     if aside > _POSITION or min(abs(rise), abs(rise - bearing.height)) > _POSITION:
         msg = (
             f"node {j} is {rise:g} m above node {i} and {aside:g} m beside it: it must stand on "
-            f"one vertical, 0 or the bearing's height {bearing.height:g} m above"
+            f"one vertical, 0 or the bearing's height {bearing.height:g} m above; the model must "
+            "be in m, N and s: in other units take bearing_element, with length_unit and force_unit"
         )
         raise ValueError(msg)
     return bool(abs(rise) > _POSITION)
