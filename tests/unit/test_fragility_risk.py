@@ -7,7 +7,6 @@ import pytest
 from scipy.special import ndtr
 from scipy.stats import uniform
 
-from frames.plots import risk_deaggregation, tornado_chart
 from frames.risk import (
     FragilityError,
     HazardCurve,
@@ -21,6 +20,7 @@ from frames.risk import (
     sobol_indices,
     tornado,
 )
+from frames.risk.plots import risk_deaggregation, tornado_chart
 from lir_element.units import STANDARD_GRAVITY
 
 RECORDS = [f"record {k:02d}" for k in range(30)]

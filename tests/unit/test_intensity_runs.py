@@ -9,7 +9,6 @@ import pytest
 from frames import GroundMotion, MotionError
 from frames.demo import bearing_for
 from frames.design import pair_spectrum
-from frames.plots import fragility_curves, ida_curves, stripes
 from frames.risk import (
     IDA,
     FragilityError,
@@ -20,6 +19,7 @@ from frames.risk import (
     fragility_of,
 )
 from frames.risk.fragility.runs import outcome_of
+from frames.risk.plots import fragility_curves, ida_curves, stripes
 from lir_element import RunStatus
 from lir_element.units import STANDARD_GRAVITY
 

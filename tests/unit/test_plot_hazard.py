@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from frames import GroundMotion, MotionError
 from frames.design import MotionSet, Spectrum, pair_spectrum
-from frames.plots import design_spectra, motion_spectra
+from frames.design.plots import design_spectra, motion_spectra
 from lir_element.units import STANDARD_GRAVITY as G
 
 TARGET = Spectrum.asce7(1.0, 0.6)

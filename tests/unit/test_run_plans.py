@@ -8,7 +8,6 @@ import pandas as pd
 import pytest
 
 from frames import save, write_tables
-from frames.plots import fragility_curves
 from frames.risk import (
     IDA,
     FragilityError,
@@ -25,6 +24,7 @@ from frames.risk import (
     mean_annual_frequency,
     save_fragility,
 )
+from frames.risk.plots import fragility_curves
 
 MEDIAN, DISPERSION = 2.0, 0.30
 LIMIT = LimitState("demand 1", "demand", 1.0)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numba.core import event
 
-from frames import GroundMotion, ahead, lumped_mass, moment_frame, time_history
+from frames import GroundMotion, lumped_mass, moment_frame, precompile, time_history
 from lir_element import LIRBearing, VelocityFriction
 from lir_element._compile import shipped
 
@@ -99,7 +99,7 @@ def test_kernels_of_the_wheel_are_left_where_the_processor_lacks_what_they_use(
 @COMPILES
 @pytest.mark.slow
 def test_usual_analyses_compile_nothing_that_was_not_compiled_ahead() -> None:
-    assert set(ahead.compile_usual()) == set(ahead.USUAL)
+    assert set(precompile.compile_usual()) == set(precompile.USUAL)
     bearing = LIRBearing(
         radius=1.185,
         slider_height=0.12,
