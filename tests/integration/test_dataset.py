@@ -318,9 +318,9 @@ def test_record_every_thins_exactly(run, frame, motion, history, every):
     thin = run(frame, motion, dt=DT, record_every=every)
     for name in history.data_vars:
         if "time" in history[name].dims:
-            assert_allclose(
-                thin[name], history[name].isel(time=slice(None, None, every)), rtol=0.0, atol=0.0
-            )  # the same steps
+            kept = history[name].isel(time=slice(None, None, every))
+            # the same steps: products of matrices round by the number of rows, on some processors
+            assert_allclose(thin[name], kept, rtol=0.0, atol=1e-13 * float(np.abs(kept).max()))
     assert thin.attrs["steps"] == history.attrs["steps"]
 
 
@@ -342,7 +342,7 @@ def test_shorter_than_the_motion(run, frame, motion, history):
     data = run(frame, motion, dt=DT, duration=1.2)
     assert_allclose(data["time"][-1], 1.2, rtol=1e-14)
     part = history["node_displacement"][: data.sizes["time"]]
-    assert_allclose(data["node_displacement"], part, rtol=0.0, atol=0.0)  # the same steps
+    assert_allclose(data["node_displacement"], part, rtol=0.0, atol=1e-15)  # the same steps
 
 
 def test_longer_than_the_motion_the_ground_rests(run, frame, motion, history):

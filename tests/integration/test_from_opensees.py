@@ -102,8 +102,8 @@ def test_the_same_building_built_here(ops, run, monkeypatch):
     assert float(first["interface_slip_size"].max()) > 1e-3
     names, others = list(there.nodes), [str(tag) for tag in there.nodes.values()]
     for word, apart in histories_apart(first, second, names, others).items():
-        # impacts pass round-off on to accelerations
-        assert apart < (1e-5 if word == "node_acceleration" else 1e-6), word
+        # impacts pass round-off on, by the processor, to accelerations and forces
+        assert apart < (1e-6 if word.endswith("displacement") else 1e-5), word
     assert_allclose(storey_drift(second), storey_drift(first), rtol=0.0, atol=1e-9)
     assert "completed" in table_of({"built": first, "taken": second})
 

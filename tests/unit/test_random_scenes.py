@@ -361,7 +361,7 @@ def test_the_mirror_image_of_a_mixed_scene_moves_alike():
     model, data, _ = run(scene, scene.motion)
     compare_runs(report, scene, model, data, finer=False)
     assert report.findings == []
-    assert report.mirror < 1e-9
+    assert report.mirror < 1e-8  # contacts amplify round-off, by the processor
 
 
 def test_what_hangs_or_dies_does_not_take_the_rest_along():

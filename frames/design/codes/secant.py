@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 _MOST_ROUNDS = 500
 _SETTLED = 1e-12
 _NOTHING = 1e-5  # m
+_ALIKE = 1e-9  # ratios of checks that differ by round-off alone
 
 
 def enter_system(system: IsolationSystem) -> Trace:
@@ -124,6 +126,10 @@ def iterate_displacement(
     raise CheckError(msg)
 
 
+def _severity(check: Check) -> tuple[float, float]:
+    return check.ratio, abs(check.limit) - abs(check.demand)
+
+
 @dataclass(frozen=True)
 class CheckBuilder:
     """Makes checks from what a calculation holds.
@@ -183,15 +189,19 @@ class CheckBuilder:
         subjects: tuple[str, ...],
         note: str = "",
     ) -> Check:
-        """Return the check of largest ratio of those for each of several, named by `subjects`."""
+        """Return the check of largest ratio of those for each of several, named by `subjects`.
+
+        Of ratios that are the same but for round-off it is the first: the processor does not decide
+        who is named.
+        """
         pair = (symbol, limit)
-        return max(
-            (
-                self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
-                for k, subject in enumerate(subjects)
-            ),
-            key=lambda check: (check.ratio, abs(check.limit) - abs(check.demand)),
-        )
+        found = [
+            self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
+            for k, subject in enumerate(subjects)
+        ]
+        worst = max(found, key=_severity)
+        alike = (c for c in found if math.isclose(c.ratio, worst.ratio, rel_tol=_ALIKE))
+        return worst if math.isinf(worst.ratio) else next(alike, worst)
 
     def _made(
         self,
