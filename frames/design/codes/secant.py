@@ -189,17 +189,14 @@ class CheckBuilder:
         subjects: tuple[str, ...],
         note: str = "",
     ) -> Check:
-        """Return the check of largest ratio of those for each of several, named by `subjects`.
-
-        Of ratios that are the same but for round-off it is the first: the processor does not decide
-        who is named.
-        """
+        """Return the check of largest ratio of those for each of several, named by `subjects`."""
         pair = (symbol, limit)
         found = [
             self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
             for k, subject in enumerate(subjects)
         ]
         worst = max(found, key=_severity)
+        # of those that differ by round-off alone the first: the processor decides no names
         alike = (c for c in found if math.isclose(c.ratio, worst.ratio, rel_tol=_ALIKE))
         return worst if math.isinf(worst.ratio) else next(alike, worst)
 
