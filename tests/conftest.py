@@ -2,7 +2,8 @@
 
 import itertools
 import os
-from collections.abc import Iterator
+import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -75,3 +76,19 @@ def records() -> Path:
     if not path.is_dir():
         pytest.skip(f"LIR_RECORDS={folder} is not a folder")
     return path
+
+
+@pytest.fixture(scope="session")
+def put_example(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Put the project of ``lir new`` into a folder: its motions are made once a code."""
+    example = pytest.importorskip("frames.design.project.example")
+    made: dict[str, Path] = {}
+
+    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
+        if code not in made:
+            made[code] = tmp_path_factory.mktemp("example")
+            example.write_example(made[code], code)
+        shutil.copytree(made[code], folder, dirs_exist_ok=True)
+        return folder
+
+    return put

@@ -2,6 +2,7 @@
 
 import json
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,6 @@ from frames.command.app import app
 from frames.design import MotionSet, Spectrum
 from frames.design.hazard.motion_folder import read_table
 from frames.design.hazard.sanity_checks import twins
-from frames.design.project.example import write_example
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
@@ -31,9 +31,8 @@ KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
 
 
 @pytest.fixture(scope="module")
-def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("example")
-    write_example(folder)
+def example(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    folder = put_example(tmp_path_factory.mktemp("example"))
     return folder
 
 
@@ -58,8 +57,10 @@ def test_recorded_motions_pass_without_a_word(kind: str) -> None:
 
 
 @pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
-def test_examples_pass_without_a_word(code: str, tmp_path: Path) -> None:
-    write_example(tmp_path, code)
+def test_examples_pass_without_a_word(
+    code: str, tmp_path: Path, put_example: Callable[..., Path]
+) -> None:
+    put_example(tmp_path, code)
     output = CliRunner().invoke(app, ["check", str(tmp_path / "project.toml")]).output
     told = [line for line in output.splitlines() if line.startswith("warning")]
     assert all(line.startswith("warning: interface_friction") for line in told)  # of the bearing
@@ -153,8 +154,8 @@ def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) ->
     assert words in output
 
 
-def test_importance_in_one_section(tmp_path: Path) -> None:
-    write_example(tmp_path, "EN 1998")
+def test_importance_in_one_section(tmp_path: Path, put_example: Callable[..., Path]) -> None:
+    put_example(tmp_path, "EN 1998")
     file = tmp_path / "project.toml"
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace("importance = 1.0", "importance = 1.4"), encoding="utf-8")
@@ -162,8 +163,8 @@ def test_importance_in_one_section(tmp_path: Path) -> None:
     assert "[superstructure] importance = 1.4, [spectrum] importance = 1" in output
 
 
-def test_importance_that_changes_nothing(tmp_path: Path) -> None:
-    write_example(tmp_path, "NCh2745")
+def test_importance_that_changes_nothing(tmp_path: Path, put_example: Callable[..., Path]) -> None:
+    put_example(tmp_path, "NCh2745")
     file = tmp_path / "project.toml"
     assert file_doubts(read_project(file)) == ()
     text = file.read_text(encoding="utf-8")
@@ -191,8 +192,10 @@ def test_messages_of_a_file(old: str, new: str, words: str, example: Path, tmp_p
 
 
 @pytest.mark.parametrize("code", ["EN 1998"])
-def test_ground_that_moves_nothing(code: str, tmp_path: Path) -> None:
-    write_example(tmp_path, code)
+def test_ground_that_moves_nothing(
+    code: str, tmp_path: Path, put_example: Callable[..., Path]
+) -> None:
+    put_example(tmp_path, code)
     file = tmp_path / "project.toml"
     text = file.read_text(encoding="utf-8")
     assert si("0.25 g", "m/s^2", "3.5 m/s2") == pytest.approx(0.25 * 9.80665, rel=1e-12)

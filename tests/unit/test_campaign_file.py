@@ -1,5 +1,6 @@
 """A campaign's file: what it becomes, messages, and its commands from an empty folder."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -56,9 +57,9 @@ run = CliRunner().invoke
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path: Path, put_example: Callable[..., Path]) -> Path:
     """Motions of the example, and a campaign's file."""
-    assert run(app, ["new", str(tmp_path)]).exit_code == 0
+    put_example(tmp_path)
     (tmp_path / "friction.toml").write_text(FILE)
     return tmp_path
 

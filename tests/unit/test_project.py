@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -72,9 +72,9 @@ run = CliRunner().invoke
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path: Path, put_example: Callable[..., Path]) -> Path:
     """Motions of the example, and a small project."""
-    assert run(app, ["new", str(tmp_path)]).exit_code == 0
+    put_example(tmp_path)
     (tmp_path / "small.toml").write_text(ASCE)
     return tmp_path
 

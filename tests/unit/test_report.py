@@ -5,6 +5,7 @@ import math
 import re
 import shutil
 import subprocess  # noqa: S404
+from collections.abc import Callable
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -63,10 +64,9 @@ bounds = ["lower", "upper"]
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("project")
+def results(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    folder = put_example(tmp_path_factory.mktemp("project"))
     run = CliRunner().invoke
-    assert run(app, ["new", str(folder)]).exit_code == 0
     file = folder / "project.toml"
     file.write_text(PROJECT)
     done = run(app, ["run", str(file), "--results", str(folder / "results")])
