@@ -106,7 +106,7 @@ def review(own: Path) -> Review:
     RuntimeError
         If `lir run` leaves no results, or they cannot be read.
     """
-    done = _python(["-c", _RUN, "run"], own)
+    done = _python(["-c", _RUN, "run", "--no-figures"], own)
     if done.returncode not in _RAN:
         msg = f"{own.name}: lir run ended with {done.returncode}: {done.stderr[-2000:]}"
         raise RuntimeError(msg)

@@ -449,7 +449,7 @@ def _judged(folder: Path, wrong: str, *, runs: bool) -> tuple[str, str]:
     if found is not None or not runs:
         return found or ("checked", "")
     results = folder / "results"
-    done = CliRunner().invoke(app, ["run", str(file), "--results", str(results)])
+    done = CliRunner().invoke(app, ["run", "--no-figures", str(file), "--results", str(results)])
     found = _of_command(done, wrong)
     if found is not None:
         return found

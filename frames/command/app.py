@@ -128,6 +128,7 @@ def propose(
 def run(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
+    figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
     """Run a project at each level and bound of friction, check it, and write the results."""
     with told():
@@ -145,7 +146,7 @@ def run(
             if (results / "run.json").is_file():
                 err.print("the other files there are of the run before", highlight=False)
             raise
-        written = write_run(found, results, file.read_text(encoding="utf-8"))
+        written = write_run(found, results, file.read_text(encoding="utf-8"), figures=figures)
         _told_of(found, written, results)
 
 
@@ -153,6 +154,7 @@ def run(
 def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
+    figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
     with told():
@@ -165,7 +167,8 @@ def report(
                 "the report is of the whole run before it"
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
-        written = write_judgement(found, results, file.read_text(encoding="utf-8"))
+        source = file.read_text(encoding="utf-8")
+        written = write_judgement(found, results, source, figures=figures)
         _told_of(found, written, results)
 
 

@@ -2,8 +2,10 @@
 
 import json
 import math
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,7 +28,7 @@ from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way
-from frames.design.report import files
+from frames.design.report import files, writing
 
 SMALL = """
 [project]
@@ -69,6 +71,26 @@ AT_LOADS_OF_RUNS = [
     "resultant between the sliders",
 ]
 run = CliRunner().invoke
+
+
+def ran(file: object, results: object) -> Any:
+    """Run a project by the command, without figures."""
+    return run(app, ["run", "--no-figures", str(file), "--results", str(results)])
+
+
+@pytest.fixture
+def done(tmp_path: Path, run_once: Path) -> Path:
+    """The same with the results of a run in it, in the folder `out`."""
+    shutil.copytree(run_once, tmp_path, dirs_exist_ok=True)
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def run_once(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    folder = put_example(tmp_path_factory.mktemp("run"))
+    (folder / "small.toml").write_text(ASCE)
+    assert ran(folder / "small.toml", folder / "out").exit_code in {0, 1}
+    return folder
 
 
 @pytest.fixture
@@ -246,9 +268,19 @@ def test_new_writes_over_nothing(folder: Path) -> None:
     assert "is there already" in again.stderr
 
 
+def test_a_report_without_figures_says_so_and_lir_report_draws_them(
+    done: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(writing, "pictures", lambda _: {"model": []})
+    assert "Written without figures" in (done / "out" / "report.html").read_text(encoding="utf-8")
+    run(app, ["report", str(done / "small.toml"), "--results", str(done / "out")])
+    text = (done / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Written without figures" not in text
+
+
 def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     results = folder / "out"
-    done = run(app, ["run", str(folder / "small.toml"), "--results", str(results)])
+    done = ran(folder / "small.toml", results)
     assert done.exit_code in {0, 1}, done.output
     checks = pd.read_csv(results / "checks.csv")
     facts = json.loads((results / "run.json").read_text())
@@ -275,7 +307,7 @@ def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
     file.write_text(f"{SMALL}\n[analysis]\nbounds = ['upper']\nuplift_allowed = true\n")
     checked = run(app, ["check", str(file)])
     assert "6 time histories: 3 motions, bounds upper, levels design, maximum (" in checked.stdout
-    done = run(app, ["run", str(file), "--results", str(out)])
+    done = ran(file, out)
     assert done.exit_code in {0, 1}, done.output
     assert done.stdout.startswith("6 time histories: 3 motions, bounds upper, levels design, max")
     runs = {level: load(out / f"runs-{level}-upper.nc") for level in ("design", "maximum")}
@@ -315,7 +347,7 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     for line, is_void in said.items():
         tall = SMALL.replace('storey_height = "3 m"', 'storey_height = "8 m"')
         (folder / "uplift.toml").write_text(f"{tall}\n[analysis]\n{line}\n")
-        done = run(app, ["run", str(folder / "uplift.toml"), "--results", str(folder / "up")])
+        done = ran(folder / "uplift.toml", folder / "up")
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)
         assert ("lower: " in str(demands["void"].iloc[0])) == is_void
@@ -386,52 +418,52 @@ def test_bearings_are_proposed_as_a_section(folder: Path) -> None:
     assert read_project(folder / "project.toml").bearing is not None
 
 
-def test_what_was_complete_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(*_: object, **__: object) -> None:
         data = load(folder / "out" / "runs-lower.nc")
         raise AnalysisInterrupted(1.0, data)
 
-    run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
+    folder = done
     monkeypatch.setattr(command, "run_project", stopped)
-    done = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
-    assert done.exit_code == 130
+    found = ran(folder / "small.toml", folder / "out")
+    assert found.exit_code == 130
     assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3
-    assert "are of the run before" in done.output
-    assert "attribute" not in done.output
+    assert "are of the run before" in found.output
+    assert "attribute" not in found.output
     report = run(app, ["report", str(folder / "small.toml"), "--results", str(folder / "out")])
     assert "interrupted.nc is of a later run that was interrupted" in report.output
     monkeypatch.undo()
-    again = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "out")])
+    again = ran(folder / "small.toml", folder / "out")
     assert again.exit_code in {0, 1}
     assert not (folder / "out" / "interrupted.nc").exists()
 
 
 def test_a_run_goes_on_where_it_was_interrupted(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    done: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Interrupted after all of its runs but the governing one: none is run twice, files alike."""
-    file, whole, cut = (str(folder / name) for name in ("small.toml", "whole", "cut"))
-    run(app, ["run", file, "--results", whole])
+    folder = done
+    file, cut = folder / "small.toml", folder / "cut"
 
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
     monkeypatch.setattr(design_run, "time_history", stopped)
-    done = run(app, ["run", file, "--results", cut])
-    assert done.exit_code == 130
-    assert "the same command goes on from there" in done.output
+    found = ran(file, cut)
+    assert found.exit_code == 130
+    assert "the same command goes on from there" in found.output
     kept = list((folder / "cut" / "unfinished").iterdir())
     assert len(kept) == 9
     kept[4].unlink()  # as if it had been interrupted before
     monkeypatch.undo()
-    done = run(app, ["run", file, "--results", cut])
-    assert done.exit_code in {0, 1}
-    assert "1 of 1 runs (8 more were complete before)" in done.output
+    found = ran(file, cut)
+    assert found.exit_code in {0, 1}
+    assert "1 of 1 runs (8 more were complete before)" in found.output
     assert not (folder / "cut" / "unfinished").exists()
     for name in ("demands.csv", "checks.csv", "bearings.csv", "equivalent-linear.csv"):
-        assert (folder / "cut" / name).read_text() == (folder / "whole" / name).read_text()
+        assert (folder / "cut" / name).read_text() == (folder / "out" / name).read_text()
     for bound in ("lower", "nominal", "upper"):
-        both = (load(folder / where / f"runs-{bound}.nc") for where in ("cut", "whole"))
+        both = (load(folder / where / f"runs-{bound}.nc") for where in ("cut", "out"))
         one, two = (
             d.drop_vars("seconds_loop").drop_sel(quantity="seconds of the time loop") for d in both
         )
@@ -445,7 +477,7 @@ def test_ctrl_c_in_the_governing_run_keeps_the_others(
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
     monkeypatch.setattr(design_run, "time_history", stopped)
-    done = run(app, ["run", str(folder / "small.toml"), "--results", str(folder / "kept")])
+    done = ran(folder / "small.toml", folder / "kept")
     assert done.exit_code == 130
     data = load(folder / "kept" / "interrupted.nc")
     models = [str(name) for name in data["model"].to_numpy()]
@@ -455,20 +487,20 @@ def test_ctrl_c_in_the_governing_run_keeps_the_others(
 
 
 def test_a_run_that_was_not_written_whole_is_none(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    done: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(data: xr.Dataset, path: Path, *, compress: bool = False) -> None:
         if path.name == "governing.nc":
             raise OSError(28, "No space left on device")
         save(data, path, compress=compress)
 
+    folder = done
     words = [str(folder / "small.toml"), "--results", str(folder / "out")]
-    run(app, ["run", *words])
     monkeypatch.setattr(files, "save", full)
-    assert isinstance(run(app, ["run", *words]).exception, OSError)
-    done = run(app, ["report", *words])
-    assert done.exit_code == 2
-    assert "holds no run" in done.output
+    assert isinstance(run(app, ["run", "--no-figures", *words]).exception, OSError)
+    found = run(app, ["report", *words])
+    assert found.exit_code == 2
+    assert "holds no run" in found.output
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ UNFINISHED = "unfinished"
 _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
 
-def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
+def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = True) -> list[Path]:
     """Write what a run gave.
 
     Parameters
@@ -43,6 +43,8 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         Made if it is not there; files of an earlier run are written over, its histories removed.
     source : str
         Text of the project's file, which is kept beside the results.
+    figures : bool
+        Whether the report has figures.
 
     Returns
     -------
@@ -63,13 +65,16 @@ def write_run(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         save(data, path, compress=data.sizes.get("time", 0) > _ENDS)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    kept = [*write_judgement(run, folder, source), *written.values(), governing]
+    judged = write_judgement(run, folder, source, figures=figures)
+    kept = [*judged, *written.values(), governing]
     (folder / "interrupted.nc").unlink(missing_ok=True)
     shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
     return kept
 
 
-def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
+def write_judgement(
+    run: ProjectRun, folder: Path, source: str, *, figures: bool = True
+) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
     tables = run_tables(run)
     texts = {
@@ -79,7 +84,7 @@ def write_judgement(run: ProjectRun, folder: Path, source: str) -> list[Path]:
         "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
-        "report.html": report_html(run, source, tables),
+        "report.html": report_html(run, source, tables, figures=figures),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     written = []
