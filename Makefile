@@ -7,7 +7,7 @@ RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs test lint types clean
+.PHONY: help demo docs quick test nightly checks lint types kernels wheel clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
@@ -18,8 +18,22 @@ demo: $(READY)  ## run the demonstration
 docs: $(READY)  ## build the site into build/docs
 	$(RUN) -m sphinx -W --keep-going -b html -c docs . build/docs
 
-test: lint types  ## lint, types and all tests
+quick: $(READY)  ## the physics and one path through each door: a minute, once kernels are compiled
+	$(RUN) -m pytest -m quick -n auto --maxprocesses 4 --dist worksteal -q
+
+test: $(READY)  ## lint, types and all tests
+	$(MAKE) --no-print-directory -j 3 lint types kernels
 	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
+
+nightly: $(READY)  ## what takes minutes of compiling
+	$(RUN) -m pytest -m nightly
+
+kernels: $(READY)  ## compile the kernels of usual analyses, once
+	$(RUN) -m frames.precompile
+
+wheel: $(READY)  ## a wheel that brings its kernels along, for this Python and platform
+	$(RUN) -m pip install --quiet build
+	LIR_BUILD_KERNELS=1 $(RUN) -m build --wheel
 
 lint: $(READY)  ## ruff: rules and format
 	$(RUN) -m ruff check .

@@ -12,7 +12,7 @@ import pytest
 from lir_element import AnalysisInterrupted
 from tests.patience import patience, start_up
 
-TIMES = 5
+TIMES = 3
 PROMPT = 0.15  # of a start of Python, 1.8 s where a piece of the loop and the Dataset take 0.05 s
 SCRIPT = """
 import signal, sys
@@ -76,7 +76,7 @@ def test_answered_and_kept(level: str, options: str) -> None:
             assert child.stdout is not None
             for turn in range(TIMES):
                 assert child.stdout.readline() == "begin\n"
-                time.sleep(1.0 + 0.037 * turn)
+                time.sleep(0.4 + 0.037 * turn)
                 child.send_signal(signal.SIGINT)
                 sent = time.perf_counter()
                 words = child.stdout.readline().split()

@@ -22,7 +22,7 @@ from frames import AnalysisInterrupted, load, save, time_history
 from frames.command import app as command
 from frames.command.app import app
 from frames.design import ProjectError, with_property_bounds
-from frames.design.project import design_run
+from frames.design.project import governing_run
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
@@ -448,7 +448,7 @@ def test_a_run_goes_on_where_it_was_interrupted(
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
-    monkeypatch.setattr(design_run, "time_history", stopped)
+    monkeypatch.setattr(governing_run, "time_history", stopped)
     found = ran(file, cut)
     assert found.exit_code == 130
     assert "the same command goes on from there" in found.output
@@ -476,7 +476,7 @@ def test_ctrl_c_in_the_governing_run_keeps_the_others(
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
-    monkeypatch.setattr(design_run, "time_history", stopped)
+    monkeypatch.setattr(governing_run, "time_history", stopped)
     done = ran(folder / "small.toml", folder / "kept")
     assert done.exit_code == 130
     data = load(folder / "kept" / "interrupted.nc")
@@ -501,6 +501,23 @@ def test_a_run_that_was_not_written_whole_is_none(
     found = run(app, ["report", *words])
     assert found.exit_code == 2
     assert "holds no run" in found.output
+
+
+def test_a_governing_run_whose_peaks_are_chance_says_so(
+    done: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = load(done / "out" / "governing.nc")
+    assert 0.0 <= float(kept.attrs["noise_displacement"]) < 1e-4  # of an ordinary run
+    assert governing_run.sensitivity_warnings(kept) == ()
+    monkeypatch.setattr(governing_run, "NOISE", 0.2)
+    parts = ProjectInputs(read_project(done / "small.toml"), done)
+    known = preliminary(parts)
+    runs = {parts.rules().levels[0].name: {"lower": load(done / "out" / "runs-lower.nc")}}
+    data, _ = governing_run.governing_run(parts, known.frame, known.motions, runs)
+    [said] = governing_run.sensitivity_warnings(data)
+    share = 100.0 * float(data.attrs["noise_displacement"])
+    assert share > 5.0
+    assert f"bearing displacement by {share:.2g} %" in said
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,7 +10,6 @@ import xarray as xr
 
 from frames.design.calculation.check import Check, Checks
 from frames.design.calculation.unevaluated import not_evaluated
-from frames.design.codes.bounds import with_property_bounds
 from frames.design.codes.history_rules import RULES
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
@@ -19,12 +17,11 @@ from frames.design.histories.demand_table import bounds_of, envelope_said
 from frames.design.histories.histories import history_checks, history_demands
 from frames.design.histories.impacts import rim_engagement
 from frames.design.histories.motions import motion_checks
-from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
+from frames.design.project.governing_run import governing_run, sensitivity_warnings
+from frames.design.project.level_runs import demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.testing.programme import ProgrammeDemands, prototype_tests
-from frames.results.storage import as_packed
-from frames.solve.time_history import time_history
-from lir_element.errors import AnalysisInterrupted, AnalysisWarning
+from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -154,7 +151,7 @@ def run_project(
     known = preliminary(parts)
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
-        governing, case = _governing(parts, known.frame, known.motions, runs)
+        governing, case = governing_run(parts, known.frame, known.motions, runs)
     except AnalysisInterrupted as stop:  # all runs were complete
         whole = xr.concat(
             _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
@@ -219,7 +216,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
-        doubts=known.doubts,
+        doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
     )
 
 
@@ -271,31 +268,6 @@ def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
 def _of_bearings(parts: ProjectInputs) -> str:
     # The level of the seismic action at which bearings are judged.
     return next(level.name for level in parts.rules().levels if level.judges_bearings)
-
-
-def _most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
-    # Level, bound and place of the run that displaces a bearing most.
-    reached = {
-        (level, bound, run): float(data["reached_displacement"].isel(run=run).max())
-        for level, each in runs.items()
-        for bound, data in each.items()
-        for run in range(data.sizes["run"])
-    }
-    return max(reached, key=lambda key: reached[key])
-
-
-def _governing(
-    parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: LevelRuns
-) -> tuple[xr.Dataset, str]:
-    # Histories of the run that displaces a bearing most, run once more to keep them.
-    level, bound, run = _most_displaced(runs)
-    name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
-    motion = motions[name].scaled(parts.rules().level(level).factor)
-    model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
-    with warnings.catch_warnings():  # as told of the same run among the others
-        warnings.simplefilter("ignore", AnalysisWarning)
-        data = time_history(model, motion, level=given.level, dt=given.dt)
-    return as_packed(data), f"{name}, {bound} bound, {level} level"  # as it will be kept
 
 
 def _has_minima(parts: ProjectInputs) -> bool:
