@@ -12,7 +12,7 @@ import xarray as xr
 from frames.design.calculation.check import Check, Checks
 from frames.design.calculation.unevaluated import not_evaluated
 from frames.design.codes.bounds import with_property_bounds
-from frames.design.codes.history_rules import RULES
+from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
 from frames.design.histories.demand_table import bounds_of, envelope_said
@@ -21,7 +21,7 @@ from frames.design.histories.impacts import rim_engagement
 from frames.design.histories.motions import motion_checks
 from frames.design.project.level_runs import LevelRuns, demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.testing.programme import ProgrammeDemands, prototype_tests
+from frames.design.testing.programme import prototype_tests
 from frames.results.storage import as_packed
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning
@@ -296,7 +296,7 @@ def _governing(
 
 def _has_minima(parts: ProjectInputs) -> bool:
     # Of an equivalent-linear analysis under time histories.
-    return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
+    return parts.rules().has_minima and parts.file.superstructure is not None
 
 
 class _Asked(NamedTuple):
@@ -333,7 +333,7 @@ def _of_the_bearing(parts: ProjectInputs, known: Preliminary, asked: _Asked) -> 
     allowed: dict[Bound, float] = {
         each.bound: each.allowed_displacement for each in known.equivalent.bounds.values()
     }
-    code, agreed = RULES[parts.file.project.code], parts.limits().rim_engagement
+    code, agreed = parts.file.project.code, parts.limits().rim_engagement
     found = [*checks, *engagement_checks(bearing, allowed, code=code, agreed=agreed)]
     return [replace(check, level=level) for check in found]
 

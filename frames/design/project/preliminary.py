@@ -10,11 +10,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelWarning
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.codes.asce7 import ASCE7
-from frames.design.codes.en1998 import EN1998
-from frames.design.codes.history_rules import RULES
 from frames.design.codes.isolation import IsolationSystem
-from frames.design.codes.nch2745 import NCh2745
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
@@ -27,9 +23,6 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.frame import Frame
-
-CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
-"""Equivalent-linear analysis by a project's code."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,13 +81,12 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
     _warn(wind_doubts(parts.file, system, parts.bounds()))
-    code = CODES[parts.file.project.code]()
     equivalent = equivalent_linear(
         system,
         spectrum,
         bounds=parts.bounds(),
         superstructure=parts.superstructure(frame),
-        code=code,
+        code=parts.code().analysis(),
     )
     motions = scaled_motions(parts, spectrum, equivalent)
     return Preliminary(
@@ -127,7 +119,7 @@ def scaled_motions(
         scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
         _warn((*twins(scaled), *factor_doubts(scale, scaled)))
         return scaled
-    rule = RULES[parts.file.project.code]
+    rule = parts.code().scaling[0].name
     return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
 
 
@@ -156,7 +148,9 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
     said = {
         "structure": file.structure.model_dump(mode="json"),
-        "bearing": None if file.bearing is None else file.bearing.model_dump(mode="json"),
+        "bearing": None
+        if file.bearing is None
+        else file.bearing.model_dump(mode="json", exclude_none=True),
         "bounds": file.bounds.model_dump(mode="json"),
         "analysis": analysis,
     }
