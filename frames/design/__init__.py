@@ -55,6 +55,9 @@ from frames.design.histories.motions import period_range as period_range
 from frames.design.histories.resultants import resultant_offsets as resultant_offsets
 from frames.design.histories.single_run import event_checks as event_checks
 from frames.design.histories.single_run import impact_checks as impact_checks
+from frames.design.project.check_register import RunToCheck as RunToCheck
+from frames.design.project.check_register import register_check as register_check
+from frames.design.project.check_register import unregister_check as unregister_check
 from frames.design.sizing.proposal import Design as Design
 from frames.design.sizing.proposal import design as design
 from frames.design.sizing.target import DesignTarget as DesignTarget
@@ -94,6 +97,7 @@ __all__ = [
     "PrototypeTest",
     "PulseScatter",
     "RimRule",
+    "RunToCheck",
     "Scaling",
     "ScalingRule",
     "Spectrum",
@@ -121,12 +125,14 @@ __all__ = [
     "pair_spectrum",
     "period_range",
     "prototype_tests",
+    "register_check",
     "register_code",
     "repeated_motion",
     "resultant_offsets",
     "rim_engagement",
     "slips_of_events",
     "synthetic_near_fault",
+    "unregister_check",
     "uplift_events",
     "with_property_bounds",
 ]

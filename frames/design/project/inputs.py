@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import runpy
-import traceback
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from frames.design._errors import ProjectError
@@ -16,6 +13,7 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
+from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
     MomentFrame,
     OpenSeesModel,
@@ -29,7 +27,7 @@ from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import TracebackType
+    from pathlib import Path
 
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
@@ -179,7 +177,7 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
         msg = f"script = {given.script} is no file in {folder}: name the model's script"
         raise ProjectError(msg)
     opensees().wipe()
-    with _Running(script):
+    with RunningScript(script, "script"):
         runpy.run_path(script.name, run_name="__main__")
     return Frame.from_opensees(
         given.base_nodes,
@@ -202,30 +200,6 @@ def motions_of(given: MotionSource, folder: Path) -> MotionSet:
         return found.fault_normal() if given.fault_normal else found
 
     return in_section("motions", made)
-
-
-class _Running:
-    # A script in its own folder, where it may read files; its failure names the line.
-
-    def __init__(self, script: Path) -> None:
-        self._script, self._before = script, Path.cwd()
-
-    def __enter__(self) -> None:
-        os.chdir(self._script.parent)
-
-    def __exit__(
-        self, kind: object, cause: BaseException | None, trace: TracebackType | None
-    ) -> bool:
-        os.chdir(self._before)
-        if cause is None or isinstance(cause, KeyboardInterrupt):
-            return False
-        if isinstance(cause, SystemExit) and not cause.code:
-            return True
-        name = self._script.name
-        lines = [s.lineno for s in traceback.extract_tb(trace) if Path(s.filename).name == name]
-        where = f", line {lines[-1]}" if lines else ""
-        msg = f"script = {name}{where}: {type(cause).__name__}: {cause}"
-        raise ProjectError(msg) from cause
 
 
 def in_section(section: str, make: Callable[[], T]) -> T:

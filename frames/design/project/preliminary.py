@@ -19,6 +19,7 @@ from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
@@ -37,6 +38,8 @@ class Preliminary:
         The bearings with their places and loads.
     spectrum : Spectrum
         The design spectrum.
+    superstructure : Superstructure, optional
+        What stands on the bearings.
     equivalent : EquivalentLinear
         Equivalent-linear analysis at both bounds.
     motions : MotionSet
@@ -46,6 +49,7 @@ class Preliminary:
     frame: Frame
     system: IsolationSystem
     spectrum: Spectrum
+    superstructure: Superstructure | None
     equivalent: EquivalentLinear
     motions: MotionSet
 
@@ -81,16 +85,22 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
     _warn(wind_doubts(parts.file, system, parts.bounds()))
+    above = parts.superstructure(frame)
     equivalent = equivalent_linear(
         system,
         spectrum,
         bounds=parts.bounds(),
-        superstructure=parts.superstructure(frame),
+        superstructure=above,
         code=parts.code().analysis(),
     )
     motions = scaled_motions(parts, spectrum, equivalent)
     return Preliminary(
-        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
+        frame=frame,
+        system=system,
+        spectrum=spectrum,
+        superstructure=above,
+        equivalent=equivalent,
+        motions=motions,
     )
 
 

@@ -89,7 +89,11 @@ def si(value: object, unit: str, example: str) -> float:
     if unit == "C":
         return _finite(_celsius(number, given, example))
     try:
-        factor = _units().Quantity(1.0, given or "dimensionless").to(unit or "dimensionless")
+        factor = (
+            _units()
+            .Quantity(1.0, given or "dimensionless")
+            .to(_POWER.sub(r"^\1", unit) or "dimensionless")
+        )
     except pint.UndefinedUnitError as cause:
         msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
         raise ValueError(msg) from cause

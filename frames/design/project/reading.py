@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from frames.design._errors import ProjectError
 from frames.design.hazard.code_rules import known_names
 from frames.design.project.derived import Table
+from frames.design.project.extensions import load_extensions
 from frames.design.project.schema import project_file
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ def read_project(path: str | Path) -> ProjectFile:
     ProjectError
         If it cannot be read, with a line for each thing that is wrong.
     """
+    load_extensions(Path(path))
     return read_file(path, project_file())
 
 

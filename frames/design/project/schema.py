@@ -35,10 +35,11 @@ Count = Annotated[int, Field(ge=1)]
 
 
 class ProjectTable(Table):
-    """``[project]``: its name, and the standard that it is designed by."""
+    """``[project]``: its name, the standard that it is designed by, Python files that extend it."""
 
     name: str = Field(min_length=1)
     code: str
+    extensions: tuple[str, ...] = ()
 
 
 class MomentFrame(Table):
