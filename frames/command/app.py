@@ -20,7 +20,7 @@ from frames.design.project.design_run import ProjectRun, compare_devices, evalua
 from frames.design.project.example import write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
-from frames.design.project.preliminary import CODES, inputs_of, preliminary
+from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
 from frames.design.report.files import (
@@ -69,7 +69,9 @@ def lir(
 @app.command()
 def new(
     folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
-    code: Annotated[str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745")] = "ASCE 7-22",
+    code: Annotated[
+        str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745, or one that was registered")
+    ] = "ASCE 7-22",
 ) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with told():
@@ -115,7 +117,7 @@ def propose(
             bounds=parts.bounds(),
             target=parts.target(),
             superstructure=parts.superstructure(frame),
-            code=CODES[parts.file.project.code](),
+            code=parts.code().analysis(),
             sizes=sizes,
             least=least,  # type: ignore[arg-type]  # design checks it
         )

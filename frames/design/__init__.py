@@ -12,19 +12,27 @@ from frames.design.codes.bounds import PropertyBounds as PropertyBounds
 from frames.design.codes.bounds import PropertyModificationFactors as PropertyModificationFactors
 from frames.design.codes.bounds import with_property_bounds as with_property_bounds
 from frames.design.codes.en1998 import EN1998 as EN1998
-from frames.design.codes.history_rules import HISTORY_RULES as HISTORY_RULES
 from frames.design.codes.history_rules import HistoryRules as HistoryRules
 from frames.design.codes.isolation import IsolationSystem as IsolationSystem
 from frames.design.codes.levels import ActionLevel as ActionLevel
 from frames.design.codes.nch2745 import NCh2745 as NCh2745
 from frames.design.codes.outcome import EquivalentLinear as EquivalentLinear
 from frames.design.codes.pendulum import FrictionPendulum as FrictionPendulum
+from frames.design.codes.prototype_programme import ProgrammeDemands as ProgrammeDemands
+from frames.design.codes.registry import HISTORY_RULES as HISTORY_RULES
+from frames.design.codes.registry import DesignCode as DesignCode
+from frames.design.codes.registry import RimRule as RimRule
+from frames.design.codes.registry import SpectrumKey as SpectrumKey
+from frames.design.codes.registry import code_named as code_named
+from frames.design.codes.registry import register_code as register_code
 from frames.design.codes.superstructure import Superstructure as Superstructure
 from frames.design.devices.capacity import capacity_checks as capacity_checks
 from frames.design.devices.capacity import engagement_checks as engagement_checks
 from frames.design.devices.device import device_checks as device_checks
 from frames.design.devices.limits import DesignLimits as DesignLimits
 from frames.design.devices.overlap import overlap_area as overlap_area
+from frames.design.hazard.code_rules import DampingRule as DampingRule
+from frames.design.hazard.code_rules import ScalingRule as ScalingRule
 from frames.design.hazard.motion_measures import motion_measures as motion_measures
 from frames.design.hazard.motion_set import MotionSet as MotionSet
 from frames.design.hazard.near_fault_pulse import NearFaultPulse as NearFaultPulse
@@ -47,6 +55,9 @@ from frames.design.histories.motions import period_range as period_range
 from frames.design.histories.resultants import resultant_offsets as resultant_offsets
 from frames.design.histories.single_run import event_checks as event_checks
 from frames.design.histories.single_run import impact_checks as impact_checks
+from frames.design.project.check_register import RunToCheck as RunToCheck
+from frames.design.project.check_register import register_check as register_check
+from frames.design.project.check_register import unregister_check as unregister_check
 from frames.design.sizing.proposal import Design as Design
 from frames.design.sizing.proposal import design as design
 from frames.design.sizing.target import DesignTarget as DesignTarget
@@ -54,7 +65,6 @@ from frames.design.testing.acceptance import AcceptanceLimits as AcceptanceLimit
 from frames.design.testing.acceptance import acceptance_checks as acceptance_checks
 from frames.design.testing.loops import PrototypeTest as PrototypeTest
 from frames.design.testing.loops import loop_properties as loop_properties
-from frames.design.testing.programme import ProgrammeDemands as ProgrammeDemands
 from frames.design.testing.programme import prototype_tests as prototype_tests
 from frames.model.load_combinations import isolator_combinations as isolator_combinations
 
@@ -67,7 +77,9 @@ __all__ = [
     "Check",
     "CheckError",
     "Checks",
+    "DampingRule",
     "Design",
+    "DesignCode",
     "DesignLimits",
     "DesignTarget",
     "EquivalentLinear",
@@ -84,13 +96,18 @@ __all__ = [
     "PropertyModificationFactors",
     "PrototypeTest",
     "PulseScatter",
+    "RimRule",
+    "RunToCheck",
     "Scaling",
+    "ScalingRule",
     "Spectrum",
+    "SpectrumKey",
     "Superstructure",
     "Trace",
     "acceptance_checks",
     "bounded_histories",
     "capacity_checks",
+    "code_named",
     "design",
     "device_checks",
     "engagement_checks",
@@ -108,11 +125,14 @@ __all__ = [
     "pair_spectrum",
     "period_range",
     "prototype_tests",
+    "register_check",
+    "register_code",
     "repeated_motion",
     "resultant_offsets",
     "rim_engagement",
     "slips_of_events",
     "synthetic_near_fault",
+    "unregister_check",
     "uplift_events",
     "with_property_bounds",
 ]

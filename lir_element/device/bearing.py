@@ -10,37 +10,14 @@ import numpy as np
 
 from lir_element.argument_checks import as_pair, frozen_pair, require_positive
 from lir_element.device.bearing_checks import check_bearing
+from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
 from lir_element.layout import PROPS, PROPS_FIELDS, Records
 from lir_element.tables import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
-_UNITS = {
-    **dict.fromkeys(
-        (
-            "radius",
-            "slider_height",
-            "slider_radius",
-            "capacity",
-            "rims",
-            "rim_overrun",
-            "slip_capacity",
-            "yield_displacement",
-            "interface_yield_displacement",
-            "plate_thickness",
-        ),
-        "m",
-    ),
-    "axial_stiffness": "N/m",
-    "axial_damping": "N s/m",
-    "rim_stiffness": "N/m",
-    "rim_damping": "N s/m",
-    "design_load": "N",
-    "slider_density": "kg/m3",
-    "slider_mass": "kg",
-    "slider_inertia": "kg m2",
-}
+_UNITS = FIELD_UNITS["LIRBearing"]
 
 _FACTORS = (
     "pressure_rate",

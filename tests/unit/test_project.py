@@ -158,7 +158,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
     [
         ('"180 mm"', "180", 'changed.toml: bearing.capacity = 180 has no unit: write "180 mm"'),
         ("capacity", "capacty", 'bearing.capacty is not known; is "capacity" meant'),
-        ("capacity", "capacty", "bearing.capacity is missing"),
+        ("interface_friction = 0.18", "", "bearing.interface_friction is missing"),
         ('radius = "1.5 m"', 'radius = "1500"', 'bearing.radius = "1500" has no unit'),
         ("zone = 2", "zone = 7", "spectrum.zone = 7 must be 1, 2 or 3"),
         ('soil = "II"', "s_ms = 1.0", "spectrum.s_ms is not known"),
@@ -208,6 +208,7 @@ def test_messages_name_file_key_value_and_remedy(
     [
         ("[0.8, 1.3]", "[1.2, 1.3]", "bounds", r"\[bounds\] factors 1.2"),
         ('"180 mm"', '"180 m"', "bearing", r"\[bearing\] capacity = 180 m lies beyond"),
+        ('capacity = "180 mm"', "", "bearing", r"\[bearing\].*capacity"),
         ('"motions"', '"nowhere"', "motions", r"\[motions\].*nowhere"),
         ('"5 MN"', '"-5 MN"', "limits", r"\[limits\].*rim_strength"),
     ],

@@ -171,7 +171,7 @@ def considered() -> float:
     stiffness = 1.0 / length + friction / displacement  # over the weight, 1/m
     period = 2.0 * math.pi / math.sqrt(STANDARD_GRAVITY * stiffness)
     damping = 2.0 / math.pi * friction / (friction + displacement / length)
-    factor = damping_factor("ASCE 7", damping)
+    factor = damping_factor("ASCE 7-22", damping)
     assert INTENSITY.period is not None
     return displacement * 4.0 * math.pi**2 * factor / (period * INTENSITY.period)
 

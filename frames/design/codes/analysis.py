@@ -6,21 +6,18 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Checks
-from frames.design.codes.asce7 import ASCE7
+from frames.design.codes import builtin as builtin
 from frames.design.codes.bounds import ENDS, BoundName, PropertyBounds, with_property_bounds
-from frames.design.codes.en1998 import EN1998
 from frames.design.codes.interface import slip_threshold
 from frames.design.codes.isolation import Extremes, IsolationSystem
-from frames.design.codes.nch2745 import NCh2745
 from frames.design.codes.outcome import BoundResult, EquivalentLinear
+from frames.design.codes.registry import AnalysisMethod, code_named
+from frames.design.hazard.code_rules import canonical, known_names
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.codes.superstructure import Superstructure
-
-Code = ASCE7 | EN1998 | NCh2745
-_CODES = (ASCE7, EN1998, NCh2745)
 
 
 def equivalent_linear(
@@ -29,7 +26,7 @@ def equivalent_linear(
     *,
     bounds: PropertyBounds | None,
     superstructure: Superstructure | None = None,
-    code: Code | None = None,
+    code: AnalysisMethod | str | None = None,
 ) -> EquivalentLinear:
     """Analyse an isolation system with its effective stiffness and damping, and check it.
 
@@ -47,8 +44,8 @@ def equivalent_linear(
     superstructure : Superstructure, optional
         What stands on it; without it there are no forces above the isolation system, and no
         checks of drifts and axial loads.
-    code : ASCE7, EN1998 or NCh2745, optional
-        The standard with its factors; the one of the spectrum with all defaults if None.
+    code : ASCE7, EN1998, NCh2745 or str, optional
+        The standard with its factors, or its name: with all defaults. That of the spectrum if None.
 
     Returns
     -------
@@ -82,9 +79,8 @@ def equivalent_linear(
     """
     require_type("system", system, IsolationSystem, "an IsolationSystem")
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
-    chosen = _code(spectrum) if code is None else code
-    require_type("code", chosen, _CODES, "ASCE7(...), EN1998(...) or NCh2745(...)")
-    if not spectrum.code.startswith(chosen.spectra):
+    chosen = _of_spectrum(spectrum) if code is None else _method(code)
+    if canonical(spectrum.code) != chosen.name:
         msg = f"a spectrum of {spectrum.code!r} does not go with {chosen.name}: give one of its own"
         raise CheckError(msg)
     if superstructure is not None and superstructure.weight > system.seismic_weight:
@@ -105,10 +101,19 @@ def equivalent_linear(
     return EquivalentLinear(chosen.name, results, general)
 
 
-def _code(spectrum: Spectrum) -> Code:
-    for code in _CODES:
-        if spectrum.code.startswith(code.spectra):
-            return code()
-    names = ", ".join(code.spectra for code in _CODES)
-    msg = f"a spectrum of {spectrum.code!r} has no equivalent-linear analysis: give one of {names}"
-    raise CheckError(msg)
+def _of_spectrum(spectrum: Spectrum) -> AnalysisMethod:
+    names = known_names()
+    if canonical(spectrum.code) not in names:
+        msg = (
+            f"a spectrum of {spectrum.code!r} has no equivalent-linear analysis: give one of "
+            f"{', '.join(names)}"
+        )
+        raise CheckError(msg)
+    return code_named(spectrum.code).analysis()
+
+
+def _method(code: AnalysisMethod | str) -> AnalysisMethod:
+    if isinstance(code, str):
+        return code_named(code).analysis()
+    require_type("code", code, AnalysisMethod, "ASCE7(...), EN1998(...) or NCh2745(...)")
+    return code

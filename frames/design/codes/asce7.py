@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -16,8 +18,19 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
-from frames.design.codes.levels import MCE_R
+from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.levels import MCE_R, ActionLevel
 from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.prototype_programme import (
+    DesignToTest,
+    PlannedTest,
+    increments,
+    many_cycles,
+    stable_test,
+    static_tests,
+    wind_test,
+)
+from frames.design.codes.registry import DesignCode, ExampleProject, RimRule, SpectrumKey
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
@@ -25,12 +38,17 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
+from frames.design.hazard.spectrum import Spectrum
+
+_STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from frames.design.calculation.trace import Trace
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
-    from frames.design.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 
@@ -98,7 +116,6 @@ class ASCE7:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "ASCE 7-22"
-    spectra: ClassVar[str] = "ASCE 7"
 
     def analyse(
         self,
@@ -283,3 +300,80 @@ class ASCE7:
         clause = "ASCE 7-22 17.5.6"
         drift = drift_checks(t, above, judge, clause, limit=self.drift, factor="R_I")
         return Checks([*found, *drift])
+
+
+def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
+    clause, t, moved = "ASCE 7-22 17.8.2.2", d.result.trace, d.result.displacement
+    yield PlannedTest(
+        "production, each bearing",
+        0.67 * moved,
+        d.average,
+        3.0,
+        d.demands.slow_speed,
+        "each bearing is as the prototypes",
+        "ASCE 7-22 17.8.5",
+    )
+    yield wind_test(d, f"{clause} (1)")
+    steps = [(f"{share:g} D_M", share * moved, d.speed_at(share * moved)) for share in _STEPS]
+    yield from increments(d, steps, f"{clause} (2)")
+    yield stable_test(d, "D_M", moved, f"{clause} (3)")
+    yield stable_test(d, "D_TM", d.result.total_displacement, f"{clause} (3)")
+    count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
+    at = "0.75 D_M", 0.75 * moved, d.speed_at(0.75 * moved)
+    yield many_cycles(d, at, float(math.ceil(count - 1e-9)), f"{clause} (4)")
+    yield from static_tests(d, "ASCE 7-22 17.8.2.5")
+
+
+CODE = DesignCode(
+    name=ASCE7.name,
+    aliases=("ASCE 7", "ASCE/SEI 7-22"),
+    title="Minimum Design Loads and Associated Criteria for Buildings and Other Structures",
+    analysis=ASCE7,
+    damping=DampingRule(
+        "ASCE/SEI 7-22, table 17.5-1 (7-16 alike)",
+        LINEAR,
+        table=(
+            (0.02, 0.8),
+            (0.05, 1.0),
+            (0.10, 1.2),
+            (0.20, 1.5),
+            (0.30, 1.7),
+            (0.40, 1.9),
+            (0.50, 2.0),
+        ),
+    ),
+    scaling=(
+        ScalingRule(
+            "ASCE 7-22", "RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3", (0.75, 1.25), fault_axes=True
+        ),
+        ScalingRule(
+            "ASCE 7-10", "SRSS", 1.0, 0.0, 7, "ASCE 7-10 17.3.2", (0.75, 1.25), fault_axes=True
+        ),
+    ),
+    histories=HistoryRules(
+        code=ASCE7.name,
+        least=7,
+        mean_from=7,
+        drift=0.020,
+        uplift_allowed=True,
+        has_minima=True,
+        levels=(ActionLevel(MCE_R),),
+        statistic_clause="17.3.3",
+        displacement_clause="17.6.4",
+        drift_clause="17.6.4.4",
+        force_clause="17.6.4",
+        uplift_clause="17.2.4.7",
+    ),
+    spectrum=Spectrum.asce7,
+    spectrum_keys={
+        "s_ms": SpectrumKey(),
+        "s_m1": SpectrumKey(),
+        "t_l": SpectrumKey(unit="s", default=8.0),
+    },
+    rims=RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
+    property_factors=PropertyModificationFactors.asce7,
+    tests=_tests,
+    acceptance="ASCE 7-22 17.8.4",
+    example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),
+)
+"""ASCE 7-22, chapter 17."""

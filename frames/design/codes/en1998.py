@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Checks
+from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -16,8 +18,20 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
+from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import DESIGN
 from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
+from frames.design.codes.registry import (
+    EXAMPLE_UPLIFT,
+    MOST_IMPORTANT,
+    NO_LIMITS,
+    DesignCode,
+    ExampleProject,
+    RimRule,
+    SpectrumKey,
+    example_bearing,
+)
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
@@ -25,12 +39,17 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.hazard.code_rules import DampingRule, ScalingRule
+from frames.design.hazard.spectrum import Spectrum
+
+_SMALLEST_ETA = 0.55
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from frames.design.calculation.trace import Trace
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
-    from frames.design.hazard.spectrum import Spectrum
 
 _SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
 
@@ -97,7 +116,6 @@ class EN1998:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "EN 1998"
-    spectra: ClassVar[str] = "EN 1998"
 
     def analyse(
         self,
@@ -243,3 +261,90 @@ class EN1998:
                 limit(clause, "vertical period", "T_v", "<=", "T_v_lim"),
             ]
         )
+
+
+def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
+    clause, total, slow = "EN 15129 8.3.4", d.result.total_displacement, d.demands.slow_speed
+    fast = d.speed_at(total)
+    service = math.nan if d.demands.service is None else d.demands.service
+    for name, share, load, cycles, speed, shows in (
+        ("S, service", service / total, d.average, 20.0, 0.1 * slow, "moves with temperature"),
+        ("P1, benchmark", 1.0, d.average, 3.0, slow, "what later tests are compared with"),
+        ("D1, dynamic", 0.25, d.average, 3.0, fast, "friction and stiffness"),
+        ("D2, dynamic", 0.50, d.average, 3.0, fast, "friction and stiffness"),
+        ("D3, dynamic", 1.00, d.average, 3.0, fast, "friction and stiffness"),
+        ("P2, integrity of the liner", 1.0, d.average, 3.0, slow, "as P1 after the dynamic tests"),
+        ("D4, seismic, largest load", 1.0, d.largest, 3.0, fast, "friction and stability"),
+        ("D5, seismic, least load", 1.0, d.least, 3.0, fast, "friction and stability"),
+        ("B, both directions", 1.0, d.average, 3.0, fast, "clover-leaf path: friction in plan"),
+    ):
+        yield PlannedTest(name, share * total, load, cycles, speed, shows, clause)
+
+
+def _factor(damping: float) -> float:
+    # B = 1 / eta.
+    return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), _SMALLEST_ETA)
+
+
+CODE = DesignCode(
+    name=EN1998.name,
+    aliases=("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
+    title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
+    analysis=EN1998,
+    damping=DampingRule(
+        "EN 1998-1:2004, 3.2.2.2(3)",
+        "B = 1 / eta, eta = sqrt(10 / (5 + damping in %)) >= 0.55",
+        formula=_factor,
+    ),
+    scaling=(
+        ScalingRule(
+            "EN 1998",
+            "arithmetic mean",
+            0.9,
+            1.0,
+            7,
+            "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3",
+            (0.2, 2.0),
+        ),
+        ScalingRule("EN 1998-2", "SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3", (0.2, 1.5)),
+    ),
+    histories=HistoryRules(
+        code=EN1998.name,
+        standard="EN 1998-1",
+        least=3,
+        mean_from=7,
+        displacement_factor=1.2,
+        statistic_clause="4.3.3.4.3(3)",
+        displacement_clause="10.3(2)",
+        drift_clause="4.4.3.2",
+        force_clause="10.10",
+    ),
+    spectrum=Spectrum.en1998,
+    spectrum_keys={
+        "a_g": SpectrumKey(unit="m/s^2"),
+        "ground_type": SpectrumKey(Literal["A", "B", "C", "D", "E"]),
+        "kind": SpectrumKey(Literal[1, 2], default=1),
+        "importance": SpectrumKey(default=1.0, most=MOST_IMPORTANT),
+    },
+    rims=RimRule(
+        "EN 1998-1 10.3(2), EN 15129",
+        "gamma_x d_bd",
+        1.0,
+        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
+        "implements them, wants end stops that leave this displacement free. Needs the agreement "
+        "of the authority, time histories with the rims, and tests of impact and return",
+    ),
+    property_factors=PropertyModificationFactors.en1998,
+    tests=_tests,
+    acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
+    example=ExampleProject(
+        {"a_g": 3.4, "ground_type": "B"},
+        {
+            "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
+            "kind = 1\n",
+            "bearing": example_bearing("2.5 m", 185, 150, 0.04, 0.075),
+            "analysis": EXAMPLE_UPLIFT,
+        },
+    ),
+)
+"""EN 1998-1 chapter 10, EN 1998-2 chapter 7, EN 15129."""

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from frames.design._errors import CheckError
-from frames.design.codes.levels import DESIGN, MAXIMUM, MCE_R, NCH_MAXIMUM, ActionLevel
+from frames.design.codes.levels import DESIGN, ActionLevel
 from lir_element.argument_checks import (
     require_between,
     require_choice,
@@ -19,12 +18,12 @@ from lir_element.argument_checks import (
 class HistoryRules:
     """Rules of a code for time histories; clause numbers to be confirmed against the standard.
 
-    `HISTORY_RULES` has those of three codes; `dataclasses.replace` changes a factor.
+    `HISTORY_RULES` has those of the codes; `dataclasses.replace` changes a factor.
 
     Parameters
     ----------
     code : str
-        Standard, as clauses begin.
+        Name of the code.
     least : int
         Least number of motions.
     mean_from : int
@@ -49,11 +48,14 @@ class HistoryRules:
         Share of the displacement below which rims must not engage [-]; that of the code,
         `RIM_RULES`, if None.
     has_minima : bool
-        Whether an equivalent-linear analysis gives least values.
+        Whether the equivalent-linear analysis gives least values of what histories give, as
+        D_TM_dyn, V_b_dyn and V_s_dyn of its calculation.
     levels : tuple of ActionLevel
         Levels of the seismic action at which histories are run, and what is judged at each.
     statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
         Clauses; `uplift_clause` that of what bearings must keep where they lift off.
+    standard : str
+        Standard, or part of it, as clauses begin; the code's name if empty.
     """
 
     code: str
@@ -73,6 +75,12 @@ class HistoryRules:
     drift_clause: str = ""
     force_clause: str = ""
     uplift_clause: str = ""
+    standard: str = ""
+
+    @property
+    def cited(self) -> str:
+        """What clauses begin with."""
+        return self.standard or self.code
 
     def __post_init__(self) -> None:
         require_between("least", self.least, 1, 1000, "-", error=CheckError)
@@ -114,59 +122,9 @@ class HistoryRules:
                 for each in self.levels
             )
             msg = (
-                f"{self.code} judges at {len(names)} levels, {factors}: say of which the runs are, "
-                f"action_level={names[0]!r}"
+                f"{self.cited} judges at {len(names)} levels, {factors}: say of which the runs "
+                f"are, action_level={names[0]!r}"
             )
             raise CheckError(msg)
         require_choice("action_level", name or names[0], tuple(names), error=CheckError)
         return self.levels[names.index(name or names[0])]
-
-
-RULES: dict[str, Literal["ASCE 7-22", "EN 1998-1", "NCh2745"]] = {
-    "ASCE 7-22": "ASCE 7-22",
-    "EN 1998": "EN 1998-1",
-    "NCh2745": "NCh2745",
-}
-"""Rules for motions and time histories by the code of an equivalent-linear analysis."""
-
-HISTORY_RULES = {
-    "ASCE 7-22": HistoryRules(
-        code="ASCE 7-22",
-        least=7,
-        mean_from=7,
-        drift=0.020,
-        uplift_allowed=True,
-        has_minima=True,
-        levels=(ActionLevel(MCE_R),),
-        statistic_clause="17.3.3",
-        displacement_clause="17.6.4",
-        drift_clause="17.6.4.4",
-        force_clause="17.6.4",
-        uplift_clause="17.2.4.7",
-    ),
-    "EN 1998-1": HistoryRules(
-        code="EN 1998-1",
-        least=3,
-        mean_from=7,
-        displacement_factor=1.2,
-        statistic_clause="4.3.3.4.3(3)",
-        displacement_clause="10.3(2)",
-        drift_clause="4.4.3.2",
-        force_clause="10.10",
-    ),
-    "NCh2745": HistoryRules(
-        code="NCh2745",
-        least=3,
-        mean_from=7,
-        drift=0.003,
-        statistic_clause="8.4",
-        displacement_clause="8",
-        drift_clause="8.8",
-        force_clause="8",
-        levels=(
-            ActionLevel(DESIGN, judges="superstructure"),
-            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
-        ),
-    ),
-}
-"""Rules by code."""

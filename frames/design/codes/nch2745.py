@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design.calculation.check import Bound, Checks
 from frames.design.codes.common import (
@@ -16,8 +16,27 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
-from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM
+from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM, ActionLevel
 from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.prototype_programme import (
+    DesignToTest,
+    PlannedTest,
+    increments,
+    many_cycles,
+    stable_test,
+    static_tests,
+    wind_test,
+)
+from frames.design.codes.registry import (
+    EXAMPLE_UPLIFT,
+    NO_LIMITS,
+    DesignCode,
+    ExampleProject,
+    RimRule,
+    SpectrumKey,
+    example_bearing,
+)
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
@@ -25,12 +44,15 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
+from frames.design.hazard.spectrum import Spectrum
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from frames.design.calculation.trace import Trace
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
-    from frames.design.hazard.spectrum import Spectrum
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
 _MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
@@ -78,7 +100,6 @@ class NCh2745:
     orthogonal: float = 0.3
     pressure_limit: float | None = None
     name: ClassVar[str] = "NCh2745"
-    spectra: ClassVar[str] = "NCh2745"
 
     def analyse(
         self,
@@ -180,3 +201,87 @@ class NCh2745:
             note="overturning, unreduced, at the maximum level",
         )
         t.given("o", self.orthogonal, note="share of the other direction")
+
+
+def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
+    # Each displacement with the period of its level: D_D with T_D, D_M with T_M.
+    clause, t = "NCh2745 14", d.result.trace
+
+    def at_design(name: str, displacement: float) -> tuple[str, float, float]:
+        return name, displacement, d.speed_at(displacement, t.value("T_D"))
+
+    design, most = t.value("D_D"), t.value("D_M")
+    yield wind_test(d, clause)
+    steps = (
+        at_design("0.2 D_D", 0.2 * design),
+        at_design("0.5 D_D", 0.5 * design),
+        at_design("D_D", design),
+        ("D_M", most, d.speed_at(most)),
+    )
+    yield from increments(d, steps, clause)
+    yield stable_test(d, "D_TM", d.result.total_displacement, clause)
+    yield many_cycles(d, at_design("D_TD", t.value("D_TD")), 10.0, clause)
+    yield from static_tests(d, clause)
+
+
+CODE = DesignCode(
+    name=NCh2745.name,
+    aliases=("NCh 2745", "NCh2745:2013"),
+    title="Earthquake-resistant design of base-isolated buildings (Chile)",
+    analysis=NCh2745,
+    damping=DampingRule(
+        "NCh2745:2013, table of B_D and B_M",
+        LINEAR,
+        table=(
+            (0.02, 0.65),
+            (0.05, 1.0),
+            (0.10, 1.37),
+            (0.15, 1.67),
+            (0.20, 1.94),
+            (0.25, 2.17),
+            (0.30, 2.38),
+            (0.50, 3.02),
+        ),
+    ),
+    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
+    scaling=(ScalingRule("NCh2745", "SRSS", 1.17, 0.0, 7, "NCh2745 8.4", (0.5, 1.25)),),
+    histories=HistoryRules(
+        code=NCh2745.name,
+        least=3,
+        mean_from=7,
+        drift=0.003,
+        statistic_clause="8.4",
+        displacement_clause="8",
+        drift_clause="8.8",
+        force_clause="8",
+        levels=(
+            ActionLevel(DESIGN, judges="superstructure"),
+            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
+        ),
+    ),
+    uses_importance=False,
+    spectrum=Spectrum.nch2745,
+    spectrum_keys={
+        "soil": SpectrumKey(Literal["I", "II", "III"]),
+        "zone": SpectrumKey(Literal[1, 2, 3]),
+    },
+    rims=RimRule(
+        "NCh2745 7.3",
+        "D_TM",
+        1.0,
+        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
+        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
+        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+    ),
+    tests=_tests,
+    acceptance=f"{NO_LIMITS}, not of NCh2745 14",
+    example=ExampleProject(
+        {"soil": "II", "zone": 3},
+        {
+            "spectrum": 'soil = "II"\nzone = 3\n',
+            "bearing": example_bearing("1.5 m", 185, 227, 0.04, 0.095),
+            "analysis": EXAMPLE_UPLIFT,
+        },
+    ),
+)
+"""NCh2745, isolated buildings in Chile."""

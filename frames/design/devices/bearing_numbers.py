@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
-from lir_element.argument_checks import require_non_negative, require_positive
+from lir_element.argument_checks import require_non_negative
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -25,15 +25,6 @@ def require_rims(bearing: LIRBearing) -> None:
     if not math.isfinite(bearing.lateral_capacity):
         msg = "the bearing has no rims: give it a capacity, or leave this check out"
         raise CheckError(msg)
-
-
-def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
-    """Return a least and a largest axial force [N], or raise a CheckError."""
-    least, most = (require_positive("axial load", load, "N", error=CheckError) for load in loads)
-    if least > most:
-        msg = f"loads = {loads}: give the least first, then the largest [N]"
-        raise CheckError(msg)
-    return least, most
 
 
 def enter_geometry(bearing: LIRBearing) -> Trace:

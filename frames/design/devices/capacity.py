@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
     NO_CODE,
@@ -18,7 +19,7 @@ from frames.design.devices.bearing_numbers import (
     require_rims,
 )
 from frames.design.devices.limits import PROJECT_LIMIT
-from lir_element.argument_checks import require_choice, require_positive
+from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -86,55 +87,12 @@ def capacity_checks(
     return Checks(found)
 
 
-class RimRule(NamedTuple):
-    """What a code asks of the displacement at which rims are met.
-
-    Attributes
-    ----------
-    clause : str
-        Clause.
-    symbol : str
-        How the code calls the displacement that bearings must allow.
-    least : float
-        Share of it below which rims must not be met [-].
-    note : str
-        What rims that are met below it mean under the code.
-    """
-
-    clause: str
-    symbol: str
-    least: float
-    note: str
-
-
-RIM_RULES: dict[str, RimRule] = {
-    "ASCE 7-22": RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
-    "EN 1998-1": RimRule(
-        "EN 1998-1 10.3(2), EN 15129",
-        "gamma_x d_bd",
-        1.0,
-        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
-        "implements them, wants end stops that leave this displacement free. Needs the agreement "
-        "of the authority, time histories with the rims, and tests of impact and return",
-    ),
-    "NCh2745": RimRule(
-        "NCh2745 7.3",
-        "D_TM",
-        1.0,
-        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
-        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
-        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
-    ),
-}
-"""Rules by code; clauses and shares to be confirmed against the standards."""
-
-
 def engagement_checks(
     bearing: LIRBearing,
     displacement: float | Mapping[Bound, float],
     *,
     least: float | None = None,
-    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] = "ASCE 7-22",
+    code: str = "ASCE 7-22",
     agreed: float | None = None,
 ) -> Checks:
     """Check at which share of the displacement that bearings must allow each rim is met.
@@ -145,13 +103,13 @@ def engagement_checks(
         The bearing.
     displacement : float or mapping
         Displacement that bearings must allow [m], one or one for each bound: D_TM of ASCE 7-22, and
-        of NCh2745 at its maximum level; gamma_x d_bd of EN 1998-1.
+        of NCh2745 at its maximum level; gamma_x d_bd of EN 1998.
     least : float, optional
         Share of it below which a rim must not be met [-]; that of the code if None: 0.60 of
         ASCE 7-22, whose wording has to be read, 1 of the others, which have no rule for rims that
         are met by intent.
-    code : {"ASCE 7-22", "EN 1998-1", "NCh2745"}
-        The code.
+    code : str
+        The code: "ASCE 7-22", "EN 1998", "NCh2745", or one that was registered.
     agreed : float, optional
         Share that the authority agreed to, or that tests prove [-]: checked beside that of the
         code.
@@ -172,8 +130,7 @@ def engagement_checks(
     A rim is met at ``U = L d / R``, plates parallel, no slip left.
     """
     require_rims(bearing)
-    require_choice("code", code, tuple(RIM_RULES), error=CheckError)
-    rule = RIM_RULES[code]
+    rule = code_named(code).rims
     share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
     asked = [(rule.clause, share, rule.note)]
     if agreed is not None:

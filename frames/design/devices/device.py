@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import CONFIRMED, Check, Checks
+from frames.design.codes.prototype_programme import ordered_loads
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
     NO_CODE,
     SURFACES,
     enter_bearing,
     enter_length,
-    ordered_loads,
 )
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.devices.overlap import liner_pressure, pressure

@@ -12,8 +12,9 @@ import pandas as pd
 
 from frames._errors import MotionError
 from frames._types import FloatArray
-from frames.design.hazard import damping_factors as df
 from frames.design.hazard import spectral_shapes as sh
+from frames.design.hazard.code_rules import known_names
+from frames.design.hazard.damping_factors import damping_factor
 from lir_element.argument_checks import require_between, require_positive
 from lir_element.tables import html_table
 from lir_element.units import STANDARD_GRAVITY
@@ -79,12 +80,12 @@ class ElasticSpectrum:
             If the damping is out of its bounds, or not 5 % in a spectrum that names no code.
         """
         if self.damping_code:
-            return df.damping_factor(self.damping_code, damping)
+            return damping_factor(self.damping_code, damping)
         ratio = require_between(
             "damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError
         )
         if abs(ratio - 0.05) > 1e-9:
-            codes = ", ".join(df.DAMPING_RULES)
+            codes = ", ".join(known_names())
             msg = (
                 f"{self.name}: damping = {ratio:g} needs a rule: give the spectrum with code=, "
                 f"one of {codes}"

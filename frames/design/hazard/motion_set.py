@@ -208,13 +208,13 @@ class MotionSet(MotionCollection):
         spectrum : Spectrum
             The target.
         rule : str
-            Of `SCALING_RULES`: "ASCE 7-22" (mean of RotD100 at least the target), "ASCE 7-10"
-            (mean of SRSS), "EN 1998-1" (mean of all components at least 90 % of the target, and
-            the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the target),
-            "NCh2745" (1.17 times). All to be confirmed against the standards.
+            Of a code, or another that it has: "ASCE 7-22" (mean of RotD100 at least the target),
+            "ASCE 7-10" (mean of SRSS), "EN 1998" (mean of all components at least 90 % of the
+            target, and the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the
+            target), "NCh2745" (1.17 times). All to be confirmed against the standards.
         periods : tuple of float
             Range of periods [s]: of isolated buildings by ASCE 7-22 from 0.75 T_M (upper bound)
-            to 1.25 T_M (lower bound); by EN 1998-1 from 0.2 T to 2 T.
+            to 1.25 T_M (lower bound); by EN 1998 from 0.2 T to 2 T.
         how : {"amplitude", "common"}
             A factor for each motion, or the same for all.
         measure, part : str, float, optional

@@ -5,11 +5,12 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from frames._errors import MotionError, MotionWarning
+from frames.design.hazard.code_rules import scaling_named
 from frames.design.hazard.pair_spectra import pair_spectrum
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_choice, require_positive, require_type
@@ -21,44 +22,6 @@ POINTS = 60
 """Periods of the range at which motions and target are compared."""
 
 
-class ScalingRule(NamedTuple):
-    """What a code asks of the mean spectrum of a set.
-
-    Attributes
-    ----------
-    measure : str
-        Measure of a pair (`frames.design.hazard.pair_spectra.MEASURES`).
-    part : float
-        What the mean must reach at least, as a part of the target [-].
-    at_zero : float
-        The same at the period zero [-]; 0 where nothing is asked.
-    least : int
-        Number of pairs from which the mean response may be used.
-    clause : str
-        Where the code says so; to be confirmed against the standard.
-    """
-
-    measure: str
-    part: float
-    at_zero: float
-    least: int
-    clause: str
-
-
-SCALING_RULES = {
-    "ASCE 7-22": ScalingRule("RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3"),
-    "ASCE 7-10": ScalingRule("SRSS", 1.0, 0.0, 7, "ASCE 7-10 17.3.2"),
-    "EN 1998-1": ScalingRule(
-        "arithmetic mean", 0.9, 1.0, 7, "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3"
-    ),
-    "EN 1998-2": ScalingRule("SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3"),
-    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
-    "NCh2745": ScalingRule("SRSS", 1.17, 0.0, 7, "NCh2745 8.4"),
-}
-"""Rules by code. Ranges of periods: ASCE 7-22 0.75 T_M of the upper bound to 1.25 T_M of the
-lower bound; EN 1998-1 0.2 T to 2 T; EN 1998-2 0.2 T to 1.5 T; NCh2745 0.5 T_D to 1.25 T_M."""
-
-
 @dataclass(frozen=True, slots=True)
 class Scaling:
     """How a set was scaled.
@@ -68,7 +31,7 @@ class Scaling:
     target : Spectrum
         What it was scaled to.
     rule : str
-        Whose rule, of `SCALING_RULES`.
+        Name of the rule.
     measure : str
         Measure of a pair.
     part : float
@@ -131,9 +94,8 @@ def scaled_so(
         If an argument is out of its bounds, or a component is missing or zero.
     """
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
-    require_choice("rule", rule, tuple(SCALING_RULES), error=MotionError)
+    code = scaling_named(rule)
     require_choice("how", how, ("amplitude", "common"), error=MotionError)
-    code = SCALING_RULES[rule]
     low, high = checked_range(periods)
     wanted = code.part if part is None else require_positive("part", part, error=MotionError)
     kind = code.measure if measure is None else measure
@@ -155,10 +117,10 @@ def scaled_so(
         name: float(factor) * before.get(name, 1.0)
         for name, factor in zip(motions, factors, strict=True)
     }
-    _warn_of(total, limits, code.least if least is None else least, rule)
+    _warn_of(total, limits, code.least if least is None else least, code.name)
     return Scaling(
         spectrum,
-        rule,
+        code.name,
         kind,
         wanted,
         (low, high),

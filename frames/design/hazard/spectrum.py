@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import MotionError, MotionWarning
-from frames.design.hazard import damping_factors as df
 from frames.design.hazard import spectral_shapes as sh
+from frames.design.hazard.code_rules import rules_named
 from frames.design.hazard.elastic_spectrum import ElasticSpectrum
 from lir_element.argument_checks import require_between, require_choice, require_positive
 from lir_element.units import STANDARD_GRAVITY
@@ -41,8 +41,7 @@ class Spectrum(ElasticSpectrum):
     shape : str
         Family of formulas (`frames.design.hazard.spectral_shapes.SHAPES`).
     damping_code : str
-        Whose damping factors it is divided by (of `DAMPING_RULES` in
-        `frames.design.hazard.damping_factors`); empty: it holds for 5 % alone.
+        Whose damping factors it is divided by ; empty: it holds for 5 % alone.
     constants : tuple of (str, float)
         Parameters by symbol.
     points : tuple of (float, float)
@@ -103,7 +102,7 @@ class Spectrum(ElasticSpectrum):
             warnings.warn(msg, MotionWarning, stacklevel=2)
         constants = {"S_MS": short, "S_M1": long, "T_0": 0.2 * corner, "T_S": corner, "T_L": late}
         label = name or f"ASCE 7 MCE_R, S_MS = {short:g} g, S_M1 = {long:g} g"
-        return cls("ASCE 7-22", label, "asce7", "ASCE 7", tuple(constants.items()))
+        return cls("ASCE 7-22", label, "asce7", "ASCE 7-22", tuple(constants.items()))
 
     @classmethod
     def asce7_multi_period(
@@ -165,7 +164,7 @@ class Spectrum(ElasticSpectrum):
         label = name or f"ASCE 7 multi-period MCE_R, S_MS = {short:.3g} g, S_M1 = {long:.3g} g"
         in_si = tuple((period, level * STANDARD_GRAVITY) for period, level in points)
         kept = tuple(constants.items())
-        return cls("ASCE 7-22", label, "asce7_multi_period", "ASCE 7", kept, in_si)
+        return cls("ASCE 7-22", label, "asce7_multi_period", "ASCE 7-22", kept, in_si)
 
     @classmethod
     def en1998(
@@ -218,7 +217,7 @@ class Spectrum(ElasticSpectrum):
         label = name or (
             f"EN 1998-1 type {kind}, ground {ground_type}, a_g = {gamma * peak:.3g} m/s2"
         )
-        return cls("EN 1998-1", label, "en1998", "EN 1998", tuple(constants.items()))
+        return cls("EN 1998", label, "en1998", "EN 1998", tuple(constants.items()))
 
     @classmethod
     def nch2745(cls, soil: str = "II", zone: int = 3, *, name: str = "") -> Spectrum:
@@ -306,8 +305,9 @@ class Spectrum(ElasticSpectrum):
             Rising periods [s], n >= 2.
         accelerations : array_like, shape (n,)
             Pseudo-accelerations for 5 % damping [m/s2].
-        code : {"ASCE 7", "EN 1998", "NCh2745"}, optional
-            Whose damping factors are taken; left out, the spectrum holds for 5 % alone.
+        code : str, optional
+            Whose damping factors are taken, "ASCE 7-22" for instance; left out, the
+            spectrum holds for 5 % alone.
         name : str
             Name.
 
@@ -322,7 +322,7 @@ class Spectrum(ElasticSpectrum):
             If the points are no spectrum, or the code is not known.
         """
         if code is not None:
-            require_choice("code", code, tuple(df.DAMPING_RULES), error=MotionError)
+            code = rules_named(code).name
         points = _checked_points(
             periods, accelerations, "accelerations", LARGEST_IN_G * STANDARD_GRAVITY
         )

@@ -14,9 +14,9 @@ from frames.design._errors import CheckError
 from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
-from frames.design.codes.history_rules import HISTORY_RULES
+from frames.design.codes.registry import HISTORY_RULES
 from frames.design.codes.secant import CheckBuilder
-from frames.design.devices.capacity import RIM_RULES, engagement_checks
+from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.governing import Calculation, Governing
@@ -169,14 +169,14 @@ class BoundChecks:
     def _engagement(self, moved: list[Check]) -> list[Check]:
         # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
         code, least = self.rules.code, self.rules.engagement
-        if code not in RIM_RULES or not moved or moved[0].void:
+        if code not in HISTORY_RULES or not moved or moved[0].void:
             return []  # the check of the displacement tells why
         bearing = self.frame.bearings[moved[0].subject].bearing
         found = engagement_checks(
             bearing,
             {self.bound: moved[0].demand},
             least=least,
-            code=code,  # type: ignore[arg-type]  # one of them
+            code=code,
             agreed=self.limits.rim_engagement,
         )
         named = (replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found)
@@ -211,7 +211,7 @@ class BoundChecks:
         code = HISTORY_RULES.get(self.rules.code)
         if code is None or code.uplift_allowed or not self.rules.uplift_allowed:
             return ""
-        return f"runs with uplift count by the project, not by {code.code}: to be agreed"
+        return f"runs with uplift count by the project, not by {code.cited}: to be agreed"
 
     def _base_shear(self) -> list[Check]:
         limit, least = self.limits.base_shear, self._least("V_b_dyn")
@@ -238,10 +238,10 @@ class BoundChecks:
             raise CheckError(msg)
         known, t = self.equivalent.bounds[self.bound].trace, Trace()
         self._suite.enter(t, "V_st", peaks_of_runs(self.data, "storey_shear")[:, 0], "N")
-        t.given("R_I", known.value("R_I"), source="ASCE 7-22 17.5.4.2")
+        t.given("R_I", known.value("R_I"), source=known["R_I"].source)
         self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
         t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
-        t.given("a_dyn", known.value("a_dyn"), source="ASCE 7-22 17.6.4")
+        t.given("a_dyn", known.value("a_dyn"), source=known["a_dyn"].source)
         t("V_least", "a_dyn * V_s", "N")
         more = "where it fails, forces above the isolation count times the ratio"
         return [
@@ -341,11 +341,11 @@ class BoundChecks:
         trace = self.equivalent.bounds[self.bound].trace
         if not self.rules.has_minima or symbol not in trace:
             msg = (
-                f"equivalent has no minima of time histories ({symbol}): give that of ASCE 7-22 "
-                "with a superstructure, or leave it out"
+                f"equivalent has no minima of time histories ({symbol}): give that of a code "
+                "that has them, as ASCE 7-22, with a superstructure, or leave it out"
             )
             raise CheckError(msg)
         return trace.value(symbol)
 
     def _clause(self, clause: str) -> str:
-        return f"{self.rules.code} {clause}".strip()
+        return f"{self.rules.cited} {clause}".strip()

@@ -126,7 +126,7 @@ def _reached(data: xr.Dataset, name: str) -> FloatArray:
 
 def _note(title: str, rules: HistoryRules) -> str:
     if title in COUNTED and not rules.uplift_allowed:
-        return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.code})"
+        return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.cited})"
     return _NOTES.get(title, "")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -13,7 +13,8 @@ from frames.batch.time_histories import time_histories
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.codes.bounds import BoundName, PropertyBounds, with_property_bounds
-from frames.design.codes.history_rules import HISTORY_RULES, HistoryRules
+from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks
 from frames.design.histories.demand_table import demand_table
@@ -86,7 +87,7 @@ def bounded_histories(
 def history_checks(
     runs: xr.Dataset | Mapping[Bound, xr.Dataset],
     frame: Frame,
-    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] | HistoryRules,
+    code: str | HistoryRules,
     *,
     bounds: PropertyBounds | None = None,
     limits: DesignLimits | None = None,
@@ -101,16 +102,17 @@ def history_checks(
         Of `time_histories`, or by bound as `bounded_histories` gives them.
     frame : Frame
         The structure, friction nominal.
-    code : {"ASCE 7-22", "EN 1998-1", "NCh2745"} or HistoryRules
-        The code, or its rules with other factors.
+    code : str or HistoryRules
+        The code, "ASCE 7-22", "EN 1998" or "NCh2745", or its rules with other factors.
     bounds : PropertyBounds, optional
         Factors that the runs at a bound were made with: the slip that holds goes by them.
     limits : DesignLimits, optional
         What bearings and structure may be asked for; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional
-        Of ASCE 7-22 with a superstructure: at the bounds that it has, its minima are put under
-        displacement and base shear, drifts grow as the base shear does, and the shear of the
-        storey over the lowest level is held against its least value.
+        Of a code that has minima (`HistoryRules.has_minima`: ASCE 7-22), with a superstructure: at
+        the bounds that it has, its minima are put under displacement and base shear, drifts grow
+        as the base shear does, and the shear of the storey over the lowest level is held against
+        its least value.
     action_level : str
         Which level of the seismic action the runs are of, where the code has several: NCh2745
         judges what stands on the bearings at "design", the bearings at "maximum".
@@ -144,7 +146,7 @@ def history_checks(
 
 def history_demands(
     runs: xr.Dataset | Mapping[Bound, xr.Dataset],
-    code: Literal["ASCE 7-22", "EN 1998-1", "NCh2745"] | HistoryRules,
+    code: str | HistoryRules,
 ) -> pd.DataFrame:
     """Return what time histories give for design: at each bound, and the envelope.
 
@@ -182,10 +184,7 @@ def history_demands(
 
 
 def _rules(code: str | HistoryRules) -> HistoryRules:
-    if isinstance(code, HistoryRules):
-        return code
-    require_choice("code", code, tuple(HISTORY_RULES), error=CheckError)
-    return HISTORY_RULES[code]
+    return code if isinstance(code, HistoryRules) else code_named(code).histories
 
 
 def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.Dataset]:

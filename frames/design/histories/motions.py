@@ -10,29 +10,19 @@ from frames._errors import MotionError
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
 from frames.design.calculation.trace import Trace
-from frames.design.codes.history_rules import HISTORY_RULES, RULES
+from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
+from frames.design.hazard.code_rules import ScalingRule, scaling_named
 from frames.design.hazard.fault_axes import angle_of
 from frames.design.hazard.pair_spectra import pair_spectrum
-from frames.design.hazard.scaling import POINTS, SCALING_RULES
+from frames.design.hazard.scaling import POINTS
 from frames.motion.ground_motion import GroundMotion
-from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
-
-PERIOD_RANGES = {
-    "ASCE 7-22": (0.75, 1.25),
-    "ASCE 7-10": (0.75, 1.25),
-    "EN 1998-1": (0.2, 2.0),
-    "EN 1998-2": (0.2, 1.5),
-    "NCh2745": (0.5, 1.25),
-}
-"""Range of periods by rule, over the shortest and the longest effective period of the bounds; to
-be confirmed against the standards."""
 
 _TURNED = 1.0  # degrees
 
@@ -46,7 +36,7 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
         Its effective periods at all its bounds count; of NCh2745, which has two levels, the
         shortest is T_D and the longest T_M.
     rule : str
-        Of `PERIOD_RANGES`; that of the analysis' code if empty.
+        Of a code, or another that it has, "ASCE 7-10"; that of the analysis' code if empty.
 
     Returns
     -------
@@ -59,7 +49,7 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
     CheckError
         If the rule is not known.
     """
-    low, high = PERIOD_RANGES[_rule(equivalent, rule)]
+    low, high = _rule(equivalent, rule).periods
     each = equivalent.bounds.values()
     design = [e.trace.value("T_D") if "T_D" in e.trace else e.period for e in each]
     return low * min(design), high * max(e.period for e in each)
@@ -79,8 +69,8 @@ def motion_checks(
     equivalent : EquivalentLinear
         Its effective periods make the range.
     rule : str
-        Of `SCALING_RULES`; that of the analysis' code if empty. "ASCE 7-10" asks
-        SRSS of ASCE 7-22's range.
+        Of a code, or another that it has; that of the analysis' code if empty. "ASCE 7-10" asks
+        SRSS of ASCE 7-22's range. The number of pairs is asked by the analysis' code.
 
     Returns
     -------
@@ -114,22 +104,20 @@ def motion_checks(
     >>> print(motion_checks(motions, target, linear)[0])
     pairs of motions: 1 >= 7, ratio 7, FAILED [ASCE 7-22 17.3.3]
     """
-    name = _rule(equivalent, rule)
-    asked = SCALING_RULES[name]
-    low, high = period_range(equivalent, name)
+    asked = _rule(equivalent, rule)
+    low, high = period_range(equivalent, asked.name)
     both = [_pair(motion) for motion in motions.values()]
     grid = np.geomspace(low, high, POINTS)
     clause = asked.clause
-    found = [_number(motions, name, clause), _mean(both, spectrum, grid, clause, name)]
+    least = code_named(equivalent.code).histories.least
+    found = [_number(motions, least, clause), _mean(both, spectrum, grid, asked)]
     if asked.at_zero:
-        found.append(_mean(both, spectrum, np.zeros(1), clause, name))
-    return Checks([*found, *(_turned(motions, clause) if name.startswith("ASCE") else [])])
+        found.append(_mean(both, spectrum, np.zeros(1), asked))
+    return Checks([*found, *(_turned(motions, clause) if asked.fault_axes else [])])
 
 
-def _rule(equivalent: EquivalentLinear, rule: str) -> str:
-    name = rule or RULES[equivalent.code]
-    require_choice("rule", name, tuple(PERIOD_RANGES), error=CheckError)
-    return name
+def _rule(equivalent: EquivalentLinear, rule: str) -> ScalingRule:
+    return scaling_named(rule or equivalent.code, CheckError)
 
 
 def _pair(motion: GroundMotion) -> GroundMotion:
@@ -137,11 +125,10 @@ def _pair(motion: GroundMotion) -> GroundMotion:
     return GroundMotion(x=x, y=y, dt=motion.dt, name=motion.name)
 
 
-def _number(motions: MotionSet, rule: str, clause: str) -> Check:
+def _number(motions: MotionSet, least: int, clause: str) -> Check:
     t = Trace()
     pairs = sum(m.x is not None and m.y is not None for m in motions.values())
     t.given("n", float(pairs), note="with both horizontal components")
-    least = HISTORY_RULES[rule].least if rule in HISTORY_RULES else SCALING_RULES[rule].least
     t.given("n_least", float(least))
     up = sum(m.z is not None for m in motions.values())
     note = f"{up} of {len(motions)} have a vertical component"
@@ -149,10 +136,9 @@ def _number(motions: MotionSet, rule: str, clause: str) -> Check:
 
 
 def _mean(
-    motions: list[GroundMotion], spectrum: Spectrum, grid: FloatArray, clause: str, rule: str
+    motions: list[GroundMotion], spectrum: Spectrum, grid: FloatArray, asked: ScalingRule
 ) -> Check:
     # At the period where the mean is the least part of the target.
-    asked = SCALING_RULES[rule]
     target = np.asarray(spectrum.acceleration(grid, 0.05), dtype=np.float64)
     each = np.array([pair_spectrum(motion, grid, 0.05, asked.measure) for motion in motions])
     k = int(np.argmin(each.mean(axis=0) / target))
@@ -165,7 +151,7 @@ def _mean(
     t("S_least", "a_S * S_target", "m/s2")
     title = "mean spectrum of the motions" + (" at the period 0" if at_zero else "")
     note = "" if at_zero else f"least from {grid[0]:.4g} to {grid[-1]:.4g} s"
-    return CheckBuilder(t, "")(clause, title, "S_mean", ">=", "S_least", note=note)
+    return CheckBuilder(t, "")(asked.clause, title, "S_mean", ">=", "S_least", note=note)
 
 
 def _turned(motions: MotionSet, clause: str) -> list[Check]:

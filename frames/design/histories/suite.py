@@ -232,7 +232,7 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         allowed=rules.unacceptable_allowed,
         median_factor=rules.median_factor,
         reason=reason,
-        source=f"{rules.code} {rules.statistic_clause}".strip(),
+        source=f"{rules.cited} {rules.statistic_clause}".strip(),
     )
 
 

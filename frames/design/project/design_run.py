@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import pandas as pd
 import xarray as xr
 
-from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.unevaluated import not_evaluated
-from frames.design.codes.history_rules import RULES
-from frames.design.devices.capacity import engagement_checks
-from frames.design.devices.device import device_checks
+from frames.design.calculation.check import Checks
+from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.histories.demand_table import bounds_of, envelope_said
-from frames.design.histories.histories import history_checks, history_demands
+from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
-from frames.design.histories.motions import motion_checks
+from frames.design.project import run_checks as run_checks  # which it registers
+from frames.design.project.check_register import BearingDemand, RunToCheck, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
 from frames.design.project.level_runs import demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.testing.programme import ProgrammeDemands, prototype_tests
+from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
@@ -184,22 +182,24 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         If a check cannot be made.
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
-    minima = known.equivalent if _has_minima(parts) else None
-    found = [c for c in known.equivalent.checks if c.scope == "any"]
-    found += motion_checks(known.motions, known.spectrum, known.equivalent)
-    for name, each in runs.items():
-        found += history_checks(
-            each,
-            frame,
-            rules,
-            bounds=bounds,
-            limits=parts.limits(),
-            equivalent=minima,
-            action_level=name,
-        )
     demands = demands_at_levels(runs, rules)
     asked = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
-    found += _of_the_bearing(parts, known, asked)
+    run = RunToCheck(
+        code=parts.code(),
+        frame=frame,
+        bearing=parts.bearing(),
+        system=known.system,
+        superstructure=known.superstructure,
+        spectrum=known.spectrum,
+        motions=known.motions,
+        equivalent=known.equivalent,
+        runs=runs,
+        demands=demands,
+        bounds=bounds,
+        limits=parts.limits(),
+        rules=rules,
+        asked=asked,
+    )
     return ProjectRun(
         frame=frame,
         spectrum=known.spectrum,
@@ -207,7 +207,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         equivalent=known.equivalent,
         runs=runs,
         demands=demands,
-        checks=Checks(found),
+        checks=Checks(checks_of(run)),
         bounds=bounds,
         model=frame.check(),
         loads=known.system.loads,
@@ -270,19 +270,7 @@ def _of_bearings(parts: ProjectInputs) -> str:
     return next(level.name for level in parts.rules().levels if level.judges_bearings)
 
 
-def _has_minima(parts: ProjectInputs) -> bool:
-    # Of an equivalent-linear analysis under time histories.
-    return parts.file.project.code == "ASCE 7-22" and parts.file.superstructure is not None
-
-
-class _Asked(NamedTuple):
-    # What bearings are checked and tested for.
-    loads: tuple[float, float]  # N
-    slip: float  # m
-    void: str  # why neither is a value for design, as after runs that failed
-
-
-def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> _Asked:
+def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> BearingDemand:
     # Least axial load that presses at all and the largest, of all combinations and of the histories
     # at each bound at the level of the bearings [N], and the slip of these [m].
     loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
@@ -294,28 +282,11 @@ def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> _
     moved = float(demands.loc["isolator displacement", "envelope"])
     if factor > 1.0 and not void:  # what is beyond the rims by the code
         slip = max(slip, factor * moved - bearing.lateral_capacity)
-    return _Asked((min(loads), max(loads)), slip, void)
-
-
-def _of_the_bearing(parts: ProjectInputs, known: Preliminary, asked: _Asked) -> list[Check]:
-    # Checks by the bearing's own numbers, at the loads and the slip that the histories gave.
-    bearing, bounds = parts.bearing(), parts.bounds()
-    checks = device_checks(
-        bearing, asked.loads, slip=asked.slip, bounds=bounds, limits=parts.limits()
-    )
-    checks = Checks(replace(check, void=asked.void) for check in checks)
-    checks = not_evaluated(checks, known.system.unknown_loads, ("N_min", "N_max"))
-    level = _of_bearings(parts)
-    allowed: dict[Bound, float] = {
-        each.bound: each.allowed_displacement for each in known.equivalent.bounds.values()
-    }
-    code, agreed = RULES[parts.file.project.code], parts.limits().rim_engagement
-    found = [*checks, *engagement_checks(bearing, allowed, code=code, agreed=agreed)]
-    return [replace(check, level=level) for check in found]
+    return BearingDemand((min(loads), max(loads)), slip, void)
 
 
 def _programme(
-    parts: ProjectInputs, known: Preliminary, histories: Histories, asked: _Asked
+    parts: ProjectInputs, known: Preliminary, histories: Histories, asked: BearingDemand
 ) -> pd.DataFrame:
     # Tests at the loads, the slip and the speed of impact that the histories gave.
     above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import re
 from importlib import resources
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import signal
 
 from frames.design._errors import ProjectError
-from frames.design.hazard.spectrum import Spectrum
+from frames.design.codes.registry import ExampleProject, known_codes
+from frames.design.hazard.code_rules import canonical
 from frames.motion.spectra import response_spectrum
 from lir_element.argument_checks import require_choice
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from frames._types import FloatArray
+    from frames.design.hazard.spectrum import Spectrum
 
 PULSES = {f"artificial-{k}": 1.6 + 0.3 * k for k in range(1, 8)}
 """Period of the pulse in each artificial motion [s]."""
@@ -28,49 +30,6 @@ _GROUND = 2.0 * math.pi * 1.2, 0.7  # rad/s, -: filter of the noise (Kanai and T
 _SHORTEST, _LONGEST, _PERIODS = 0.05, 6.0, 60  # s, s, -: at which motions follow the spectrum
 _ROUNDS = 10
 _ACROSS = 0.6  # weaker component over the stronger one
-
-
-_UPLIFT = """level = "pendulum"
-uplift_allowed = true             # corners lift for a moment; without it such runs count as failed
-"""
-
-
-class _Example(NamedTuple):
-    # What differs by standard: spectrum, and sections of the file.
-    spectrum: Spectrum
-    sections: dict[str, str]
-
-
-def _examples() -> dict[str, _Example]:
-    return {
-        "ASCE 7-22": _Example(Spectrum.asce7(1.2, 0.7), {}),
-        "EN 1998": _Example(
-            Spectrum.en1998(3.4, "B"),
-            {
-                "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
-                "kind = 1\n",
-                "bearing": _bearing("2.5 m", 185, 150, 0.04, 0.075),
-                "analysis": _UPLIFT,
-            },
-        ),
-        "NCh2745": _Example(
-            Spectrum.nch2745("II", 3),
-            {
-                "spectrum": 'soil = "II"\nzone = 3\n',
-                "bearing": _bearing("1.5 m", 185, 227, 0.04, 0.095),
-                "analysis": _UPLIFT,
-            },
-        ),
-    }
-
-
-def _bearing(radius: str, slider: int, capacity: int, friction: float, interface: float) -> str:
-    # As `lir design` proposes it for the example's building.
-    return (
-        f'radius = "{radius}"\nslider_height = "{slider} mm"\nslider_radius = "{slider} mm"\n'
-        f'capacity = "{capacity} mm"               # displacement at which rims are met\n'
-        f"friction = {friction:g}\ninterface_friction = {interface:g}\n"
-    )
 
 
 def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
@@ -83,8 +42,9 @@ def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     ----------
     folder : Path
         Made if it is not there; what is in it stays.
-    code : {"ASCE 7-22", "EN 1998", "NCh2745"}
-        The project's code: spectrum, bearing and motions go by it.
+    code : str
+        The project's code, "ASCE 7-22", "EN 1998" or "NCh2745": spectrum, bearing and motions go
+        by it.
 
     Returns
     -------
@@ -96,18 +56,20 @@ def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     FileExistsError
         If a file is there already.
     ProjectError
-        If the code is not known.
+        If the code is not known, or has no example.
     """
-    known = _examples()
-    require_choice("code", code, tuple(known), error=ProjectError)
-    motions, chosen = folder / "motions", known[code]
-    contents = {folder / "project.toml": _text(code, chosen)}
+    known = {each.name: each for each in known_codes() if each.example is not None}
+    require_choice("code", canonical(code), tuple(known), error=ProjectError)
+    own, motions = known[canonical(code)], folder / "motions"
+    chosen = own.example or ExampleProject({}, {})
+    target = own.spectrum(**chosen.spectrum)
+    contents = {folder / "project.toml": _text(own.name, chosen)}
     table = ["name,x,y,dt,unit,near_fault,strike,azimuth_x,azimuth_y"]  # x across the fault
     for seed, (name, period) in enumerate(PULSES.items()):
         table.append(f"{name},{name}-x.txt,{name}-y.txt,{_STEP},m/s2,yes,0,90,0")
         for axis, share in (("x", 1.0), ("y", _ACROSS)):
             raw = _artificial(period, 2 * seed + (axis == "y"))
-            values = share * _matched(raw, chosen.spectrum)
+            values = share * _matched(raw, target)
             contents[motions / f"{name}-{axis}.txt"] = _column(values)
     contents[motions / "motions.csv"] = "\n".join(table) + "\n"
     for path in contents:
@@ -119,7 +81,7 @@ def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     return list(contents)
 
 
-def _text(code: str, chosen: _Example) -> str:
+def _text(code: str, chosen: ExampleProject) -> str:
     # The commented file of ASCE 7-22, its sections replaced.
     text = (
         resources.files("frames.design.project")

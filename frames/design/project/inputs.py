@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import runpy
-import traceback
 from dataclasses import replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
-from frames.design.codes.history_rules import HISTORY_RULES, RULES, HistoryRules
+from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
-from frames.design.hazard.spectrum import Spectrum
+from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
-    Asce7Spectrum,
-    En1998Spectrum,
     MomentFrame,
     OpenSeesModel,
     ShearBuilding,
@@ -27,12 +23,13 @@ from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
 from frames.library.moment_frames import moment_frame
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import TracebackType
+    from pathlib import Path
 
+    from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
     from frames.design.project.schema import MotionSource, ProjectFile, Structure
 
@@ -57,6 +54,10 @@ class ProjectInputs:
 
     def __init__(self, file: ProjectFile, folder: Path) -> None:
         self.file, self.folder = file, folder
+
+    def code(self) -> DesignCode:
+        """Return the code that the project is designed by."""
+        return code_named(self.file.project.code, ProjectError)
 
     def bearing(self) -> LIRBearing:
         """Return the bearing under each column."""
@@ -95,13 +96,8 @@ class ProjectInputs:
 
     def spectrum(self) -> Spectrum:
         """Return the design spectrum."""
-        given = self.file.spectrum
-        keys = given.model_dump(exclude={"code"})
-        if isinstance(given, Asce7Spectrum):
-            return in_section("spectrum", lambda: Spectrum.asce7(**keys))
-        if isinstance(given, En1998Spectrum):
-            return in_section("spectrum", lambda: Spectrum.en1998(**keys))
-        return in_section("spectrum", lambda: Spectrum.nch2745(**keys))
+        keys = self.file.spectrum.model_dump(exclude={"code"})
+        return in_section("spectrum", lambda: self.code().spectrum(**keys))
 
     def bounds(self) -> PropertyBounds:
         """Return the bounds of friction."""
@@ -125,7 +121,7 @@ class ProjectInputs:
         given = self.file.analysis.model_dump(
             exclude_none=True, include={"uplift_allowed", "least_gap"}
         )
-        rules = HISTORY_RULES[RULES[self.file.project.code]]
+        rules = self.code().histories
         return in_section("analysis", lambda: replace(rules, **given))
 
     def target(self) -> DesignTarget:
@@ -142,7 +138,8 @@ class ProjectInputs:
 
 def bearing_of(given: schema.Bearing) -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
-    return in_section("bearing", lambda: LIRBearing(**_arguments(given)))
+    made: Callable[[], LIRBearing] = given.made
+    return in_section("bearing", made)
 
 
 def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
@@ -180,7 +177,7 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
         msg = f"script = {given.script} is no file in {folder}: name the model's script"
         raise ProjectError(msg)
     opensees().wipe()
-    with _Running(script):
+    with RunningScript(script, "script"):
         runpy.run_path(script.name, run_name="__main__")
     return Frame.from_opensees(
         given.base_nodes,
@@ -203,38 +200,6 @@ def motions_of(given: MotionSource, folder: Path) -> MotionSet:
         return found.fault_normal() if given.fault_normal else found
 
     return in_section("motions", made)
-
-
-class _Running:
-    # A script in its own folder, where it may read files; its failure names the line.
-
-    def __init__(self, script: Path) -> None:
-        self._script, self._before = script, Path.cwd()
-
-    def __enter__(self) -> None:
-        os.chdir(self._script.parent)
-
-    def __exit__(
-        self, kind: object, cause: BaseException | None, trace: TracebackType | None
-    ) -> bool:
-        os.chdir(self._before)
-        if cause is None or isinstance(cause, KeyboardInterrupt):
-            return False
-        if isinstance(cause, SystemExit) and not cause.code:
-            return True
-        name = self._script.name
-        lines = [s.lineno for s in traceback.extract_tb(trace) if Path(s.filename).name == name]
-        where = f", line {lines[-1]}" if lines else ""
-        msg = f"script = {name}{where}: {type(cause).__name__}: {cause}"
-        raise ProjectError(msg) from cause
-
-
-def _arguments(given: schema.Bearing) -> dict[str, Any]:
-    keys = given.model_dump(exclude={"friction"})
-    law = given.friction
-    if isinstance(law, float):
-        return keys | {"friction": CoulombFriction(law)}
-    return keys | {"friction": VelocityFriction(law.f_max, law.f_min, law.rate)}
 
 
 def in_section(section: str, make: Callable[[], T]) -> T:

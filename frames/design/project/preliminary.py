@@ -10,11 +10,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelWarning, MotionWarning
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.codes.asce7 import ASCE7
-from frames.design.codes.en1998 import EN1998
-from frames.design.codes.history_rules import RULES
 from frames.design.codes.isolation import IsolationSystem
-from frames.design.codes.nch2745 import NCh2745
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
@@ -23,13 +19,11 @@ from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.frame import Frame
-
-CODES = {"ASCE 7-22": ASCE7, "EN 1998": EN1998, "NCh2745": NCh2745}
-"""Equivalent-linear analysis by a project's code."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,6 +38,8 @@ class Preliminary:
         The bearings with their places and loads.
     spectrum : Spectrum
         The design spectrum.
+    superstructure : Superstructure, optional
+        What stands on the bearings.
     equivalent : EquivalentLinear
         Equivalent-linear analysis at both bounds.
     motions : MotionSet
@@ -55,6 +51,7 @@ class Preliminary:
     frame: Frame
     system: IsolationSystem
     spectrum: Spectrum
+    superstructure: Superstructure | None
     equivalent: EquivalentLinear
     motions: MotionSet
     doubts: tuple[str, ...] = ()
@@ -105,17 +102,22 @@ def _made(parts: ProjectInputs) -> Preliminary:
     frame, spectrum = parts.frame(), parts.spectrum()
     system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
     _warn(wind_doubts(parts.file, system, parts.bounds()))
-    code = CODES[parts.file.project.code]()
+    above = parts.superstructure(frame)
     equivalent = equivalent_linear(
         system,
         spectrum,
         bounds=parts.bounds(),
-        superstructure=parts.superstructure(frame),
-        code=code,
+        superstructure=above,
+        code=parts.code().analysis(),
     )
     motions = scaled_motions(parts, spectrum, equivalent)
     return Preliminary(
-        frame=frame, system=system, spectrum=spectrum, equivalent=equivalent, motions=motions
+        frame=frame,
+        system=system,
+        spectrum=spectrum,
+        superstructure=above,
+        equivalent=equivalent,
+        motions=motions,
     )
 
 
@@ -144,7 +146,7 @@ def scaled_motions(
         scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
         _warn((*twins(scaled), *factor_doubts(scale, scaled)))
         return scaled
-    rule = RULES[parts.file.project.code]
+    rule = parts.code().scaling[0].name
     return motions.scaled_to(spectrum, rule=rule, periods=period_range(equivalent, rule))
 
 
@@ -173,7 +175,9 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
     said = {
         "structure": file.structure.model_dump(mode="json"),
-        "bearing": None if file.bearing is None else file.bearing.model_dump(mode="json"),
+        "bearing": None
+        if file.bearing is None
+        else file.bearing.model_dump(mode="json", exclude_none=True),
         "bounds": file.bounds.model_dump(mode="json"),
         "analysis": analysis,
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from functools import cache
-from typing import Annotated
+from typing import Annotated, Any
 
 import pint
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
@@ -16,6 +16,28 @@ _POWER = re.compile(r"(?<=[A-Za-z])(\d)")  # m2 for m^2
 
 _LEAST_IN_MM = 20.0  # a smaller length without a unit was probably meant in m
 _LARGEST_IN_G = 2.0  # a smaller acceleration without a unit was probably meant in g
+
+
+EXAMPLES = {
+    "m": "175 mm",
+    "N": "150 kN",
+    "N/m": "400 kN/mm",
+    "N s/m": "50 kN s/m",
+    "kg": "40 kg",
+    "kg m2": "0.5 kg m2",
+    "kg/m3": "7850 kg/m3",
+    "s/m": "100 s/m",
+    "Pa": "20 MPa",
+    "1/Pa": "0.0071 1/MPa",
+    "W/(m K)": "18 W/(m K)",
+    "m2/s": "4.44 mm2/s",
+    "C": "20 C",
+    "s": "5 ms",
+    "m/s^2": "3.5 m/s2",
+    "kg/m^2": "1450 kg/m2",
+    "": "0.05",
+}
+"""How numbers of each unit may be written, for messages and the schema."""
 
 
 @cache
@@ -65,8 +87,14 @@ def si(value: object, unit: str, example: str) -> float:
         raise ValueError(msg)
     if unit == "m/s^2" and given in {"g", "G"}:  # elsewhere the gram
         given = "standard_gravity"
+    if unit == "C":
+        return _finite(_celsius(number, given, example))
     try:
-        factor = _units().Quantity(1.0, given or "dimensionless").to(unit or "dimensionless")
+        factor = (
+            _units()
+            .Quantity(1.0, given or "dimensionless")
+            .to(_POWER.sub(r"^\1", unit) or "dimensionless")
+        )
     except pint.UndefinedUnitError as cause:
         msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
         raise ValueError(msg) from cause
@@ -74,6 +102,16 @@ def si(value: object, unit: str, example: str) -> float:
         msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
         raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
+
+
+def _celsius(number: float, given: str, example: str) -> float:
+    # A temperature, whose scales begin at different places.
+    scale = {"C": "degC", "F": "degF"}.get(given.removeprefix("°"), given)
+    try:
+        return float(_units().Quantity(number, scale).to("degC").magnitude)
+    except (pint.UndefinedUnitError, pint.DimensionalityError) as cause:
+        msg = f'is in "{given}", which is no unit of temperature: write it as "{example}"'
+        raise ValueError(msg) from cause
 
 
 def _written(value: float, unit: str, example: str) -> str:
@@ -95,6 +133,34 @@ def _finite(number: float) -> float:
 def _kind(unit: str, example: str) -> tuple[BeforeValidator, WithJsonSchema]:
     schema = {"type": ["string"] if unit else ["number", "string"], "examples": [example]}
     return BeforeValidator(lambda value: si(value, unit, example)), WithJsonSchema(schema)
+
+
+def number_or_infinity(unit: str) -> Any:
+    """Return the type of a number with a unit that may be ``inf``, as of a bearing without rims.
+
+    Parameters
+    ----------
+    unit : str
+        The SI unit, C of temperatures; "" for a pure number.
+
+    Returns
+    -------
+    type
+        For a field of a table.
+    """
+    example = EXAMPLES.get(unit, f"1 {unit}")
+
+    def read(value: object) -> float:
+        infinite = isinstance(value, float) and math.isinf(value)
+        return float(str(value)) if infinite else si(value, unit, example)
+
+    schema = {"type": ["string", "number"], "examples": [example]}
+    return Annotated[float, BeforeValidator(read), WithJsonSchema(schema)]
+
+
+def quantity(unit: str) -> Any:
+    """Return the type of a number with an SI unit, "" of a pure number, for a field of a table."""
+    return Annotated[float, *_kind(unit, EXAMPLES.get(unit, f"1 {unit}"))]
 
 
 def positive(number: float) -> float:

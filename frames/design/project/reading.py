@@ -11,23 +11,20 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic import ValidationError
 
 from frames.design._errors import ProjectError
-from frames.design.project.schema import ProjectFile, Table
+from frames.design.hazard.code_rules import known_names
+from frames.design.project.derived import Table
+from frames.design.project.extensions import load_extensions
+from frames.design.project.schema import project_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from frames.design.project.schema import ProjectFile
+
 F = TypeVar("F", bound=Table)
 
-_KINDS = {
-    "moment frame",
-    "shear building",
-    "opensees",
-    "ASCE 7-22",
-    "EN 1998",
-    "NCh2745",
-    "Friction",
-}
-"""Of unions, which the place of an error names besides its keys."""
+_KINDS = {"moment frame", "shear building", "opensees", "Friction"}
+"""Of unions, which the place of an error names besides its keys, and names of codes."""
 
 
 def read_project(path: str | Path) -> ProjectFile:
@@ -48,7 +45,8 @@ def read_project(path: str | Path) -> ProjectFile:
     ProjectError
         If it cannot be read, with a line for each thing that is wrong.
     """
-    return read_file(path, ProjectFile)
+    load_extensions(Path(path))
+    return read_file(path, project_file())
 
 
 def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how") -> F:
@@ -114,12 +112,13 @@ def _mended(error: str) -> str:
 
 def schema() -> str:
     """Return the JSON schema of a project's file, for editors."""
-    return json.dumps(ProjectFile.model_json_schema(), indent=2)
+    return json.dumps(project_file().model_json_schema(), indent=2)
 
 
 def _place(error: Any) -> list[str]:
     # Of a key that may be one or two, the way that was tried ends with a bracket.
-    return [str(p) for p in error["loc"] if p not in _KINDS and not str(p).endswith("]")]
+    ways = {*_KINDS, *known_names()}
+    return [str(p) for p in error["loc"] if p not in ways and not str(p).endswith("]")]
 
 
 def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint: str) -> str:

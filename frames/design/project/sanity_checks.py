@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames.design.project.schema import En1998Spectrum, MomentFrame, NChSpectrum, ShearBuilding
+from frames.design.codes.registry import code_named
+from frames.design.project.inputs import bearing_of
+from frames.design.project.schema import MomentFrame, ShearBuilding
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -95,7 +97,10 @@ def _of_bays(file: ProjectFile) -> list[str]:
     given, bearing = file.structure, file.bearing
     if bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
         return []
-    side = bearing.capacity + 2.0 * bearing.slider_radius  # both plates go half of the capacity
+    own = bearing_of(bearing)
+    if not math.isfinite(own.lateral_capacity):
+        return []
+    side = own.lateral_capacity + 2.0 * own.slider_radius  # both plates go half of the capacity
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
         return []
@@ -126,21 +131,23 @@ def _of_storeys(file: ProjectFile) -> list[str]:
 
 def _of_importance(file: ProjectFile) -> list[str]:
     above, spectrum = file.superstructure, file.spectrum
-    if above is not None and isinstance(spectrum, NChSpectrum):
+    if above is None:
+        return []
+    if not code_named(file.project.code).uses_importance:
         if math.isclose(above.importance, 1.0):
             return []
         return [
-            f"[superstructure] importance = {above.importance:g} changes nothing: NCh2745's "
-            "formulas and spectrum are without an importance factor here; leave it out"
+            f"[superstructure] importance = {above.importance:g} changes nothing: "
+            f"{file.project.code}'s formulas and spectrum are without an importance factor here; "
+            "leave it out"
         ]
-    if above is None or not isinstance(spectrum, En1998Spectrum):
+    own = getattr(spectrum, "importance", None)
+    if own is None or above.importance == own:
         return []
-    if above.importance == spectrum.importance:
-        return []
-    share = above.importance / spectrum.importance
+    share = above.importance / own
     return [
         f"[superstructure] importance = {above.importance:g}, [spectrum] importance = "
-        f"{spectrum.importance:g}: EN 1998 multiplies a_g by gamma_I, which only the spectrum's "
+        f"{own:g}: {file.project.code} multiplies a_g by gamma_I, which only the spectrum's "
         f"does; if {above.importance:g} is meant, the spectrum is to be multiplied by {share:.3g}: "
         "give both sections the same"
     ]

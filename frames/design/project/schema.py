@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self, Union
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, create_model, field_validator, model_validator
 
+from frames.design.codes.registry import MOST_IMPORTANT, DesignCode, known_codes
+from frames.design.hazard.code_rules import canonical
+from frames.design.project.derived import Table, table_of
 from frames.design.project.quantities import (
     Acceleration,
     AreaMass,
@@ -19,42 +23,23 @@ from frames.design.project.quantities import (
     Positive,
     Pressure,
     Ratio,
-    SpeedRate,
     Stiffness,
     Time,
+    quantity,
 )
+from lir_element import LIRBearing
 
 Pair = tuple[Ratio, Ratio]
 Size = Annotated[Length, Positive]
 Count = Annotated[int, Field(ge=1)]
-CodeName = Literal["ASCE 7-22", "EN 1998", "NCh2745"]
-
-
-MOST_IMPORTANT = 3.0
-"""Largest importance factor [-]; codes have 0.6 to 1.5."""
-
-
-class Table(BaseModel):
-    """A table of the file: no keys but those that it knows."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _no_truth_for_a_number(cls, given: object) -> object:
-        for key, value in given.items() if isinstance(given, dict) else ():
-            field = cls.model_fields.get(str(key))
-            if isinstance(value, bool) and field and "bool" not in str(field.annotation):
-                msg = f"{key} = {str(value).lower()} must be a number or a text, not a truth value"
-                raise ValueError(msg)
-        return given
 
 
 class ProjectTable(Table):
-    """``[project]``: its name, and the standard that it is designed by."""
+    """``[project]``: its name, the standard that it is designed by, Python files that extend it."""
 
     name: str = Field(min_length=1)
-    code: CodeName
+    code: str
+    extensions: tuple[str, ...] = ()
 
 
 class MomentFrame(Table):
@@ -103,55 +88,14 @@ class SuperstructureTable(Table):
     wind_shear: Annotated[Force, NotNegative] = 0.0
 
 
-class Friction(Table):
-    """``friction = {f_max = 0.06, f_min = 0.03, rate = "100 s/m"}``."""
-
-    f_max: Ratio
-    f_min: Ratio
-    rate: SpeedRate
-
-
-class Bearing(Table):
+class Bearing(table_of(LIRBearing)):  # type: ignore[misc]  # its keys are the fields
     """``[bearing]``: the LIR-DCFP under each column; arguments of `lir_element.LIRBearing`."""
 
-    radius: Length | tuple[Length, Length]
-    slider_height: Length
-    slider_radius: Length
-    capacity: Length
-    friction: Ratio | Friction
-    interface_friction: Ratio
 
+class SpectrumTable(Table):
+    """``[spectrum]``: the keys of the project's code."""
 
-class Asce7Spectrum(Table):
-    """``[spectrum]`` of ASCE 7: MCE_R, accelerations in g as the standard has them."""
-
-    code: Literal["ASCE 7-22"]
-    s_ms: float = Field(gt=0.0)
-    s_m1: float = Field(gt=0.0)
-    t_l: Annotated[Time, Positive] = 8.0
-
-
-class En1998Spectrum(Table):
-    """``[spectrum]`` of EN 1998-1."""
-
-    code: Literal["EN 1998"]
-    a_g: Annotated[Acceleration, Positive]
-    ground_type: Literal["A", "B", "C", "D", "E"]
-    kind: Literal[1, 2] = 1
-    importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
-
-
-class NChSpectrum(Table):
-    """``[spectrum]`` of NCh2745."""
-
-    code: Literal["NCh2745"]
-    soil: Literal["I", "II", "III"]
-    zone: Literal[1, 2, 3]
-
-
-DesignSpectrum = Annotated[
-    Asce7Spectrum | En1998Spectrum | NChSpectrum, Field(discriminator="code")
-]
+    code: str
 
 
 class MotionSource(Table):
@@ -245,7 +189,7 @@ class ProjectFile(Table):
     structure: Structure
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
-    spectrum: DesignSpectrum
+    spectrum: SpectrumTable
     motions: Motions
     bounds: Bounds
     limits: Limits = Limits()
@@ -258,6 +202,48 @@ class ProjectFile(Table):
         # The project's code decides which keys its spectrum has.
         if isinstance(data, dict):
             about, given = data.get("project"), data.get("spectrum")
-            if isinstance(about, dict) and isinstance(given, dict):
-                return data | {"spectrum": {"code": about.get("code")} | given}
+            if isinstance(about, dict) and isinstance(about.get("code"), str):
+                about = about | {"code": canonical(about["code"])}
+                data = data | {"project": about}
+                if isinstance(given, dict):
+                    data = data | {"spectrum": {"code": about["code"]} | given}
         return data
+
+
+def project_file() -> type[ProjectFile]:
+    """Return the class of a whole file: the keys of ``[spectrum]`` are those of its code.
+
+    Returns
+    -------
+    type
+        A `ProjectFile` that knows the codes that are registered.
+    """
+    return _file_of(known_codes())
+
+
+@cache
+def _file_of(codes: tuple[DesignCode, ...]) -> type[ProjectFile]:
+    names = tuple(code.name for code in codes)
+    literal: Any = Literal[names]
+    about = create_model("ProjectTable", __base__=ProjectTable, code=(literal, ...))
+    tables = tuple(_spectrum_of(code) for code in codes)
+    spectra: Any = tables[0]
+    if len(tables) > 1:
+        spectra = Annotated[Union[tables], Field(discriminator="code")]  # noqa: UP007
+    return create_model(
+        "ProjectFile", __base__=ProjectFile, project=(about, ...), spectrum=(spectra, ...)
+    )
+
+
+def _spectrum_of(code: DesignCode) -> type[SpectrumTable]:
+    keys: dict[str, Any] = {"code": (Literal[code.name], ...)}
+    for name, key in code.spectrum_keys.items():
+        kind: Any = key.kind
+        if kind is float and key.unit:
+            kind = Annotated[quantity(key.unit), Positive]
+        default: Any = ... if key.default is None else key.default
+        plain = key.kind is float and not key.unit
+        rule = Field(default, gt=0.0, le=key.most) if plain else Field(default)
+        keys[name] = (kind, rule)
+    said = f"``[spectrum]`` of {code.name}."
+    return create_model(f"Spectrum, {code.name}", __base__=SpectrumTable, __doc__=said, **keys)

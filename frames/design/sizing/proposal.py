@@ -20,9 +20,9 @@ from lir_element.tables import html_table, text_table
 if TYPE_CHECKING:
     import pandas as pd
 
-    from frames.design.codes.analysis import Code
     from frames.design.codes.bounds import PropertyBounds
     from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.registry import AnalysisMethod
     from frames.design.codes.superstructure import Superstructure
     from lir_element import LIRBearing
 
@@ -163,7 +163,7 @@ def design(
     bounds: PropertyBounds | None,
     target: DesignTarget | None = None,
     superstructure: Superstructure | None = None,
-    code: Code | None = None,
+    code: AnalysisMethod | str | None = None,
     sizes: int = 1,
     least: Literal["base shear", "displacement", "plan diameter"] = "base shear",
 ) -> Design:

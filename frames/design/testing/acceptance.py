@@ -9,10 +9,11 @@ from frames.design._errors import CheckError
 from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Check, Checks
 from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
+from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.testing.programme import PROPOSAL, pressure_factor
 from lir_element import LIRBearing
-from lir_element.argument_checks import require_between, require_choice
+from lir_element.argument_checks import require_between
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,11 +22,6 @@ if TYPE_CHECKING:
     from frames.design.testing.loops import Cycle, PrototypeTest
 
 _ALIKE = 1.1  # displacements of cycles that are judged together, largest over least
-_CLAUSES = {
-    "ASCE 7-22": "ASCE 7-22 17.8.4",
-    "EN 1998": "no code: the limits of ASCE 7-10, not of EN 15129 8.3.4",
-    "NCh2745": "no code: the limits of ASCE 7-10, not of NCh2745 14",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +59,7 @@ class AcceptanceLimits:
 def acceptance_checks(
     tests: Sequence[PrototypeTest],
     bearing: LIRBearing | FrictionPendulum,
-    code: Literal["ASCE 7-22", "EN 1998", "NCh2745"],
+    code: str,
     *,
     bounds: PropertyBounds,
     limits: AcceptanceLimits | None = None,
@@ -76,10 +72,10 @@ def acceptance_checks(
         Tests; those of one name and kind are a set, also of several specimens.
     bearing : LIRBearing or FrictionPendulum
         The design, friction nominal.
-    code : {"ASCE 7-22", "EN 1998", "NCh2745"}
-        Standard of the design. The limits are those of ASCE 7-10 unless others are given, to be
-        confirmed for ASCE 7-22; of the other standards no clause is cited, since their own limits
-        were not read: give them.
+    code : str
+        Code of the design, "ASCE 7-22", "EN 1998" or "NCh2745". The limits are those of ASCE 7-10
+        unless others are given, to be confirmed for ASCE 7-22; of the other standards no clause is
+        cited, since their own limits were not read: give them.
     bounds : PropertyBounds
         Factors of friction that the design was made with.
     limits : AcceptanceLimits, optional
@@ -104,7 +100,7 @@ def acceptance_checks(
     -----
     Nominal friction is that of high speed, at the pressure of the test where it goes by that.
     """
-    require_choice("code", code, tuple(_CLAUSES), error=CheckError)
+    clause = code_named(code).acceptance
     if not tests:
         msg = "tests is empty: give one PrototypeTest at least"
         raise CheckError(msg)
@@ -114,7 +110,7 @@ def acceptance_checks(
         sets.setdefault((test.name, test.kind), []).append(test)
     for (name, kind), group in sets.items():
         _require_alike(name, group)
-        one = _Set(name, group, bearing, bounds, chosen, _CLAUSES[code])
+        one = _Set(name, group, bearing, bounds, chosen, clause)
         found += one.of_interface() if kind == "interface" else one.of_bearing()
     return Checks(found)
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import TO_BE_CONFIRMED
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.bounds import ENDS, with_property_bounds
 from frames.design.codes.pendulum import FrictionPendulum
-from frames.design.devices.bearing_numbers import ordered_loads
+from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, ProgrammeDemands
+from frames.design.codes.registry import code_named
 from lir_element import LIRBearing
-from lir_element.argument_checks import require_non_negative, require_positive
+from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     import pandas as pd
 
@@ -30,83 +30,6 @@ PROPOSAL = "no code: a proposal"
 _ALIKE = 1e-6  # of displacements at two bounds
 _LEAST_SLIP = 0.25  # of the slip that holds: tested though runs slip less
 _STEPS = (0.25, 0.50, 0.67, 1.00)
-_TESTS = {"ASCE 7-22": "ASCE 7-22 17.8.2.2", "EN 1998": "EN 15129 8.3.4", "NCh2745": "NCh2745 14"}
-
-
-class PlannedTest(NamedTuple):
-    """A test of the programme; NaN where a number is not given or has no meaning."""
-
-    name: str
-    displacement: float  # m
-    load: float  # N
-    cycles: float
-    speed: float  # m/s, the largest of a cycle
-    shows: str
-    clause: str
-    lateral: float = math.nan  # N, where the test goes to a force
-    alone: bool = False  # the interface between the sliders, without the concave surfaces
-
-
-@dataclass(frozen=True, kw_only=True)
-class ProgrammeDemands:
-    """What a programme of tests asks for besides the equivalent-linear analysis.
-
-    Parameters
-    ----------
-    loads : (float, float), optional
-        Least and largest axial force of a bearing with the earthquake [N]: of time histories or
-        load combinations. None: the least and the largest of the system's combinations.
-    wind : float, optional
-        Lateral force of the design wind on one bearing [N].
-    service : float, optional
-        Displacement without an earthquake, of temperature for instance [m].
-    slip : float, optional
-        Interface slip of time histories [m]. What the displacement that bearings must allow is
-        beyond the rims, and a quarter of the slip that holds, are tested at least.
-    impact_speed : float, optional
-        Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
-        the displacement that bearings must allow; its largest, where that does not reach a rim.
-    slow_speed : float
-        Peak speed of tests that are not dynamic [m/s]; EN 15129 has 50 mm/s.
-
-    Raises
-    ------
-    CheckError
-        If a number is out of bounds.
-    """
-
-    loads: tuple[float, float] | None = None
-    wind: float | None = None
-    service: float | None = None
-    slip: float | None = None
-    impact_speed: float | None = None
-    slow_speed: float = 0.05
-
-    def __post_init__(self) -> None:
-        for name, unit in (("wind", "N"), ("service", "m"), ("impact_speed", "m/s")):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name), unit, error=CheckError)
-        if self.slip is not None:
-            require_non_negative("slip", self.slip, "m", error=CheckError)
-        require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
-        if self.loads is not None:
-            ordered_loads(self.loads)
-
-
-@dataclass(frozen=True)
-class _Design:
-    # What the tests of one kind of bearing are made of.
-    result: BoundResult  # at the bound of the largest displacement
-    bearing: LIRBearing | FrictionPendulum
-    ends: list[LIRBearing | FrictionPendulum]  # it at the lower and at the upper bound
-    average: float  # N
-    least: float  # N
-    largest: float  # N
-    demands: ProgrammeDemands
-
-    def speed_at(self, displacement: float, period: float | None = None) -> float:
-        """Peak speed of harmonic motion, with the effective period unless another is given."""
-        return 2.0 * math.pi * displacement / (period or self.result.period)
 
 
 def prototype_tests(
@@ -121,7 +44,7 @@ def prototype_tests(
     Parameters
     ----------
     equivalent : EquivalentLinear
-        Analysis by ASCE 7-22, EN 1998 or NCh2745: its code decides, and its displacement, period
+        Its code decides, and its displacement, period
         and damping factor at the bound of the largest displacement count.
     system : IsolationSystem
         The bearings with nominal friction, their average loads and combinations. Equal bearings
@@ -145,22 +68,20 @@ def prototype_tests(
     Raises
     ------
     CheckError
-        If the analysis is not of one of the three codes, or least and largest load are not above
+        If the code of the analysis is not known, or least and largest load are not above
         zero.
     """
     import pandas as pd
 
     asked = ProgrammeDemands() if demands is None else demands
-    if equivalent.code not in _TESTS:
-        msg = f"code of the analysis {equivalent.code!r}: there are tests of {', '.join(_TESTS)}"
-        raise CheckError(msg)
+    planned = code_named(equivalent.code).tests
     result = _governing(equivalent)
     ends = [system if bounds is None else with_property_bounds(system, end, bounds) for end in ENDS]
     rows = []
     for title, bearing, places in _kinds(system):
         at_ends = [end.bearings[places[0]] for end in ends]
-        design = _Design(result, bearing, at_ends, *_loads(system, places, asked), asked)
-        own = _TESTS_OF[equivalent.code](design)
+        design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
+        own = planned(design)
         rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
@@ -214,137 +135,7 @@ def _loads(
     return average, least, max(every)
 
 
-def _wind(d: _Design, clause: str) -> PlannedTest:
-    force = math.nan if d.demands.wind is None else d.demands.wind
-    return PlannedTest(
-        "wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause, force
-    )
-
-
-def _increments(
-    d: _Design, steps: Iterable[tuple[str, float, float]], clause: str
-) -> Iterable[PlannedTest]:
-    # Steps of displacement [m] by name with their speed [m/s], at each of three loads.
-    for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
-        for name, at, speed in steps:
-            yield PlannedTest(
-                f"increments, {words} load, {name}",
-                at,
-                load,
-                3.0,
-                speed,
-                "stiffness and energy at each displacement",
-                clause,
-            )
-
-
-def _stable(d: _Design, name: str, displacement: float, clause: str) -> PlannedTest:
-    return PlannedTest(
-        f"maximum displacement, {name}",
-        displacement,
-        d.average,
-        3.0,
-        d.speed_at(displacement),
-        f"stable at {name}",
-        clause,
-    )
-
-
-def _many(d: _Design, at: tuple[str, float, float], cycles: float, clause: str) -> PlannedTest:
-    name, displacement, speed = at
-    return PlannedTest(
-        f"many cycles, {name}",
-        displacement,
-        d.average,
-        cycles,
-        speed,
-        "heat and wear over an earthquake",
-        clause,
-    )
-
-
-def _static(d: _Design, clause: str) -> Iterable[PlannedTest]:
-    for words, load in (("largest", d.largest), ("least", d.least)):
-        yield PlannedTest(
-            f"static, {words} load, D_TM",
-            d.result.total_displacement,
-            load,
-            1.0,
-            d.demands.slow_speed,
-            "carries its load at D_TM",
-            clause,
-        )
-
-
-def _asce7(d: _Design) -> Iterable[PlannedTest]:
-    clause, t, moved = _TESTS["ASCE 7-22"], d.result.trace, d.result.displacement
-    yield PlannedTest(
-        "production, each bearing",
-        0.67 * moved,
-        d.average,
-        3.0,
-        d.demands.slow_speed,
-        "each bearing is as the prototypes",
-        "ASCE 7-22 17.8.5",
-    )
-    yield _wind(d, f"{clause} (1)")
-    steps = [(f"{share:g} D_M", share * moved, d.speed_at(share * moved)) for share in _STEPS]
-    yield from _increments(d, steps, f"{clause} (2)")
-    yield _stable(d, "D_M", moved, f"{clause} (3)")
-    yield _stable(d, "D_TM", d.result.total_displacement, f"{clause} (3)")
-    count = max(10.0, 30.0 * t.value("S_M1") / (t.value("S_MS") * t.value("B_M")))
-    at = "0.75 D_M", 0.75 * moved, d.speed_at(0.75 * moved)
-    yield _many(d, at, float(math.ceil(count - 1e-9)), f"{clause} (4)")
-    yield from _static(d, "ASCE 7-22 17.8.2.5")
-
-
-def _en15129(d: _Design) -> Iterable[PlannedTest]:
-    clause, total, slow = _TESTS["EN 1998"], d.result.total_displacement, d.demands.slow_speed
-    fast = d.speed_at(total)
-    service = math.nan if d.demands.service is None else d.demands.service
-    for name, share, load, cycles, speed, shows in (
-        ("S, service", service / total, d.average, 20.0, 0.1 * slow, "moves with temperature"),
-        ("P1, benchmark", 1.0, d.average, 3.0, slow, "what later tests are compared with"),
-        ("D1, dynamic", 0.25, d.average, 3.0, fast, "friction and stiffness"),
-        ("D2, dynamic", 0.50, d.average, 3.0, fast, "friction and stiffness"),
-        ("D3, dynamic", 1.00, d.average, 3.0, fast, "friction and stiffness"),
-        ("P2, integrity of the liner", 1.0, d.average, 3.0, slow, "as P1 after the dynamic tests"),
-        ("D4, seismic, largest load", 1.0, d.largest, 3.0, fast, "friction and stability"),
-        ("D5, seismic, least load", 1.0, d.least, 3.0, fast, "friction and stability"),
-        ("B, both directions", 1.0, d.average, 3.0, fast, "clover-leaf path: friction in plan"),
-    ):
-        yield PlannedTest(name, share * total, load, cycles, speed, shows, clause)
-
-
-def _nch2745(d: _Design) -> Iterable[PlannedTest]:
-    # Each displacement with the period of its level: D_D with T_D, D_M with T_M.
-    clause, t = _TESTS["NCh2745"], d.result.trace
-
-    def at_design(name: str, displacement: float) -> tuple[str, float, float]:
-        return name, displacement, d.speed_at(displacement, t.value("T_D"))
-
-    design, most = t.value("D_D"), t.value("D_M")
-    yield _wind(d, clause)
-    steps = (
-        at_design("0.2 D_D", 0.2 * design),
-        at_design("0.5 D_D", 0.5 * design),
-        at_design("D_D", design),
-        ("D_M", most, d.speed_at(most)),
-    )
-    yield from _increments(d, steps, clause)
-    yield _stable(d, "D_TM", d.result.total_displacement, clause)
-    yield _many(d, at_design("D_TD", t.value("D_TD")), 10.0, clause)
-    yield from _static(d, clause)
-
-
-_TESTS_OF: dict[str, Callable[[_Design], Iterable[PlannedTest]]] = {
-    "ASCE 7-22": _asce7,
-    "EN 1998": _en15129,
-    "NCh2745": _nch2745,
-}
-
-
-def _of_interface(d: _Design) -> Iterable[PlannedTest]:
+def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     # Of an LIR-DCFP: its interface alone, and impacts.
     bearing = d.bearing
     if not isinstance(bearing, LIRBearing) or bearing.is_dcfp:
@@ -392,7 +183,7 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
     )
 
 
-def _row(kind: str, test: PlannedTest, design: _Design) -> dict[str, object]:
+def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object]:
     least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {

@@ -1,0 +1,190 @@
+"""Tests of bearings as codes plan them: what a test is, what it is made of, and usual ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames.design._errors import CheckError
+from lir_element.argument_checks import require_non_negative, require_positive
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from frames.design.codes.outcome import BoundResult
+    from frames.design.codes.pendulum import FrictionPendulum
+    from lir_element import LIRBearing
+
+
+def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
+    """Return a least and a largest axial force [N], or raise a CheckError."""
+    least, most = (require_positive("axial load", load, "N", error=CheckError) for load in loads)
+    if least > most:
+        msg = f"loads = {loads}: give the least first, then the largest [N]"
+        raise CheckError(msg)
+    return least, most
+
+
+class PlannedTest(NamedTuple):
+    """A test of the programme; NaN where a number is not given or has no meaning."""
+
+    name: str
+    displacement: float  # m
+    load: float  # N
+    cycles: float
+    speed: float  # m/s, the largest of a cycle
+    shows: str
+    clause: str
+    lateral: float = math.nan  # N, where the test goes to a force
+    alone: bool = False  # the interface between the sliders, without the concave surfaces
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProgrammeDemands:
+    """What a programme of tests asks for besides the equivalent-linear analysis.
+
+    Parameters
+    ----------
+    loads : (float, float), optional
+        Least and largest axial force of a bearing with the earthquake [N]: of time histories or
+        load combinations. None: the least and the largest of the system's combinations.
+    wind : float, optional
+        Lateral force of the design wind on one bearing [N].
+    service : float, optional
+        Displacement without an earthquake, of temperature for instance [m].
+    slip : float, optional
+        Interface slip of time histories [m]. What the displacement that bearings must allow is
+        beyond the rims, and a quarter of the slip that holds, are tested at least.
+    impact_speed : float, optional
+        Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
+        the displacement that bearings must allow; its largest, where that does not reach a rim.
+    slow_speed : float
+        Peak speed of tests that are not dynamic [m/s]; EN 15129 has 50 mm/s.
+
+    Raises
+    ------
+    CheckError
+        If a number is out of bounds.
+    """
+
+    loads: tuple[float, float] | None = None
+    wind: float | None = None
+    service: float | None = None
+    slip: float | None = None
+    impact_speed: float | None = None
+    slow_speed: float = 0.05
+
+    def __post_init__(self) -> None:
+        for name, unit in (("wind", "N"), ("service", "m"), ("impact_speed", "m/s")):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name), unit, error=CheckError)
+        if self.slip is not None:
+            require_non_negative("slip", self.slip, "m", error=CheckError)
+        require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
+        if self.loads is not None:
+            ordered_loads(self.loads)
+
+
+@dataclass(frozen=True)
+class DesignToTest:
+    """What the tests of one kind of bearing are made of.
+
+    Attributes
+    ----------
+    result : BoundResult
+        Equivalent-linear analysis at the bound of the largest displacement.
+    bearing : LIRBearing or FrictionPendulum
+        The bearing, friction nominal.
+    ends : list of LIRBearing or FrictionPendulum
+        It at the lower and at the upper bound.
+    average, least, largest : float
+        Axial loads [N].
+    demands : ProgrammeDemands
+        What is asked for besides.
+    """
+
+    result: BoundResult
+    bearing: LIRBearing | FrictionPendulum
+    ends: list[LIRBearing | FrictionPendulum]
+    average: float
+    least: float
+    largest: float
+    demands: ProgrammeDemands
+
+    def speed_at(self, displacement: float, period: float | None = None) -> float:
+        """Peak speed of harmonic motion, with the effective period unless another is given."""
+        return 2.0 * math.pi * displacement / (period or self.result.period)
+
+
+def wind_test(d: DesignToTest, clause: str) -> PlannedTest:
+    """Return the test that the bearing holds under wind."""
+    force = math.nan if d.demands.wind is None else d.demands.wind
+    return PlannedTest(
+        "wind", math.nan, d.average, 20.0, math.nan, "holds under wind", clause, force
+    )
+
+
+def increments(
+    d: DesignToTest, steps: Iterable[tuple[str, float, float]], clause: str
+) -> Iterable[PlannedTest]:
+    """Yield steps of displacement [m] by name with their speed [m/s], at each of three loads."""
+    for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
+        for name, at, speed in steps:
+            yield PlannedTest(
+                f"increments, {words} load, {name}",
+                at,
+                load,
+                3.0,
+                speed,
+                "stiffness and energy at each displacement",
+                clause,
+            )
+
+
+def stable_test(d: DesignToTest, name: str, displacement: float, clause: str) -> PlannedTest:
+    """Return the test of stability at a displacement [m]."""
+    return PlannedTest(
+        f"maximum displacement, {name}",
+        displacement,
+        d.average,
+        3.0,
+        d.speed_at(displacement),
+        f"stable at {name}",
+        clause,
+    )
+
+
+def many_cycles(
+    d: DesignToTest, at: tuple[str, float, float], cycles: float, clause: str
+) -> PlannedTest:
+    """Return the test of many cycles at a displacement [m] by name with its speed [m/s]."""
+    name, displacement, speed = at
+    return PlannedTest(
+        f"many cycles, {name}",
+        displacement,
+        d.average,
+        cycles,
+        speed,
+        "heat and wear over an earthquake",
+        clause,
+    )
+
+
+def static_tests(d: DesignToTest, clause: str) -> Iterable[PlannedTest]:
+    """Yield slow tests at the total displacement under the largest and the least load."""
+    for words, load in (("largest", d.largest), ("least", d.least)):
+        yield PlannedTest(
+            f"static, {words} load, D_TM",
+            d.result.total_displacement,
+            load,
+            1.0,
+            d.demands.slow_speed,
+            "carries its load at D_TM",
+            clause,
+        )
+
+
+def no_tests(design: DesignToTest) -> Iterable[PlannedTest]:
+    """Return none: of a code without tests of its own."""
+    return ()

@@ -1,0 +1,285 @@
+"""A design code as one value: all that the package asks of it, found by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
+
+from frames.design._errors import CheckError
+from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
+from frames.design.hazard.code_rules import HazardRules, add_rules, known_rules, rules_named
+from lir_element.argument_checks import require_type
+
+if TYPE_CHECKING:
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import PropertyModificationFactors
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.outcome import BoundResult
+    from frames.design.codes.superstructure import Superstructure
+    from frames.design.hazard.spectrum import Spectrum
+
+
+@runtime_checkable
+class AnalysisMethod(Protocol):
+    """Equivalent-linear analysis of a code, with its factors: `ASCE7`, `EN1998`, `NCh2745`."""
+
+    @property
+    def name(self) -> str:
+        """Name of the code that it is of."""
+
+    def analyse(
+        self,
+        system: IsolationSystem,
+        spectrum: Spectrum,
+        bound: Bound,
+        superstructure: Superstructure | None,
+        extremes: Extremes,
+    ) -> BoundResult:
+        """Return analysis and checks at one bound, as `ASCE7.analyse`."""
+
+
+class RimRule(NamedTuple):
+    """What a code asks of the displacement at which rims are met.
+
+    Attributes
+    ----------
+    clause : str
+        Clause.
+    symbol : str
+        How the code calls the displacement that bearings must allow.
+    least : float
+        Share of it below which rims must not be met [-].
+    note : str
+        What rims that are met below it mean under the code.
+    """
+
+    clause: str
+    symbol: str
+    least: float
+    note: str
+
+
+class SpectrumKey(NamedTuple):
+    """A key of ``[spectrum]`` in a project's file.
+
+    Attributes
+    ----------
+    kind : type
+        ``float`` for a number, or a Literal of what may be chosen.
+    unit : str
+        Unit that it must be given in, "m/s^2" or "s"; "" for a pure number.
+    default : object
+        Its value if it is left out; it must be given if None.
+    most : float, optional
+        Largest number [SI].
+    """
+
+    kind: object = float
+    unit: str = ""
+    default: object = None
+    most: float | None = None
+
+
+class ExampleProject(NamedTuple):
+    """What the example of ``lir new`` is under a code.
+
+    Attributes
+    ----------
+    spectrum : mapping of str to object
+        Keys of its spectrum [SI], which its motions follow.
+    sections : mapping of str to str
+        Sections of the file by name, in place of those of ASCE 7-22.
+    """
+
+    spectrum: Mapping[str, object]
+    sections: Mapping[str, str]
+
+
+MOST_IMPORTANT = 3.0
+"""Largest importance factor [-]; codes have 0.6 to 1.5."""
+
+EXAMPLE_UPLIFT = """level = "pendulum"
+uplift_allowed = true             # corners lift for a moment; without it such runs count as failed
+"""
+"""Section ``[analysis]`` of examples whose code counts runs with uplift as failed."""
+
+
+def example_bearing(
+    radius: str, slider: int, capacity: int, friction: float, interface: float
+) -> str:
+    """Return the section ``[bearing]`` of an example, as ``lir design`` proposes it.
+
+    Parameters
+    ----------
+    radius : str
+        With its unit.
+    slider, capacity : int
+        Height and radius of the slider, and capacity [mm].
+    friction, interface : float
+        Of surfaces and interface [-].
+
+    Returns
+    -------
+    str
+        The section's lines.
+    """
+    return (
+        f'radius = "{radius}"\nslider_height = "{slider} mm"\nslider_radius = "{slider} mm"\n'
+        f'capacity = "{capacity} mm"               # displacement at which rims are met\n'
+        f"friction = {friction:g}\ninterface_friction = {interface:g}\n"
+    )
+
+
+NO_LIMITS = "no code: the limits of ASCE 7-10"
+"""Clause of acceptance where a code's own limits were not read."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DesignCode(HazardRules):
+    """A design code; `register_code` makes it known, and all that goes by a code reads it here.
+
+    Parameters
+    ----------
+    name, aliases, damping, scaling
+        As in `frames.design.hazard.code_rules.HazardRules`.
+    title : str
+        What it is.
+    analysis : callable
+        Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
+    histories : HistoryRules
+        How time histories count.
+    spectrum : callable
+        Returns its design spectrum by the keys below, `Spectrum.asce7` for instance.
+    spectrum_keys : mapping of str to SpectrumKey
+        Keys of ``[spectrum]`` in a project's file.
+    rims : RimRule
+        What it asks of the displacement at which rims are met.
+    property_factors : callable, optional
+        Returns its factors of property bounds, `PropertyModificationFactors.asce7` for instance.
+    tests : callable
+        Its tests of bearings, made of a `DesignToTest`.
+    acceptance : str
+        Clause of the limits that measured loops are held against.
+    example : ExampleProject, optional
+        What ``lir new`` writes; without it there is no example.
+    uses_importance : bool
+        Whether its formulas or its spectrum have the importance factor of the superstructure.
+
+    Raises
+    ------
+    CheckError
+        If the number of motions whose mean counts is not the same in `scaling` and `histories`.
+    """
+
+    title: str
+    analysis: Callable[[], AnalysisMethod]
+    histories: HistoryRules
+    spectrum: Callable[..., Spectrum]
+    spectrum_keys: Mapping[str, SpectrumKey]
+    rims: RimRule
+    property_factors: Callable[..., PropertyModificationFactors] | None = None
+    tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
+    acceptance: str = NO_LIMITS
+    example: ExampleProject | None = None
+    uses_importance: bool = True
+
+    def __post_init__(self) -> None:
+        least = self.scaling[0].least if self.scaling else 0
+        if least != self.histories.mean_from:
+            msg = (
+                f"{self.name}: the mean counts from {self.histories.mean_from} motions on by "
+                f"histories, from {least} by scaling: give both the same"
+            )
+            raise CheckError(msg)
+
+
+def register_code(code: DesignCode, *, replace: bool = False) -> DesignCode:
+    """Make a code known: spectra, projects and checks take its name from then on.
+
+    Parameters
+    ----------
+    code : DesignCode
+        The code.
+    replace : bool
+        Whether it may take the place of one of the same name.
+
+    Returns
+    -------
+    DesignCode
+        The same.
+
+    Raises
+    ------
+    TypeError
+        If it is no `DesignCode`.
+    MotionError
+        If one of its spellings is that of another code.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from frames.design import code_named, register_code
+    >>> europe = code_named("EN 1998")
+    >>> own = replace(europe, acceptance="EN 15129 8.3.4")  # its limits, once they were read
+    >>> code = register_code(own, replace=True)
+    >>> code_named("EN 1998").acceptance
+    'EN 15129 8.3.4'
+    >>> code = register_code(europe, replace=True)
+    """
+    require_type("code", code, DesignCode, "a DesignCode(name=..., ...)")
+    add_rules(code, replace=replace)
+    return code
+
+
+def known_codes() -> tuple[DesignCode, ...]:
+    """Return all codes that are registered."""
+    return tuple(code for code in known_rules() if isinstance(code, DesignCode))
+
+
+def code_named(name: str, error: type[ValueError] = CheckError) -> DesignCode:
+    """Return a design code by its name or another spelling.
+
+    Parameters
+    ----------
+    name : str
+        "ASCE 7-22" (also "ASCE 7", "ASCE/SEI 7-22"), "EN 1998" ("EN 1998-1"), "NCh2745"
+        ("NCh 2745"), or one that was registered.
+    error : type
+        What is raised if it is not known.
+
+    Returns
+    -------
+    DesignCode
+        The code.
+
+    Raises
+    ------
+    CheckError
+        If there is none: the message lists those that are known.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("EN 1998-1").histories.displacement_factor
+    1.2
+    """
+    return cast("DesignCode", rules_named(name, error))
+
+
+class _HistoryRulesByCode(Mapping[str, HistoryRules]):
+    """How each code counts time histories, by any spelling of its name."""
+
+    def __getitem__(self, name: str) -> HistoryRules:
+        return code_named(name, KeyError).histories  # type: ignore[arg-type]  # as mappings do
+
+    def __iter__(self) -> Iterator[str]:
+        return (code.name for code in known_codes())
+
+    def __len__(self) -> int:
+        return len(known_codes())
+
+
+HISTORY_RULES: Mapping[str, HistoryRules] = _HistoryRulesByCode()
+"""How each code counts time histories, by any spelling of its name."""

@@ -1,0 +1,218 @@
+"""What codes say about spectra and motions, and the one table in which all codes are found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames._errors import MotionError
+from lir_element.argument_checks import require_choice
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+TO_BE_CONFIRMED = "to be confirmed against the standard"
+"""Standing of what was not compared with the text of the standard."""
+
+LINEAR = "linear between the values, constant outside of them"
+"""How factors between those of a table are found."""
+
+
+class DampingRule(NamedTuple):
+    """Damping factors of one code, by a table or by a formula.
+
+    Attributes
+    ----------
+    source : str
+        Where the code gives them.
+    rule : str
+        The formula, or how values between those of the table are found.
+    standing : str
+        How well source and values are known.
+    table : tuple of (float, float)
+        Damping [-] and factor B [-]; empty where a formula gives them.
+    formula : callable, optional
+        B [-] of the damping [-], where there is no table.
+    """
+
+    source: str
+    rule: str
+    standing: str = TO_BE_CONFIRMED
+    table: tuple[tuple[float, float], ...] = ()
+    formula: Callable[[float], float] | None = None
+
+    def factor(self, damping: float) -> float:
+        """Return B [-] at a part of the critical damping [-]."""
+        if self.formula is not None:
+            return self.formula(damping)
+        known, factors = np.array(self.table).T
+        return float(np.interp(damping, known, factors))
+
+
+class ScalingRule(NamedTuple):
+    """What a code asks of the mean spectrum of a set of motions, and in which range of periods.
+
+    Attributes
+    ----------
+    name : str
+        How `MotionSet.scaled_to` and `motion_checks` call it.
+    measure : str
+        Measure of a pair (`frames.design.hazard.pair_spectra.MEASURES`).
+    part : float
+        What the mean must reach at least, as a part of the target [-].
+    at_zero : float
+        The same at the period zero [-]; 0 where nothing is asked.
+    least : int
+        Number of pairs from which the mean response may be used.
+    clause : str
+        Where the code says so; to be confirmed against the standard.
+    periods : (float, float)
+        Range of periods over the shortest and the longest effective period of the bounds [-]; to
+        be confirmed.
+    fault_axes : bool
+        Whether near-fault pairs are to be turned to the axes of the fault.
+    """
+
+    name: str
+    measure: str
+    part: float
+    at_zero: float
+    least: int
+    clause: str
+    periods: tuple[float, float]
+    fault_axes: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HazardRules:
+    """What a code says about spectra and motions: the base of `frames.design.DesignCode`.
+
+    Parameters
+    ----------
+    name : str
+        The one spelling of the code.
+    aliases : tuple of str
+        Other spellings that are understood.
+    damping : DampingRule
+        Factors by which a spectrum of 5 % damping is divided.
+    scaling : tuple of ScalingRule
+        How motions are scaled: the code's own rule first, then others by their names.
+    """
+
+    name: str
+    aliases: tuple[str, ...] = ()
+    damping: DampingRule
+    scaling: tuple[ScalingRule, ...]
+
+
+_KNOWN: dict[str, HazardRules] = {}
+"""The one table of codes, by their names; `frames.design.register_code` fills it."""
+
+
+def known_rules() -> tuple[HazardRules, ...]:
+    """Return all codes that are registered."""
+    return tuple(_KNOWN.values())
+
+
+def known_names() -> tuple[str, ...]:
+    """Return the names of all codes that are registered."""
+    return tuple(_KNOWN)
+
+
+def add_rules(code: HazardRules, *, replace: bool = False) -> None:
+    """Enter a code in the table.
+
+    Parameters
+    ----------
+    code : HazardRules
+        The code.
+    replace : bool
+        Whether it may take the place of one of its name.
+
+    Raises
+    ------
+    MotionError
+        If one of its spellings, or of its rules of scaling, is that of another code.
+    """
+    words = {code.name, *code.aliases, *(rule.name for rule in code.scaling)}
+    for other in _KNOWN.values():
+        if other is code or (replace and other.name == code.name):
+            continue
+        twice = words & {other.name, *other.aliases, *(rule.name for rule in other.scaling)}
+        if twice:
+            msg = (
+                f"{sorted(twice)[0]!r} is a name of {other.name!r} already: choose another, or "
+                "give replace=True to put a code in the place of one of the same name"
+            )
+            raise MotionError(msg)
+    _KNOWN[code.name] = code
+
+
+def remove_rules(name: str) -> None:
+    """Take a code out of the table, as tests do with theirs."""
+    _KNOWN.pop(name, None)
+
+
+def canonical(name: str) -> str:
+    """Return the one spelling of a code; what is the name of none stays as it is."""
+    for code in _KNOWN.values():
+        if name == code.name or name in code.aliases:
+            return code.name
+    return name
+
+
+def rules_named(name: str, error: type[ValueError] = MotionError) -> HazardRules:
+    """Return a code by its name or another spelling.
+
+    Parameters
+    ----------
+    name : str
+        The code.
+    error : type
+        What is raised.
+
+    Returns
+    -------
+    HazardRules
+        The code.
+
+    Raises
+    ------
+    ValueError
+        Of the type given, if there is none: the message lists those that are known.
+    """
+    spelled = canonical(name)
+    require_choice("code", spelled, known_names(), error=error)
+    return _KNOWN[spelled]
+
+
+def scaling_named(name: str, error: type[ValueError] = MotionError) -> ScalingRule:
+    """Return a rule by which motions are scaled.
+
+    Parameters
+    ----------
+    name : str
+        Of the rule, or of a code in any spelling, whose own it is then.
+    error : type
+        What is raised.
+
+    Returns
+    -------
+    ScalingRule
+        The rule.
+
+    Raises
+    ------
+    ValueError
+        Of the type given, if there is none: the message lists those that are known.
+    """
+    rules = {rule.name: rule for code in _KNOWN.values() for rule in code.scaling}
+    if name in rules:
+        return rules[name]
+    spelled = canonical(name)
+    if spelled in _KNOWN:
+        return _KNOWN[spelled].scaling[0]
+    msg = f"rule = {name!r}: choose one of {tuple(rules)}"
+    raise error(msg)

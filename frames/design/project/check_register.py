@@ -1,0 +1,189 @@
+"""Checks that a project's run makes: what they are made of, and how one more is added."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from frames.design._errors import CheckError
+from frames.design.calculation.check import Check
+from lir_element.argument_checks import require_type
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import pandas as pd
+    import xarray as xr
+
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.registry import DesignCode
+    from frames.design.codes.superstructure import Superstructure
+    from frames.design.devices.limits import DesignLimits
+    from frames.design.hazard.motion_set import MotionSet
+    from frames.design.hazard.spectrum import Spectrum
+    from frames.frame import Frame
+    from lir_element import LIRBearing
+
+
+class BearingDemand(NamedTuple):
+    """What bearings are checked and tested for.
+
+    Attributes
+    ----------
+    loads : (float, float)
+        Least axial load that presses at all, and the largest, of combinations and histories [N].
+    slip : float
+        Of the interface [m].
+    void : str
+        Why neither is a value for design, as after runs that failed; "" if they are.
+    """
+
+    loads: tuple[float, float]
+    slip: float
+    void: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RunToCheck:
+    """All that is known of a project when its checks are made.
+
+    Attributes
+    ----------
+    code : DesignCode
+        The code that it is designed by.
+    frame : Frame
+        The structure on its bearings, friction nominal.
+    bearing : LIRBearing
+        The bearing under each column, friction nominal.
+    system : IsolationSystem
+        The bearings with their places, average loads and combinations.
+    superstructure : Superstructure, optional
+        What stands on them, as formulas need it.
+    spectrum : Spectrum
+        The design spectrum.
+    motions : MotionSet
+        As they were run, scaled.
+    equivalent : EquivalentLinear
+        Equivalent-linear analysis at both bounds.
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Time histories by level of the seismic action, then by bound; a row a motion.
+    demands : pandas.DataFrame
+        What they give for design, with the level of each row.
+    bounds : PropertyBounds
+        Bounds of friction.
+    limits : DesignLimits
+        What the engineer allows.
+    rules : HistoryRules
+        How time histories count.
+    asked : BearingDemand
+        What the time histories ask of the bearings.
+    """
+
+    code: DesignCode
+    frame: Frame
+    bearing: LIRBearing
+    system: IsolationSystem
+    superstructure: Superstructure | None
+    spectrum: Spectrum
+    motions: MotionSet
+    equivalent: EquivalentLinear
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
+    demands: pd.DataFrame
+    bounds: PropertyBounds
+    limits: DesignLimits
+    rules: HistoryRules
+    asked: BearingDemand
+
+    @property
+    def bearing_level(self) -> str:
+        """The level of the seismic action at which bearings are judged."""
+        return next(level.name for level in self.rules.levels if level.judges_bearings)
+
+
+MakeChecks = Callable[[RunToCheck], Iterable[Check]]
+"""What makes checks of a run."""
+
+Made = TypeVar("Made", bound=MakeChecks)
+_REGISTERED: dict[str, MakeChecks] = {}
+
+
+def register_check(make: Made) -> Made:
+    """Have every project's run make more checks; also as a decorator.
+
+    Parameters
+    ----------
+    make : callable
+        Returns checks of a `RunToCheck`. Its name is its place: one of the same name, as after a
+        notebook's cell was run again, is replaced.
+
+    Returns
+    -------
+    callable
+        The same.
+
+    Raises
+    ------
+    TypeError
+        If it cannot be called.
+
+    Examples
+    --------
+    >>> from frames.design import register_check, unregister_check
+    >>> @register_check
+    ... def none_yet(run):
+    ...     return []
+    >>> unregister_check(none_yet)
+    """
+    require_type("make", make, Callable, "a function of a run that returns checks")  # type: ignore[arg-type]
+    _REGISTERED[_name(make)] = make
+    return make
+
+
+def unregister_check(make: MakeChecks) -> None:
+    """Have no project's run make these checks any more.
+
+    Parameters
+    ----------
+    make : callable
+        As it was registered.
+    """
+    _REGISTERED.pop(_name(make), None)
+
+
+def checks_of(run: RunToCheck) -> list[Check]:
+    """Return the checks of all that are registered, in that order.
+
+    Parameters
+    ----------
+    run : RunToCheck
+        The run.
+
+    Returns
+    -------
+    list of Check
+        The checks.
+
+    Raises
+    ------
+    CheckError
+        If a function returns something else than checks: the message names it.
+    """
+    found: list[Check] = []
+    for name, make in tuple(_REGISTERED.items()):
+        made: object = make(run)
+        for one in made if isinstance(made, Iterable) else [made]:
+            if not isinstance(one, Check):
+                msg = f"{name} returned {one!r}: have it return a list of frames.design.Check"
+                raise CheckError(msg)
+            found.append(one)
+    return found
+
+
+def _name(make: MakeChecks) -> str:
+    kind = type(make)
+    return f"{make.__module__}.{getattr(make, '__qualname__', kind.__qualname__)}"

@@ -1,0 +1,203 @@
+"""A check and a code from outside the package: those of docs/extending.md, and how they fail."""
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+from typer.testing import CliRunner
+
+from frames import MotionError
+from frames.command.app import app
+from frames.design import (
+    HISTORY_RULES,
+    Check,
+    CheckError,
+    ProjectError,
+    RunToCheck,
+    Spectrum,
+    code_named,
+    register_check,
+    register_code,
+    unregister_check,
+)
+from frames.design.codes.registry import known_codes
+from frames.design.hazard.code_rules import remove_rules, scaling_named
+from frames.design.project import check_register, extensions
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.reading import read_project, schema
+
+PAGE = Path(__file__).parents[2] / "docs" / "extending.md"
+SOURCE = "\n".join(re.findall(r"^```python\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
+PROJECT = """
+[project]
+name = "Harbour office"
+code = "Island"
+extensions = ["island.py"]
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["6 m", "6 m"]
+storey_mass = ["100 t"]
+storey_stiffness = ["300 kN/mm"]
+storey_height = "3 m"
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "200 mm"
+capacity = "180 mm"
+friction = 0.06
+interface_friction = 0.18
+[spectrum]
+plateau = "6 m/s2"
+corner = "0.5 s"
+[motions]
+folder = "motions"
+only = ["artificial-1", "artificial-3"]
+scale = 0.5
+[bounds]
+friction = [0.8, 1.3]
+[analysis]
+bounds = ["lower", "upper"]
+"""
+run = CliRunner().invoke
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A project by the code of the page; what it registers is taken back."""
+    monkeypatch.setattr(extensions, "_LOADED", set())
+    monkeypatch.setattr(check_register, "_REGISTERED", dict(check_register._REGISTERED))
+    assert run(app, ["new", str(tmp_path)]).exit_code == 0
+    (tmp_path / "island.py").write_text(SOURCE)
+    (tmp_path / "office.toml").write_text(PROJECT)
+    yield tmp_path
+    remove_rules("Island 2030")
+
+
+def test_a_project_is_run_by_a_code_and_with_a_check_of_its_own(folder: Path) -> None:
+    done = run(app, ["run", str(folder / "office.toml"), "--results", str(folder / "out")])
+    assert done.exit_code in {0, 1}, done.output
+    checks = pd.read_csv(folder / "out" / "checks.csv")
+    gap = checks[checks["title"] == "gap of the moat"].iloc[0]
+    assert gap["clause"] == "Harbour authority, letter 12"
+    demands = pd.read_csv(folder / "out" / "demands.csv")
+    envelope = next(name for name in demands.columns if name.startswith("envelope"))
+    moved = demands[demands["quantity"] == "isolator displacement"][envelope].max()
+    assert gap["demand"] == pytest.approx(1.1 * moved)
+    rims = checks[checks["clause"] == "Island 2030 5.3"]
+    assert (rims["limit"] == 0.8).all()
+    drift = checks[checks["title"] == "storey drift ratio"]
+    assert set(drift["limit"]) == {0.01}
+    number = checks[checks["title"] == "number of motions"].iloc[0]
+    assert (number["demand"], number["limit"]) == (2, 2)
+    linear = pd.read_csv(folder / "out" / "equivalent-linear.csv", index_col=0)
+    found = linear.loc["lower"]
+    d, period, b = (
+        found.filter(like=name).iloc[0] for name in ("displacement", "period", "factor")
+    )
+    assert d == pytest.approx(6.0 * 0.5 / period / b * (period / 6.283185307) ** 2, rel=1e-2)
+    assert "Island 2030" in (folder / "out" / "report.html").read_text(encoding="utf-8")
+    assert json.loads((folder / "out" / "run.json").read_text())["checks"] == len(checks)
+
+
+def test_the_keys_of_its_spectrum_are_checked(folder: Path) -> None:
+    file = folder / "office.toml"
+    file.write_text(PROJECT.replace('corner = "0.5 s"', 'corner = "0.5 m"'))
+    with pytest.raises(ProjectError, match=r'spectrum.corner = "0.5 m" is in "m", .* no unit of s'):
+        read_project(file)
+    file.write_text(PROJECT.replace('corner = "0.5 s"', ""))
+    with pytest.raises(ProjectError, match=r"spectrum.corner is missing"):
+        read_project(file)
+    assert "Island 2030" in schema()
+
+
+def test_a_code_is_found_by_all_its_spellings(folder: Path) -> None:
+    parts = ProjectInputs(read_project(folder / "office.toml"), folder)
+    assert parts.file.project.code == "Island 2030" == parts.code().name
+    assert HISTORY_RULES["Island"] is HISTORY_RULES["Island 2030"] is parts.code().histories
+    assert Spectrum.given([0.1, 1.0], [5.0, 1.0], code="Island").damping_factor(0.05) == 1.0
+    assert scaling_named("Island").measure == "RotD50"
+
+
+def test_other_spellings_of_codes_are_understood() -> None:
+    assert [code.name for code in known_codes()] == ["ASCE 7-22", "EN 1998", "NCh2745"]
+    for word, name in (("ASCE 7", "ASCE 7-22"), ("EN 1998-1", "EN 1998"), ("NCh 2745", "NCh2745")):
+        assert code_named(word) is code_named(name)
+        assert HISTORY_RULES[word] is HISTORY_RULES[name]
+    assert scaling_named("EN 1998-1") is scaling_named("EN 1998") is not scaling_named("EN 1998-2")
+    with pytest.raises(CheckError, match=r"'UBC'.*'ASCE 7-22', 'EN 1998', 'NCh2745'"):
+        code_named("UBC")
+    with pytest.raises(MotionError, match=r"'UBC'.*'EN 1998-2'"):
+        scaling_named("UBC")
+
+
+def test_a_code_takes_no_name_of_another() -> None:
+    asce = code_named("ASCE 7-22")
+    with pytest.raises(MotionError, match="'ASCE 7' is a name of 'ASCE 7-22' already"):
+        register_code(replace(asce, name="ASCE 7"))
+    with pytest.raises(CheckError, match="from 7 motions on by histories, from 5 by scaling"):
+        replace(asce, scaling=(asce.scaling[0]._replace(least=5),))
+    with pytest.raises(TypeError, match="DesignCode"):
+        register_code("ASCE 7-22")  # type: ignore[arg-type]
+    assert code_named("ASCE 7-22") is asce
+
+
+def test_minima_are_a_matter_of_the_rules(folder: Path) -> None:
+    """Of a code whose rules have minima, whichever its name."""
+    asce = code_named("ASCE 7-22")
+    file = folder / "asce.toml"
+    text = PROJECT.replace('"Island"', '"ASCE 7"').replace('extensions = ["island.py"]', "")
+    text = text.replace('plateau = "6 m/s2"', "s_ms = 0.8").replace(
+        'corner = "0.5 s"', "s_m1 = 0.4"
+    )
+    file.write_text(text + "[superstructure]\nR = 4.0\n")
+    titles = {}
+    for minima in (True, False):
+        rules = replace(asce.histories, has_minima=minima)
+        register_code(replace(asce, histories=rules), replace=True)
+        try:
+            done = run(app, ["run", str(file), "--results", str(folder / f"{minima}")])
+        finally:
+            register_code(asce, replace=True)
+        assert done.exit_code in {0, 1}, done.output
+        titles[minima] = set(pd.read_csv(folder / f"{minima}" / "checks.csv")["title"])
+    assert "storey shear of time histories" in titles[True] - titles[False]
+
+
+def test_what_a_check_returns_is_looked_at(folder: Path) -> None:
+    @register_check
+    def wrong(run: RunToCheck) -> list[Check]:
+        return [run.code.name]  # type: ignore[list-item]
+
+    file = folder / "office.toml"
+    done = run(app, ["run", str(file), "--results", str(folder / "out")])
+    assert done.exit_code == 2, done.output
+    assert "wrong returned 'Island 2030': have it return a list" in " ".join(done.stderr.split())
+    unregister_check(wrong)
+    assert wrong not in check_register._REGISTERED.values()
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        ("1 / 0", r"extensions = island.py, line 1: ZeroDivisionError"),
+        (None, r"extensions: .*island.py is no file"),
+    ],
+)
+def test_an_extension_that_fails_is_named(folder: Path, source: str | None, words: str) -> None:
+    script = folder / "island.py"
+    if source is None:
+        script.unlink()
+    else:
+        script.write_text(source)
+    with pytest.raises(ProjectError, match=words):
+        read_project(folder / "office.toml")
