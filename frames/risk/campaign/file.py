@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar
 from pydantic import Field, model_validator
 from scipy import stats
 
+from frames.design.project.derived import Table
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.quantities import Length, Ratio, SpeedRate, Time
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, MotionSource, Structure, Table
+from frames.design.project.schema import Bearing, MotionSource, Structure
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
