@@ -69,9 +69,7 @@ def lir(
 @app.command()
 def new(
     folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
-    code: Annotated[
-        str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745, or one that was registered")
-    ] = "ASCE 7-22",
+    code: Annotated[str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745")] = "ASCE 7-22",
 ) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with told():

@@ -16,7 +16,7 @@ from lir_element.argument_checks import (
     require_positive,
     require_type,
 )
-from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.device.friction import Friction
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.device.sanity_checks import refuse_forces, refuse_sizes, sanity_warnings
 from lir_element.units import LENGTHS, meant, per_cent
@@ -171,7 +171,7 @@ def _check_geometry(bearing: Specification) -> None:
 def _check_friction(bearing: Specification) -> None:
     pair: tuple[object, object] = as_pair("friction", bearing.friction)
     for law in pair:
-        if not isinstance(law, (CoulombFriction, VelocityFriction)):
+        if not isinstance(law, Friction):
             msg = (
                 f"friction = {law!r}: give a number as 0.05, CoulombFriction(mu) or "
                 "VelocityFriction(f_max, f_min, rate), or a pair (bottom, top) of them"

@@ -52,6 +52,10 @@ class CoulombFriction:
         """Return the friction coefficient [-] at sliding speed `speed` [m/s]."""
         return float(self.coefficient)
 
+    def scaled(self, factor: float) -> CoulombFriction:
+        """Return the law with its coefficient times a factor [-], as at a bound of properties."""
+        return CoulombFriction(factor * self.coefficient)
+
 
 @dataclass(frozen=True, slots=True)
 class VelocityFriction:
@@ -95,8 +99,13 @@ class VelocityFriction:
         """Return the friction coefficient [-] at sliding speed `speed` [m/s]."""
         return self.f_max - (self.f_max - self.f_min) * exp(-self.rate * abs(speed))
 
+    def scaled(self, factor: float) -> VelocityFriction:
+        """Return the law with its coefficients times a factor [-], as at a bound of properties."""
+        return VelocityFriction(factor * self.f_max, factor * self.f_min, self.rate)
+
 
 Friction = CoulombFriction | VelocityFriction
+"""All laws; what they share is what a bearing asks of them: f_max, f_min, rate, scaled."""
 
 
 def as_laws(given: object) -> object:

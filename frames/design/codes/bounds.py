@@ -18,7 +18,6 @@ from lir_element.argument_checks import (
     require_positive,
     require_type,
 )
-from lir_element.device.friction import CoulombFriction, Friction, VelocityFriction
 
 if TYPE_CHECKING:
     Range = tuple[float, float]
@@ -272,18 +271,12 @@ def _with_factors(what: Bounded, factor: float, inner: float, bound: str) -> Bou
 
 def _bearing(bearing: Device, factor: float, inner: float) -> Device:
     bottom, top = bearing.frictions
-    laws = (_factored(bottom, factor), _factored(top, factor))
+    laws = (bottom.scaled(factor), top.scaled(factor))
     return replace(bearing, friction=laws, interface_friction=inner * bearing.interface_friction)
 
 
 def _pendulum(pendulum: Pendulum, factor: float) -> Pendulum:
     return replace(pendulum, frictions=tuple(factor * mu for mu in pendulum.frictions))
-
-
-def _factored(law: Friction, factor: float) -> Friction:
-    if isinstance(law, CoulombFriction):
-        return CoulombFriction(factor * law.coefficient)
-    return VelocityFriction(factor * law.f_max, factor * law.f_min, law.rate)
 
 
 def _enter(t: Trace, name: str, pair: Range) -> None:
