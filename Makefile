@@ -7,7 +7,7 @@ RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs test lint types clean
+.PHONY: help demo docs test lint types wheel clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
@@ -27,6 +27,10 @@ lint: $(READY)  ## ruff: rules and format
 
 types: $(READY)  ## mypy, strict, on both packages
 	$(RUN) -m mypy
+
+wheel: $(READY)  ## build a wheel that brings its compiled kernels along, into dist
+	$(RUN) -m pip install --disable-pip-version-check --quiet build
+	LIR_BUILD_KERNELS=1 $(RUN) -m build --wheel
 
 clean:  ## remove caches, builds and the virtual environment
 	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo
