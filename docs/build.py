@@ -390,10 +390,11 @@ def generated() -> str:
 def demo_table() -> str:
     """Return the table that the demo prints, without the time of computation."""
     motion = demo.pacoima(demo.DEFAULT_SCALE)
+    options = {"level": demo.LEVEL, "duration": demo.DURATION}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AuditWarning)  # the table tells
         results = {
-            name: time_history(moment_frame(bearing=bearings, name=name), motion)
+            name: time_history(moment_frame(bearing=bearings, name=name), motion, **options)
             for name, bearings in demo.systems_of(demo.design()).items()
         }
     lines = [line for line in table_of(results).splitlines() if not line.startswith("run time")]
