@@ -66,7 +66,7 @@ ATTRIBUTES = {
     "features_left_out": 'names of the features left out, or "none"',
     "plane_coupling": "displacement along y over that along x of a push along x, where the second "
     "direction is left out [-]; else 0",
-    "energy_error": "largest gap of the ledger of energy over the largest input [-]",
+    "energy_error": "largest gap of the energy balance over the largest input [-]",
     "numerical_share": "largest work that the time integration leaves over, over the largest input "
     "[-]",
     "audit": 'lines of the audit; "!" begins those that ask to be looked at',
@@ -281,7 +281,7 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
             code("energy_error(data)"),
             "-",
             "1",
-            "largest gap of the energy ledger over the largest input",
+            "largest gap of the energy balance over the largest input",
         ],
         [code("envelope(values)"), "without time", "-", "extremes of a history, and their times"],
         [

@@ -25,7 +25,7 @@ BOUNDS = (3.0, 5.0, 10.0)
 SPREAD = ("median", "90 % below", "worst", *(f"within {bound:g} %" for bound in BOUNDS))
 NAMES = {
     "slip": "largest slip",
-    "left": "slip left, over the largest",
+    "left": "residual slip, over the largest",
     "displacement": "peak displacement",
     "force": "force (99.9 %)",
 }
@@ -274,7 +274,7 @@ _APART = (
     "scene",
     "slider radius [mm]",
     "slip [mm]",
-    "slip left [mm]",
+    "residual slip [mm]",
     "spin [rad]",
     "displacement [mm]",
     "called sufficient",

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from frames.results.peaks import Peak
 
 NUMBERS = {
-    "energy_error": ("1", "largest gap of the energy ledger over the largest input"),
+    "energy_error": ("1", "largest gap of the energy balance over the largest input"),
     "numerical_share": ("1", "largest work that the time integration leaves over, over the input"),
     "steps": ("1", "steps accepted"),
     "halvings": ("1", "steps halved"),

@@ -291,7 +291,7 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "axial_force": Quantity(_B, "N", "axial force", lambda d: _of(d, "axial_force")),
     "axial_tension": Quantity(
-        _B, "N", "negative of the least axial force", lambda d: -_of(d, "axial_force")
+        _B, "N", "negative of the minimum axial force", lambda d: -_of(d, "axial_force")
     ),
     "vertical_tension": Quantity(
         _B,
@@ -403,7 +403,7 @@ QUANTITIES: dict[str, Quantity] = {
     "energy_numerical": Quantity(
         (), "J", "work that the time integration leaves over", lambda d: _term(d, "numerical")
     ),
-    "energy_gap": Quantity((), "J", "gap of the energy ledger", _gap),
+    "energy_gap": Quantity((), "J", "gap of the energy balance", _gap),
     "energy_yielding": Quantity(
         (), "J", "work that yielding took up", lambda d: _term(d, "yielding")
     ),
@@ -516,6 +516,6 @@ TOTALS: dict[str, Total] = {
         (), "N m/s", "the same with what the temperature changes of that", _work_heated
     ),
     "uplifts": Total((), "1", "how often bearings lifted off", _uplifts),
-    "time_lifted": Total(_B, "s", "time lifted off", _time_lifted),
+    "time_lifted": Total(_B, "s", "uplift duration", _time_lifted),
 }
 """Sums over the steps by name."""

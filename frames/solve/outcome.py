@@ -41,7 +41,7 @@ class Outcome(NamedTuple):
 
 
 def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
-    """Judge a completed run by its ledger of energy, and by its sliders where they are bodies.
+    """Judge a completed run by its energy balance, and by its sliders where they are bodies.
 
     Parameters
     ----------

@@ -180,7 +180,7 @@ class LIRBearing(Specification):
             ("effective radius", f"{self.effective_radius:.4g}", "m"),
             ("pendulum period", f"{self.period:.3g}", "s"),
             ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
-            ("sliding force / load", f"{self.effective_friction:.4g}", "-"),
+            ("characteristic strength ratio Q/W", f"{self.effective_friction:.4g}", "-"),
             ("slip that holds", f"{self.slip_stability:.4g}", "m"),
         ]
         for f in fields(self):

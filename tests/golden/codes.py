@@ -1,7 +1,7 @@
 """Spectra and equivalent-linear analyses of three codes, typed from their formulas.
 
 ASCE 7-22 chapter 17, EN 1998-1 chapter 10, NCh2745. Bearings are pendulums below their rims:
-F = P (D / L + mu), energy of a cycle 4 mu P D. SI units.
+F = P (D / L + mu), energy dissipated per cycle (EDC) 4 mu P D. SI units.
 """
 
 import json

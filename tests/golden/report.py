@@ -133,7 +133,7 @@ def _device(project, head, rows, tally):
         "effective radius": b.L,
         "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
         "lateral capacity": b.capacity,
-        "sliding force / load": b.share(b.fast),
+        "characteristic strength ratio Q/W": b.share(b.fast),
         "slip that holds": b.L * b.inner - b.fast * b.R.sum(),
         "slider_height": b.h,
         "slider_radius": b.a,
@@ -317,9 +317,9 @@ def _limit(project, row):
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
         ), project.bearing.capacity
-    if title == "stiffness over that at 0.2 D_M":
+    if title == "effective stiffness ratio, D_M to 0.2 D_M":
         return e["k"], e["k_02"] / 3.0
-    if title == "stiffness over that at 0.2 d_dc":
+    if title == "effective stiffness ratio, d_dc to 0.2 d_dc":
         return e["k"], e["k_02"] / 2.0
     if title.startswith("no uplift") and "not evaluated" not in title:
         part = 0.2 * project.file["spectrum"]["s_ms"]
@@ -330,7 +330,7 @@ def _limit(project, row):
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
-        "period over fixed base": (e["period"], 3.0 * held),
+        "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),
     }

@@ -58,7 +58,9 @@ def test_static_bearing_by_hand() -> None:
         150e3 / overlap_area(0.08, 0.01)
     )
     # bottom rim alone: (R - h/2) mu_h - mu R off the upper slider's axis, that is s* / 2
-    assert by["resultant between the sliders", ""].demand == pytest.approx(0.07929 / 2 / 0.08)
+    assert by["normalised eccentricity e/a at the rims", ""].demand == pytest.approx(
+        0.07929 / 2 / 0.08
+    )
     # the centre of pressure on a liner: s R / L off where frictions are alike, and mu R h / L
     offset = 0.75 * (0.01 + 0.066 * 0.085) / 1.415
     liner = by["pressure on the liner around its resultant", "top surface"]

@@ -190,7 +190,7 @@ def comparison(found: dict[str, Loops]) -> str:
         "u* [mm]",
         "force at 20 mm, first way out [-]",
         "half the loop's height at zero [-]",
-        "energy of a cycle / load [m]",
+        "energy dissipated per cycle (EDC) / load [m]",
     )
     return table(head, rows)
 

@@ -150,7 +150,7 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
             unbalanced(data, bearing),
             "",
         ),
-        below("ledger of energy" + of, "balance", 1e-3, energy_error(data), ""),
+        below("energy balance" + of, "balance", 1e-3, energy_error(data), ""),
     ]
 
 

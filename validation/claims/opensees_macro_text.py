@@ -132,7 +132,7 @@ def scenes_table() -> tuple[str, dict[str, dict[str, Floats]], dict[str, float]]
         "outcome",
         "peak [mm]",
         "slip at the end [mm]",
-        "largest axial force / weight",
+        "maximum axial force / weight",
     )
     return table(head, rows), orbits, peaks
 

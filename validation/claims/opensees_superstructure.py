@@ -324,7 +324,7 @@ def _checks(
             "",
         ),
         below(
-            "energy ledger: error / input",
+            "energy balance: error / input",
             "conservation of energy",
             1e-3,
             max(one.ledger for one in every),

@@ -333,7 +333,7 @@ def page(found: Sequence[Outcome]) -> str:
         "would give back more energy than it has stored ([theory.md](../theory.md)), OpenSees does "
         "not: that is the difference of the others, and it shrinks with the step.",
         "## Equilibrium and cost",
-        "Axial forces at rest, the energy ledger of `frames`, and computation for a step (the "
+        "Axial forces at rest, the energy balance of `frames`, and computation for a step (the "
         "smaller one) in both programs on the same machine, which had other work: the ratio "
         "counts. `frames` keeps all modes of the structure; damping that is not proportional to "
         "the present stiffness costs the square of their number a step. Plain Newton's method of "

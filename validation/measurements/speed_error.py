@@ -44,7 +44,7 @@ HEADINGS = {
     "quantile": "F 99.9 %",
     "energy": "energy",
     "slip": "slip",
-    "left": "slip left",
+    "left": "residual slip",
     "residual": "residual u",
 }
 SPEED_GOAL = 1e4
@@ -222,7 +222,7 @@ def study_rows(scenes: list[Scene]) -> list[str]:
         "A wider slider of the same stiffness shows it (unequal rims, pendulum at "
         f"{1e3 * OUTPUT:g} ms against its own reference):",
         "",
-        "| slider radius (m) | peak u | peak F | F 99.9 % | energy | slip | slip left |",
+        "| slider radius (m) | peak u | peak F | F 99.9 % | energy | slip | residual slip |",
         "|---|---|---|---|---|---|---|",
     ]
     scene = next(scene for scene in scenes if scene.name == STUDIED[1])
@@ -253,7 +253,7 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
             f"{REFERENCE_TOLERANCE:.0e}, outputs every {1e3 * OUTPUT:g} ms; for the building the level "
             f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
             "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
-            "time, energy dissipated by friction, and largest slip of the interface; slip left in per "
+            "time, energy dissipated by friction, and largest slip of the interface; residual slip in per "
             "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
             "compared at the output times of the coarser run: the largest one is a single sample next "
             "to an impact, and depends on them.",

@@ -56,7 +56,7 @@ def page(found: Found) -> str:
                 "## Fragility",
                 _fragilities(found),
                 "## Demands",
-                f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",
+                f"![Median ductility, floor acceleration, residual displacement over the intensity](figures/{MEDIANS})",
                 "Medians over all records, and the range of the middle 68 %; a line ends where half of "
                 "the records have failed a bearing.",
                 _demands(found),

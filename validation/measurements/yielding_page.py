@@ -130,7 +130,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
                 f"{100.0 * SAME:g} %, of rotations within {1e3 * LEAST['rotation']:g} mrad, of drifts "
                 f"left within {1e2 * LEAST['residual']:g} %.",
                 "Runs in which rims or a wall do better than the LIR-DCFP by drift, hinge rotation or "
-                "drift left (LIR-DCFP first):",
+                "residual drift (LIR-DCFP first):",
                 losses(found, met),
                 "## What yielding changes",
                 yielding_changes(found, elastic_at),
@@ -237,7 +237,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             f"{g * middle(MOAT, 'floor'):.1f} g: damaged, and standing. Walls behind the "
             "LIR-DCFP give it the same ([below](#a-soft-wall-and-walls-behind-the-lir-dcfp)).",
             f"- **In {behind} of {all_runs} comparisons with rims or walls these do better** by drift, "
-            "hinge rotation or drift left (second table below): where the impact is slight, as the "
+            "hinge rotation or residual drift (second table below): where the impact is slight, as the "
             "corner of a moat is farther than the rims, and in the light frame where the limit of the "
             "LIR-DCFP lets hinges yield, too.",
             "- **It needs a wider gap than a building that is stopped**: displacement at demand "

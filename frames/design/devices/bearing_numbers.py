@@ -28,7 +28,7 @@ def require_rims(bearing: LIRBearing) -> None:
 
 
 def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
-    """Return a least and a largest axial force [N], or raise a CheckError."""
+    """Return a least and a maximum axial force [N], or raise a CheckError."""
     least, most = (require_positive("axial load", load, "N", error=CheckError) for load in loads)
     if least > most:
         msg = f"loads = {loads}: give the least first, then the largest [N]"
@@ -64,7 +64,7 @@ def enter_bearing(
     bounds : PropertyBounds or None
         Factors of its friction; that of the bearing alone if None.
     loads : (float, float), optional
-        Least and largest axial force [N], entered as N_min and N_max: friction that depends on
+        Least and maximum axial force [N], entered as N_min and N_max: friction that depends on
         pressure is then at its upper bound that of the least, at its lower one that of the
         largest pressure. None: that of its reference pressure.
 

@@ -169,7 +169,7 @@ def engagement_checks(
 
     Notes
     -----
-    A rim is met at ``U = L d / R``, plates parallel, no slip left.
+    A rim is met at ``U = L d / R``, plates parallel, no residual slip.
     """
     require_rims(bearing)
     require_choice("code", code, tuple(RIM_RULES), error=CheckError)

@@ -39,7 +39,7 @@ def device_checks(
     bearing : LIRBearing
         The bearing, friction nominal. A slider in two pieces, with rims.
     loads : (float, float)
-        Least and largest axial force along the slider while it works, N_min and N_max [N], > 0. At
+        Least and maximum axial force along the slider while it works, N_min and N_max [N], > 0. At
         a rim it exceeds the vertical load by ``1 / (cos(theta) - mu_h sin(theta))``.
     slip : float
         Largest interface slip that is reckoned with [m].
@@ -172,7 +172,7 @@ def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
     t("epsilon", f"max({free}, {alone}, {left}) / a", source="docs/theory.md (10.2)")
     own = limits.clause_of("eccentricity") == PROJECT_LIMIT
     t.given("epsilon_lim", limits.eccentricity, note="of the project" if own else "a proposal")
-    title, note = "resultant between the sliders", "over their radius; tips at 1"
+    title, note = "normalised eccentricity e/a at the rims", "tips at 1"
     return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
 
 

@@ -163,7 +163,7 @@ class BearingDemands:
                 f"{NO_CODE}, section 2", "slip over the overlap", of("s", most, "s_cap"), self._lir
             ),
             *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
-            *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
+            *self._worst(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
 
     def _enter_slip(self, t: Trace, k: int) -> None:
@@ -181,15 +181,15 @@ class BearingDemands:
         """Return the checks of rim force, eccentricity and pressures, where they have limits."""
         found, limits = list[Check](), self.limits
         found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
-        title = "resultant between the sliders, over their radius"
+        title = "normalised eccentricity e/a"
         found += self._against(
             title, "eccentricity", "epsilon", "eccentricity", "-", note=self._of_resultants
         )
         title = "lateral force of a bearing"
         found += self._against(title, "force", "H", "lateral_force", "N")
         name = "displacement_left"
-        found += self._against("displacement left", name, "D_left", name, "m", "mm")
-        found += self._against("largest axial force", "axial_force", "N", "axial_force", "N")
+        found += self._against("residual displacement", name, "D_left", name, "m", "mm")
+        found += self._against("maximum axial force", "axial_force", "N", "axial_force", "N")
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"

@@ -193,7 +193,7 @@ class BoundChecks:
             t.given("t_allowed", 0.0, "s")
             stopped = bool((self.data["status"].to_numpy() != "ok").any())
             judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
-            clause, title = self._clause(self.rules.force_clause), f"time lifted off by over {gap}"
+            clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             said = "; ".join(
                 part for part in (self._suite.void if stopped else "", self._small_gaps) if part
             )

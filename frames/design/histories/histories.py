@@ -161,10 +161,10 @@ def history_demands(
         A row a quantity with its unit (SI); the worst bearing, storey or level. Columns:
 
         - each bound ("value" of runs at none): mean or largest of the runs, as the code counts
-          them; of the least axial force the mean or the smallest of the runs' smallest;
+          them; of the minimum axial force the mean or the smallest of the runs' smallest;
           ``attrs["statistics"]`` says which, and of how many;
         - envelope: the largest of these, and where it is;
-        - worst: the largest of all single runs (of the least axial force the smallest), and its
+        - worst: the largest of all single runs (of the minimum axial force the smallest), and its
           run;
         - note: what the row is of, and which gaps do not count;
         - void: where more runs failed than the rules allow, which and why. The numbers of that

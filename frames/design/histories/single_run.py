@@ -130,7 +130,7 @@ def event_checks(
     -------
     Checks
         That the run is complete; for each event the worst bearing's slip over the smaller of
-        overlap and s*, and its slip left. Of a run that failed all fail.
+        overlap and s*, and its residual slip. Of a run that failed all fail.
 
     Raises
     ------
@@ -193,7 +193,7 @@ def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> C
 
 def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
     wanted = {
-        "gap": ("gap of uplift", "g", "m", "mm", limits.uplift_gap),
+        "gap": ("maximum uplift", "g", "m", "mm", limits.uplift_gap),
         "landing_force": ("force of landing", "N_land", "N", "kN", limits.axial_force),
     }
     if all(limit is None for *_, limit in wanted.values()):

@@ -54,7 +54,7 @@ class ProgrammeDemands:
     Parameters
     ----------
     loads : (float, float), optional
-        Least and largest axial force of a bearing with the earthquake [N]: of time histories or
+        Least and maximum axial force of a bearing with the earthquake [N]: of time histories or
         load combinations. None: the least and the largest of the system's combinations.
     wind : float, optional
         Lateral force of the design wind on one bearing [N].
@@ -377,7 +377,7 @@ def _of_interface(d: _Design) -> Iterable[PlannedTest]:
             load,
             3.0,
             speed,
-            "rims met, interface slips and comes back; slip left, liner and rims looked at",
+            "rims met, interface slips and comes back; residual slip, liner and rims looked at",
             PROPOSAL,
         )
     moved = min(d.result.displacement, 0.9 * rim)
