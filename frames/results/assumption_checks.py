@@ -37,7 +37,7 @@ KERN = 0.25
 """Eccentricity over slider radius up to which a circular contact is closed all over."""
 
 HOLDS = 0.8
-"""Slip over the one that holds without rims, `slip_stability`, from which a run says so."""
+"""Slip over its stable limit s* without rims, `slip_stability`, from which a run says so."""
 
 OVERLAPS = 0.9
 """The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
@@ -51,7 +51,7 @@ EDGE = 0.5
 asked for."""
 
 CONTACT = 0.33
-"""The same where rims are met, from which on the level 'contact' is asked for: of such scenes
+"""The same where rims are met, from which on the level 'contact' is asked for: of such test cases
 forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
 
 TURNED = 0.05
@@ -104,9 +104,9 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        slip that holds; of a structure with hinges one on how far they turned; one on the sum of
-        all forces, and where it applies one on nodes accelerated by more than 50 g and one on the
-        error of a step that was given.
+        stable limit of interface slip; of a structure with hinges one on how far they turned; one
+        on the sum of all forces, and where it applies one on nodes accelerated by more than 50 g
+        and one on the error of a step that was given.
 
     Notes
     -----
@@ -204,7 +204,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:
     if np.isinf(data.variables["interface_friction"].to_numpy()).all():
-        return _finding("interface", out, False, 0.0, "the sliders are in one piece")
+        return _finding("interface", out, False, 0.0, "the slider is rigid")
     share = float(largest(data, "interface_share").values.max())
     if out or share < FULL_SLIP:
         mattered = out and share >= _reached(data, "interface")
@@ -341,7 +341,7 @@ def _slip_stability(data: xr.Dataset) -> Finding:
         )
     text = "; ".join(parts) or f"the slip reached {_share(share)} of what holds without rims"
     if np.isinf(friction).all():
-        text = "the sliders are in one piece"
+        text = "the slider is rigid"
     finding = _finding("slip_stability", False, bool(parts), share, text)
     return replace(finding, doubtful=bool(parts))
 

@@ -154,7 +154,7 @@ def status_of(data: xr.Dataset) -> str:
         return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
     if data.attrs["status"] != "ok":
         return str(data.attrs["status"])
-    return "completed, audit: !" if doubts_of(data) else "completed"
+    return "completed, warning" if doubts_of(data) else "completed"
 
 
 def _cell(row: Row, value: float) -> str:

@@ -29,7 +29,7 @@ def escalate_level(
     Parameters
     ----------
     analyse : callable
-        ``analyse(features, level)`` runs the scene; its Dataset can be audited.
+        ``analyse(features, level)`` runs the test case; its Dataset can be audited.
     features : Features
         To begin with.
 

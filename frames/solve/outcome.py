@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from frames.statics.gravity import GravityState
 
 PROMISE = 1e-3
-"""Largest share of the input by which the ledger of a completed run may be open [-]."""
+"""Largest share of the input by which the energy balance of a completed run may be open [-]."""
 
 ASKED_FOR = 1e-2
 """The same for what the generalised-alpha method takes out, which is what it is chosen for; from
 `PROMISE` on a warning names the share."""
 
 LEAST_INPUT = 1e-6
-"""Input over weight and effective radius below which the ledger is measured against that [-]."""
+"""Input over weight and effective radius below which it measures the energy balance [-]."""
 
 
 TUMBLED = 0.3

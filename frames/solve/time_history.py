@@ -124,9 +124,10 @@ def time_history(
         Record every so many base steps: ``Recording(every=record_every)``.
     recording : Recording, optional
         What is recorded: steps, variables, bearings, nodes, windows around impacts, extremes;
-        everything if None. Not together with `record_every`. The audit, `peaks` and the ledger of
-        energy see all base steps, whatever is recorded. At the level "rigid_body" memory is taken
-        for all of them while it runs, and with `every` alone only the recorded ones are seen.
+        everything if None. Not together with `record_every`. The audit, `peaks` and the energy
+        balance of energy see all base steps, whatever is recorded. At the level "rigid_body" memory
+        is taken for all of them while it runs, and with `every` alone only the recorded ones are
+        seen.
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
@@ -140,10 +141,10 @@ def time_history(
     -------
     xarray.Dataset
         See docs/results.md. Attributes hold status, message, versions, options, timings and the
-        audit: for each feature left out whether it mattered, with a number. A run whose ledger of
-        energy is open by more than 0.1 % of the input has the status "inaccurate" and warns;
-        what "generalised-alpha" takes out may reach 1 %, and is named by a warning from 0.1 % on.
-        An AuditWarning tells of a completed run in whose audit a line begins with "!".
+        audit: for each feature left out whether it mattered, with a number. A run whose energy
+        balance of energy is open by more than 0.1 % of the input has the status "inaccurate" and
+        warns; what "generalised-alpha" takes out may reach 1 %, and is named by a warning from 0.1
+        % on. An AuditWarning tells of a completed run in whose audit a line begins with "!".
 
     Raises
     ------

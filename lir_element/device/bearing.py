@@ -181,7 +181,7 @@ class LIRBearing(Specification):
             ("pendulum period", f"{self.period:.3g}", "s"),
             ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
             ("characteristic strength ratio Q/W", f"{self.effective_friction:.4g}", "-"),
-            ("slip that holds", f"{self.slip_stability:.4g}", "m"),
+            ("stable limit of interface slip", f"{self.slip_stability:.4g}", "m"),
         ]
         for f in fields(self):
             value, note = getattr(self, f.name), ""
@@ -209,7 +209,7 @@ class LIRBearing(Specification):
         Returns
         -------
         float
-            Lateral force [N]; infinite without rims, with the slider in one piece, or where tilt
+            Lateral force [N]; infinite without rims, with the rigid slider, or where tilt
             and friction angle reach 90 degrees together.
         """
         require_positive("axial_load", axial_load, "N")
@@ -220,7 +220,7 @@ class LIRBearing(Specification):
         return axial_load * math.tan(angle) if angle < 0.5 * math.pi else math.inf
 
     def as_dcfp(self, *, rims: bool = True) -> LIRBearing:
-        """Return the same bearing with its slider in one piece, with or without its rims."""
+        """Return the same bearing with its rigid slider, with or without its rims."""
         if rims:
             return replace(self, interface_friction=math.inf)
         return replace(self, interface_friction=math.inf, capacity=math.inf, rims=None)

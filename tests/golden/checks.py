@@ -212,7 +212,7 @@ def slips_before(f):
 
 
 def resultant(f):
-    """Offset of the resultant between the sliders: rims free, then each alone."""
+    """Offset of the resultant between the sliders: no restrainer contact, then each alone."""
     b, w, s = f.p.bearing, f.whole, f.p.tests.slip
     levers = b.R[0] - b.low, b.R[1] - (b.h - b.low)
     free = levers[0] * (s / b.L + w.share) - b.R[0] * w.fast
@@ -264,7 +264,7 @@ RULES = {
     "runs that failed": lambda f: (f.suite.failed.sum(), 0.0),
     "isolator displacement": displacement,
     "slip over the overlap": lambda f: f.worst(f.slips(), f.d.b.overlap),
-    "slip over the one that holds": lambda f: f.worst(f.slips(), f.d.holds),
+    "slip over its stable limit s*": lambda f: f.worst(f.slips(), f.d.holds),
     "residual slip": lambda f: f.worst(
         f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)
     ),
@@ -285,7 +285,7 @@ RULES = {
     "storey drift ratio": drift,
     "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
     "interface holds until a rim is met": holds,
-    "slip that holds": lambda f: (f.p.tests.slip, f.whole.holds),
+    "stable limit of interface slip": lambda f: (f.p.tests.slip, f.whole.holds),
     "interface slips before the rim breaks": slips_before,
     "normalised eccentricity e/a at the rims": resultant,
     "recentring, energy": recentring_energy,
@@ -308,7 +308,7 @@ OF_RUN = {
 
 OF_BEARING = {
     "interface holds until a rim is met",
-    "slip that holds",
+    "stable limit of interface slip",
     "interface slips before the rim breaks",
     "normalised eccentricity e/a at the rims",
     "lateral force that the bearing passes on",

@@ -274,7 +274,7 @@ def above_of(project):
     height, levels = statics["node_position"][:, 2], statics["level_height"]
     nearest = np.abs(height[:, None] - levels).argmin(axis=1)
     mass = np.array([statics["node_mass"][nearest == k, 0].sum() for k in range(len(levels))])
-    facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has bearings held
+    facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has a fixed base
     period = facts["fixed_base_period"]
     return {
         "W_s": G * mass[1:].sum(),

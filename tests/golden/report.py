@@ -107,7 +107,7 @@ def _model(project, head, rows, tally):
     period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
     tally.printed("tables of the report", "pendulum", found["period on the bearings"], period)
     held = [float(row["period, held [s]"]) for row in project.table("modes")][:3]
-    for text, value in zip(found["periods, bearings held"].split(","), held, strict=False):
+    for text, value in zip(found["periods, fixed base"].split(","), held, strict=False):
         tally.printed("tables of the report", "held", text.strip(), value)
 
 
@@ -134,7 +134,7 @@ def _device(project, head, rows, tally):
         "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
         "lateral capacity": b.capacity,
         "characteristic strength ratio Q/W": b.share(b.fast),
-        "slip that holds": b.L * b.inner - b.fast * b.R.sum(),
+        "stable limit of interface slip": b.L * b.inner - b.fast * b.R.sum(),
         "slider_height": b.h,
         "slider_radius": b.a,
         "interface_friction": b.inner,
@@ -313,7 +313,7 @@ def _limit(project, row):
     if e is None:
         return None
     s = e["system"]
-    if title == "rims free at the total displacement":
+    if title == "no restrainer contact at the total displacement":
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
         ), project.bearing.capacity

@@ -249,7 +249,7 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
         assert data["motion"].to_numpy().tolist() == ["pulse 1", "pulse 1.4"]
         assert float(data["reached_displacement"][0, 0]) == float(alone["reached_displacement"][0])
     checks = history_checks(runs, frame, "NCh2745", bounds=BOUNDS, action_level="maximum")
-    limits = {c.bound: c.limit for c in checks if c.title == "slip over the one that holds"}
+    limits = {c.bound: c.limit for c in checks if c.title == "slip over its stable limit s*"}
     for bound, factor in {"lower": 0.8, "nominal": 1.0, "upper": 1.2}.items():
         held = factor * frame.bearings["bearing"].bearing.slip_stability
         assert limits[bound] == pytest.approx(held, rel=1e-12)
@@ -320,7 +320,7 @@ def test_the_slip_that_holds_goes_by_the_pressure_of_the_runs(bearing: LIRBearin
     )
     least = -float(data["reached_axial_tension"].max())
     assert 0.0 < least < 0.8 * 180e3 * 9.80665
-    check = one(history_checks(data, model, "ASCE 7-22"), "slip over the one that holds")
+    check = one(history_checks(data, model, "ASCE 7-22"), "slip over its stable limit s*")
     factor = math.exp(-8e-9 * (least / (math.pi * 0.15**2) - 8e6))
     whole = own.effective_radius * 0.2 - factor * 0.065 * 2.0 * 1.185
     assert check.limit == pytest.approx(whole, rel=1e-9)

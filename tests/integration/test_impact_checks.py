@@ -211,7 +211,7 @@ def test_the_force_at_which_a_rim_broke_is_in_the_peaks() -> None:
 
 
 def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Frame) -> None:
-    title = "runs in which what was left out mattered"
+    title = "runs whose modelling assumptions are violated"
     for size, passed in ((0.5, True), (1.5, False)):
         out = Features.all().without("rims")
         data = quietly(time_history, frame, pulse(size), features=out)
@@ -315,6 +315,6 @@ def test_resultant_offsets_say_what_pressed() -> None:
 def test_eccentricity_check_says_what_its_level_can_say() -> None:
     frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
     data = quietly(time_history, frame, pulse(1.0))
-    (check,) = (c for c in impact_checks(data, frame) if c.title.startswith("resultant"))
+    (check,) = (c for c in impact_checks(data, frame) if c.title.startswith("normalised ecc"))
     assert "N > 0.05 of that at rest" in check.note
     assert "level 'contact'" in check.note

@@ -353,7 +353,7 @@ def test_scope_of_checks_and_their_table() -> None:
     load = "pressure on the slider"
     assert titles["demand"] == {"storey drift", f"{load}, maximum", f"{load}, minimum"}
     assert {c.title for c in asce if c.scope == "procedure"} == {
-        "rims free at the total displacement",
+        "no restrainer contact at the total displacement",
         "effective period",
         "effective damping",
         "effective stiffness ratio, D_M to 0.2 D_M",
@@ -680,5 +680,5 @@ def test_axial_loads_of_nch2745_are_those_of_the_maximum_level() -> None:
     assert shear > 1.05 * t.value("V_b")
     levels = {c.title: c.level for c in result.checks}
     assert levels["pressure on the slider, maximum"] == levels["no uplift, minimum"] == "maximum"
-    assert levels["rims free at the total displacement"] == "maximum"
+    assert levels["no restrainer contact at the total displacement"] == "maximum"
     assert levels["storey drift"] == levels["restoring force"] == "design"

@@ -192,7 +192,7 @@ class Outcome:
     frame: Frame
     notes: tuple[str, ...]
     fixed: FloatArray
-    """Periods in `frames` with the bearings held [s]."""
+    """Periods in `frames` on a fixed base [s]."""
     sticking: tuple[FloatArray, FloatArray]
     """Periods on sticking bearings in OpenSees and in `frames` [s]."""
     there: list[Motions]
@@ -339,7 +339,7 @@ def page(found: Sequence[Outcome]) -> str:
         "the present stiffness costs the square of their number a step. Plain Newton's method of "
         "OpenSees factorises the whole model several times a step.",
         table(
-            ("model", "axial forces differ by", "ledger, error / input", "OpenSees [ms]",
+            ("model", "axial forces differ by", "energy balance, error / input", "OpenSees [ms]",
              "frames [ms]"),
             costs,
         ),

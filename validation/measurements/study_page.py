@@ -110,7 +110,7 @@ def _definitions() -> str:
         (
             "collapse",
             f"ductility {ULTIMATE:g} (an assumption; the hinges do not degrade), or "
-            "failure of a bearing: slip beyond the overlap, or a rim overrun",
+            "failure of a bearing: slip beyond the overlap, or a restrainer failure",
         ),
         ("failure of a bearing", "exceeds every limit state (docs/fragility.md)"),
         (

@@ -172,7 +172,7 @@ def lenient_parts(source: Path, folder: Path) -> ProjectInputs:
 def device_numbers(
     parts: ProjectInputs, known: Preliminary, *, rims: bool
 ) -> dict[str, dict[str, float]]:
-    """Return what the histories of a project ask of sliders in one piece, by bound."""
+    """Return what the histories of a project ask of rigid sliders, by bound."""
     plain = {n: link.bearing.as_dcfp(rims=rims) for n, link in known.frame.bearings.items()}
     runs = bounded_histories(
         known.frame.with_bearings(plain),

@@ -224,7 +224,7 @@ def capacity_check(
         shown="mm",
         note="displacement at the first rim contact",
     )
-    title = "rims free at the total displacement"
+    title = "no restrainer contact at the total displacement"
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:

@@ -102,7 +102,7 @@ def enter_bearing(
         "m",
         shown="mm",
         source=source,
-        note="slip that holds",
+        note="stable limit of interface slip",
     )
     note = "slip at which the sliders' overlap ends"
     t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)

@@ -81,7 +81,8 @@ def device_checks(
     ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
     >>> checks = device_checks(bearing, (100e3, 150e3), slip=0.02)
     >>> print(checks[2])
-    slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
+    stable limit of interface slip: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md
+    (2.7)]
     """
     limits = DesignLimits() if limits is None else limits
     t = enter_bearing(bearing, bounds, ordered_loads(loads))
@@ -129,7 +130,9 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
 
 def _stable(judge: CheckBuilder) -> Check:
     note = "low friction at its upper bound, the interface's at its lower"
-    return judge(f"{NO_CODE} (2.7)", "slip that holds", "s", "<=", "s_star", note=note)
+    return judge(
+        f"{NO_CODE} (2.7)", "stable limit of interface slip", "s", "<=", "s_star", note=note
+    )
 
 
 def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> list[Check]:
@@ -162,9 +165,16 @@ def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> lis
 
 
 def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
-    # Of the resultant in the interface from both sliders' axes, (10.2): rims free, then each alone.
+    # Of the resultant in the interface from both sliders' axes, (10.2): no restrainer contact, then
+    # each alone.
     t = judge.t
-    t("e_1", "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U", "m", shown="mm", note="rims free")
+    t(
+        "e_1",
+        "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U",
+        "m",
+        shown="mm",
+        note="no restrainer contact",
+    )
     t("e_2", "(R_2 - h_2) * mu_h_U - mu_2_L * R_2", "m", shown="mm", note="bottom rim alone")
     t("e_3", "(R_1 - h_1) * mu_h_U - mu_1_L * R_1", "m", shown="mm", note="top rim alone")
     free, alone = "abs(e_1), abs(e_1 - s)", "abs(e_2 - s), abs(e_3 - s)"

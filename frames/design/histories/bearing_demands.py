@@ -140,7 +140,7 @@ class BearingDemands:
         return self._worst(clause, "isolator displacement", fill, places, standing)
 
     def slips(self) -> list[Check]:
-        """Return the checks of slip over overlap, over the slip that holds, and of what is left."""
+        """Return the checks of slip over the overlap and its stable limit, and of residual slip."""
         most, left = peaks_of_runs(self.data, "slip"), peaks_of_runs(self.data, "slip_left")
 
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
@@ -162,7 +162,9 @@ class BearingDemands:
             *self._worst(
                 f"{NO_CODE}, section 2", "slip over the overlap", of("s", most, "s_cap"), self._lir
             ),
-            *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
+            *self._worst(
+                holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir
+            ),
             *self._worst(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
 

@@ -104,7 +104,8 @@ def history_checks(
     code : {"ASCE 7-22", "EN 1998-1", "NCh2745"} or HistoryRules
         The code, or its rules with other factors.
     bounds : PropertyBounds, optional
-        Factors that the runs at a bound were made with: the slip that holds goes by them.
+        Factors that the runs at a bound were made with: the stable limit of interface slip goes by
+        them.
     limits : DesignLimits, optional
         What bearings and structure may be asked for; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional

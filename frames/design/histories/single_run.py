@@ -142,13 +142,16 @@ def event_checks(
     found, devices = [_complete(data, bound)], devices_of(data, frame)
     for event, rows in slips_of_events(data, ends).groupby("event"):
         left = "s_star" if limits.slip_left is None else "s_allowed"
-        for column, symbol, limit in (("slip", "s", "s_lim"), ("slip_left", "s_left", left)):
+        for column, symbol, limit, what in (
+            ("slip", "s", "s_lim", "slip"),
+            ("slip_left", "s_left", left, "residual slip"),
+        ):
             each = {
                 name: _slip_of(devices[name], symbol, value, limit, limits)
                 for name, value in zip(rows["bearing"], rows[column], strict=True)
                 if not devices[name].is_dcfp
             }
-            title = f"{column.replace('_', ' ')}, event {event}"
+            title = f"{what}, event {event}"
             found += Governing(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
     return Checks(replace(check, void=void) for check in found)
 

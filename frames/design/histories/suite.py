@@ -304,5 +304,8 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
     t = Trace()
     t.given("n_spoilt", float(sum(" left out: " in d for d in doubts)), note="by their audits")
     t.given("n_allowed", 0.0)
-    judge, title = CheckBuilder(t, bound, CONFIRMED), "runs in which what was left out mattered"
+    judge, title = (
+        CheckBuilder(t, bound, CONFIRMED),
+        "runs whose modelling assumptions are violated",
+    )
     return [judge("no code: audit", title, "n_spoilt", "<=", "n_allowed", note=features)]

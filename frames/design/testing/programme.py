@@ -28,7 +28,7 @@ PROPOSAL = "no code: a proposal"
 """Clause of tests that no code has."""
 
 _ALIKE = 1e-6  # of displacements at two bounds
-_LEAST_SLIP = 0.25  # of the slip that holds: tested though runs slip less
+_LEAST_SLIP = 0.25  # of the stable limit of interface slip: tested though runs slip less
 _STEPS = (0.25, 0.50, 0.67, 1.00)
 _TESTS = {"ASCE 7-22": "ASCE 7-22 17.8.2.2", "EN 1998": "EN 15129 8.3.4", "NCh2745": "NCh2745 14"}
 
@@ -62,7 +62,7 @@ class ProgrammeDemands:
         Displacement without an earthquake, of temperature for instance [m].
     slip : float, optional
         Interface slip of time histories [m]. What the design displacement with torsion is beyond
-        the rims, and a quarter of the slip that holds, are tested at least.
+        the rims, and a quarter of the stable limit of interface slip, are tested at least.
     impact_speed : float, optional
         Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
         displacement with torsion; its largest, where that does not reach a rim.

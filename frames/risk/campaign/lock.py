@@ -21,7 +21,7 @@ _BYTE = 1 << 30  # that Windows locks: far behind the text, which others may rea
 
 @contextmanager
 def locked(path: Path) -> Generator[None, None, None]:
-    """Hold a lock file; that of a process that has died is taken over.
+    """Hold a lock file; that of a process that has died is seized.
 
     Parameters
     ----------

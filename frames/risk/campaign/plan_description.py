@@ -1,4 +1,4 @@
-"""What a store is planned with: all that must be the same for it to be gone on with."""
+"""What a store is planned with: all that must be the same for it to be resumed."""
 
 from __future__ import annotations
 
