@@ -69,7 +69,7 @@ ATTRIBUTES = {
     "energy_error": "largest gap of the energy balance over the largest input [-]",
     "numerical_share": "largest work that the time integration leaves over, over the largest input "
     "[-]",
-    "audit": 'lines of the audit; "!" begins those that ask to be looked at',
+    "audit": 'lines of the assumption check; "!" begins those that ask to be looked at',
     "auto_runs": 'a line for each run of `level="auto"`; only of those',
     "recording": 'what is recorded, in words; "every step" where it is everything',
     "method": "method of the analysis",

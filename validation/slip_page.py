@@ -244,7 +244,7 @@ def page(
             table(_ENDS, [_end(entry) for entry in ends]) if ends else "None.",
             "",
             "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
-            "of slip decide; an axial force that rings lets go some per cent earlier. The audit marks "
+            "of slip decide; an axial force that rings lets go some per cent earlier. The assumption check marks "
             "80 % of the one and 90 % of the other.",
             "",
             *by_step(met),

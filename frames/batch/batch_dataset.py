@@ -62,7 +62,7 @@ class RunResult(NamedTuple):
 
 
 def layout_of(judged: xr.Dataset) -> Layout:
-    """Return the layout of what the audit reads of a run."""
+    """Return the layout of what the assumption check reads of a run."""
     names = tuple(
         str(name)
         for name, variable in judged.variables.items()
@@ -146,10 +146,16 @@ def _of_runs(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
             ("run",), _texts(row.failed_where for row in rows), "", "bearing or degree of freedom"
         ),
         "audit": labelled(
-            ("run",), _texts(row.audit for row in rows), "", "audit of the run, a line a finding"
+            ("run",),
+            _texts(row.audit for row in rows),
+            "",
+            "assumption check of the run, a line a finding",
         ),
         "doubts": labelled(
-            ("run",), _texts(row.doubts for row in rows), "", 'lines that the audit marks with "!"'
+            ("run",),
+            _texts(row.doubts for row in rows),
+            "",
+            'lines that the assumption check marks with "!"',
         ),
     }
     for name, (unit, meaning) in NUMBERS.items():

@@ -1,4 +1,4 @@
-"""The audit of a run: whether what was left out mattered, and what was modelled was needed.
+"""The check of modelling assumptions: whether what a run left out mattered, what it had was needed.
 
 It reads the Dataset alone: what a run left out is judged by what the run itself reached.
 """
@@ -63,7 +63,7 @@ _ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the audit found on one feature.
+    """What the assumption check found on one feature.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def audit_report(data: xr.Dataset) -> str:
-    """Return the audit of a time history as text, a line a finding.
+    """Return the assumption check of a time history as text, a line a finding.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def report_of(findings: tuple[Finding, ...]) -> str:
 
 
 def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what the audit of a result marks with "!", a sentence each.
+    """Return what the assumption check of a result marks with "!", a sentence each.
 
     Parameters
     ----------
@@ -285,7 +285,9 @@ def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _full_contact(data: xr.Dataset) -> Finding:
-    share = float(largest(data, "eccentricity").values.max())
+    offsets = largest(data, "eccentricity").values
+    where = data.variables["bearing"].to_numpy()[int(np.argmax(offsets))]
+    share = float(offsets.max())
     if share <= KERN:
         verdict = "full contact holds"
     elif share <= EDGE:
@@ -293,7 +295,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
     met = bool(largest(data, "rims_met").values.any())
-    text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
+    text = f"e/a = {share:.2f} in {where}: {verdict}"
     has_spin = "slider_spin" in data or "reached_spin" in data
     spin = float(largest(data, "spin").values.max()) if has_spin else 0.0
     if spin > SPUN:
@@ -301,7 +303,10 @@ def _full_contact(data: xr.Dataset) -> Finding:
     asked = share > (CONTACT if met else EDGE) or spin > SPUN
     at_pendulum = str(data.attrs["level"]) == "pendulum"
     if asked and at_pendulum:
-        text += ", see the level 'contact'"
+        head = f"full contact is violated ({text})" if share > KERN else f"full contact: {text}"
+        text = f'{head}; rerun with level="contact"'
+    else:
+        text = f"full contact: {text}"
     return Finding(
         feature="full_contact",
         left_out=at_pendulum,

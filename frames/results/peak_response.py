@@ -1,8 +1,9 @@
 """What a time history reached: largest values of derived histories, their times, a few totals.
 
-The audit, the judgement of the energy and the table of peaks rest on these numbers alone. A result
-with all steps has them in its histories. A recording that leaves steps out takes them up while the
-run goes on, at every base step, and keeps them as variables ``reached_...``: so both give the same.
+The assumption check, the judgement of the energy and the table of peaks rest on these numbers
+alone. A result with all steps has them in its histories. A recording that leaves steps out takes
+them up while the run goes on, at every base step, and keeps them as variables ``reached_...``: so
+both give the same.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray
 
 PRESSED = 0.05
-"""Axial force over the static one below which the audit leaves eccentricities to uplift."""
+"""Axial force over the static one below which the check leaves eccentricities to uplift."""
 
 FULL_SLIP = 1.0 - 1e-9
 """Share of what the interface's friction holds from which on it counts as slipping."""

@@ -85,7 +85,7 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row for each quantity of `peaks` with its unit, and one each for the status and for what
-        the audit marks; a column for each system.
+        the assumption check marks; a column for each system.
 
     Raises
     ------

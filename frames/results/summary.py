@@ -109,7 +109,7 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
     failed = {n: d.attrs["message"] for n, d in results.items() if "failed_at" in d.attrs}
     lines += [f"{name} stopped {message}" for name, message in failed.items()]
     for name, data in results.items():
-        lines += [f"{name}: look at: {doubt}" for doubt in doubts_of(data)]
+        lines += [f"{name}: warning: {doubt}" for doubt in doubts_of(data)]
     return "\n".join(lines)
 
 
@@ -149,7 +149,7 @@ def group_of(name: str) -> str:
 
 
 def status_of(data: xr.Dataset) -> str:
-    """Return "completed", with a mark where the audit has one, or how and when a run stopped."""
+    """Return "completed", with a mark where the check has one, or how and when a run stopped."""
     if "failed_at" in data.attrs:
         return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
     if data.attrs["status"] != "ok":

@@ -47,7 +47,7 @@ def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
     ----------
     data : xarray.Dataset
         Of the run, complete but for its status. Gets the attributes `energy_error` and
-        `numerical_share` [-], and a line in its audit where they are too large.
+        `numerical_share` [-], and a line in its assumption check where they are too large.
 
     Returns
     -------
@@ -107,14 +107,14 @@ def _tumbled(data: xr.Dataset) -> str:
 
 
 def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
-    """Audit a run and judge it.
+    """Check the assumptions of a run and judge it.
 
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of the run. Gets the attribute `audit`, those of `evaluated`, and,
-        where a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
-        ``exceeded_at`` and ``exceeded_bearing``.
+        What the assumption check reads of the run. Gets the attribute `audit`, those of
+        `evaluated`, and, where a bearing passed a limit at the last step tried, ``exceeded``,
+        ``exceeded_value``, ``exceeded_at`` and ``exceeded_bearing``.
     state : GravityState
         The state it left.
     end : tuple

@@ -89,7 +89,7 @@ class ModelCheck:
         parts = [self.name, text_table(self._totals(), left=2)]
         if self.bearings:
             parts.append(text_table(self._rows(), _HEAD))
-        parts += [f"look at: {note}" for note in self._notes()]
+        parts += [f"warning: {note}" for note in self._notes()]
         return "\n".join(parts)
 
     __repr__ = __str__

@@ -97,8 +97,9 @@ class LIRBearing(Specification):
     yield_displacement, interface_yield_displacement : float
         Elastic sliding before slip, on a concave surface and in the interface [m].
     friction_law : {"elastic-plastic", "bouc-wen"}
-        Regularisation of friction. Bouc-Wen creeps under small vibration about a biased force,
-        the more the larger the yield displacement (docs/theory.md); it is there for comparison.
+        Regularisation of friction. Bouc-Wen models ratchet under small vibration about a biased
+        force, the more the larger the yield displacement (docs/theory.md); it is there for
+        comparison.
     bouc_wen_exponent : float
         Exponent of that law [-], at least 1.
     torsional_friction : bool

@@ -172,7 +172,7 @@ def stand(request: pytest.FixtureRequest) -> Iterator[Stand]:
     pytest.importorskip("openseespy")
     ops = opensees()
     if request.param == "fast" and why_not_fast():
-        pytest.skip(f"the fast route is not possible: {why_not_fast()}")
+        pytest.skip(f"the in-process coupling is not possible: {why_not_fast()}")
     ops.wipe()
     yield Stand(ops, request.param)
     ops.wipe()

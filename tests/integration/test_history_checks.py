@@ -155,7 +155,7 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
         assert [c.title for c in checks if c.passed] == ["number of motions"]
         failed = one(checks, "runs that failed")
         assert "pulse 4: slip_exceeded at" in failed.note
-        assert "audit of pulse" in failed.note
+        assert "assumption check of pulse" in failed.note
         reason = "1 of 7 runs failed (pulse 4: slip_exceeded"
         for check in checks.failed[1:]:
             assert math.isfinite(check.demand)

@@ -2,7 +2,7 @@
 
     LIR_RECORDS=<folder of records> python -m validation.measurements.features
 
-Runs of one test case take turns; processor time, gravity and audit included. The fastest of each
+Runs of one test case take turns; processor time, gravity and assumption check included. The fastest of each
 counts: a busy machine only adds time.
 """
 
@@ -144,8 +144,8 @@ def write() -> str:
         "## Each feature left out",
         "",
         "'Unknowns' are the bearings' degrees of freedom over which Newton's method runs; 'time' "
-        "is the processor's, gravity and audit included, over that with nothing left out; 'peak' "
-        "the change of the peak lateral displacement. The last column repeats what the audit of "
+        "is the processor's, gravity and assumption check included, over that with nothing left out; 'peak' "
+        "the change of the peak lateral displacement. The last column repeats what the assumption check of "
         "that run says.",
     ]
     all_scenes = scenes()
@@ -154,7 +154,7 @@ def write() -> str:
             "",
             f"**{scene.title}**",
             "",
-            "| left out | unknowns | steps | iterations | seconds | time | peak | audit |",
+            "| left out | unknowns | steps | iterations | seconds | time | peak | assumption check |",
             "|---|---|---|---|---|---|---|---|",
             *feature_rows(scene),
         ]
@@ -162,7 +162,7 @@ def write() -> str:
         "",
         "## Where `auto` should begin",
         "",
-        "Time of all runs until nothing left out mattered, gravity and audits included, over that "
+        "Time of all runs until nothing left out mattered, gravity and assumption checks included, over that "
         "of beginning with everything; in brackets the number of runs.",
         "",
         "| test case | " + " | ".join(STARTS) + " |",

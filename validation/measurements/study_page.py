@@ -362,7 +362,7 @@ def _cost(found: Found) -> str:
         f"{cost['runs']} histories, {cost['computed']} of them in this call: "
         f"{cost['clock']:.0f} s of clock, {cost['cpu']:.0f} s of processor time with "
         f"{cost['workers']} workers (compilation is cached), {cost['memory']:.0f} MB of memory at "
-        f"most. The time loop takes: {loops}. Digest of the store: `{cost['digest']}`."
+        f"most. The time loop takes: {loops}. Digest of the results database: `{cost['digest']}`."
     )
 
 

@@ -132,7 +132,11 @@ class BoundChecks:
     def _note(self) -> str:
         # With each check: why there is no value, or that there is more to read.
         marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
-        more = f"audits of {marked} runs mark something: see the check of runs" if marked else ""
+        more = (
+            f"assumption checks of {marked} runs mark something: see the check of runs"
+            if marked
+            else ""
+        )
         return "; ".join(part for part in (self._suite.reason, more) if part)
 
     @property

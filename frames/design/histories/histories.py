@@ -123,7 +123,8 @@ def history_checks(
         displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and
         what `limits` asks for. Where more runs failed than the rules allow, no value is formed of
         the others: each check that needs it fails (`Check.void`), its demand is what the runs
-        reached, and its note names those that failed. Notes also tell what the runs' audits mark.
+        reached, and its note names those that failed. Notes also tell what the runs' assumption
+        checks mark.
 
     Raises
     ------

@@ -160,7 +160,7 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     t = Trace()
     t.given("n_failed", float(str(data.attrs["status"]) != "ok"), note="runs that failed")
     t.given("n_allowed", 0.0)
-    said = (f"audit: {doubt}" for doubt in doubts_of(data))
+    said = (f"assumption check: {doubt}" for doubt in doubts_of(data))
     note = "; ".join((str(data.attrs["message"]), *said))
     judge = CheckBuilder(t, bound, CONFIRMED)
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)

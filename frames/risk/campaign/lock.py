@@ -1,4 +1,4 @@
-"""One campaign at a time on a store: a lock that the system lets go of when its process ends."""
+"""One campaign at a time on a database: a lock that the system lets go of when its process ends."""
 
 from __future__ import annotations
 
