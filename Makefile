@@ -31,16 +31,16 @@ nightly: $(READY)  ## what takes minutes of compiling
 kernels: $(READY)  ## compile the kernels of usual analyses, once
 	$(RUN) -m frames.precompile
 
-wheel: $(READY)  ## a wheel that brings its kernels along, for this Python and platform
-	$(RUN) -m pip install --quiet build
-	LIR_BUILD_KERNELS=1 $(RUN) -m build --wheel
-
 lint: $(READY)  ## ruff: rules and format
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 
 types: $(READY)  ## mypy, strict, on both packages
 	$(RUN) -m mypy
+
+wheel: $(READY)  ## build a wheel that brings its compiled kernels along, into dist
+	$(RUN) -m pip install --disable-pip-version-check --quiet build
+	LIR_BUILD_KERNELS=1 $(RUN) -m build --wheel
 
 clean:  ## remove caches, builds and the virtual environment
 	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo

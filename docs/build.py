@@ -66,10 +66,10 @@ ATTRIBUTES = {
     "features_left_out": 'names of the features left out, or "none"',
     "plane_coupling": "displacement along y over that along x of a push along x, where the second "
     "direction is left out [-]; else 0",
-    "energy_error": "largest gap of the ledger of energy over the largest input [-]",
+    "energy_error": "largest gap of the energy balance over the largest input [-]",
     "numerical_share": "largest work that the time integration leaves over, over the largest input "
     "[-]",
-    "audit": 'lines of the audit; "!" begins those that ask to be looked at',
+    "audit": 'lines of the assumption check; "!" begins those that ask to be looked at',
     "auto_runs": 'a line for each run of `level="auto"`; only of those',
     "recording": 'what is recorded, in words; "every step" where it is everything',
     "method": "method of the analysis",
@@ -281,7 +281,7 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
             code("energy_error(data)"),
             "-",
             "1",
-            "largest gap of the energy ledger over the largest input",
+            "largest gap of the energy balance over the largest input",
         ],
         [code("envelope(values)"), "without time", "-", "extremes of a history, and their times"],
         [
@@ -390,10 +390,11 @@ def generated() -> str:
 def demo_table() -> str:
     """Return the table that the demo prints, without the time of computation."""
     motion = demo.pacoima(demo.DEFAULT_SCALE)
+    options = {"level": demo.LEVEL, "duration": demo.DURATION}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AuditWarning)  # the table tells
         results = {
-            name: time_history(moment_frame(bearing=bearings, name=name), motion)
+            name: time_history(moment_frame(bearing=bearings, name=name), motion, **options)
             for name, bearings in demo.systems_of(demo.design()).items()
         }
     lines = [line for line in table_of(results).splitlines() if not line.startswith("run time")]

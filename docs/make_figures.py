@@ -9,6 +9,9 @@ bodies fit one picture; everything in it is to that scale. The figure of the dem
 
 from __future__ import annotations
 
+import contextlib
+import shutil
+import tempfile
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -48,38 +51,43 @@ def static_test_bearing() -> LIRBearing:
 
 
 def hysteresis() -> Figure:
-    """Draw the static cyclic test: a plain DCFP without rims, and the LIR-DCFP on its rims."""
+    """Draw the static cyclic test: DCFP without rims, DCFP on its rims, LIR-DCFP on its rims."""
     device = static_test_bearing()
     corners = [0.0, 0.185, -0.185, 0.185, -0.185, 0.0]
     parts = [np.linspace(a, b, 301)[1:] for a, b in pairwise(corners)]
     path = np.concatenate(parts)
     cases = (
-        ("plain DCFP, no rim contact", device.as_dcfp(rims=False), GREY),
-        ("LIR-DCFP, rim contact and interface slip", device, BLUE),
+        ("DCFP, no restraining rims", device.as_dcfp(rims=False), GREY),
+        ("DCFP, rim contact", device.as_dcfp(), RED),
+        ("LIR-DCFP, rim contact", device, BLUE),
     )
-    figure = Figure(figsize=(7.2, 2.9), layout="constrained")
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    figure = Figure(figsize=(8.4, 2.9), layout="constrained")
+    panels = figure.subplots(1, 3, sharex=True, sharey=True)
+    peaks = []
     for panel, (title, bearing, colour) in zip(panels, cases, strict=True):
-        data = cyclic_test(bearing, path, LOAD).sel(axis="x", bearing="bearing")
-        u, force = data["bearing_displacement"].to_numpy(), data["bearing_force"].to_numpy()
-        panel.plot(1e3 * u, force / LOAD, color=colour, linewidth=1.4)
+        data = cyclic_test(bearing, path, LOAD, level="contact").sel(axis="x", bearing="bearing")
+        u, force = data["bearing_displacement"].to_numpy(), data["bearing_force"].to_numpy() / LOAD
+        panel.plot(1e3 * u, force, color=colour, linewidth=1.4)
         panel.set_title(title, fontsize=SIZE, loc="left")
         panel.set_xlabel("displacement [mm]")
         panel.grid(color="#E5E5E5", linewidth=0.6)
         panel.spines[["top", "right"]].set_visible(False)
         panel.set_axisbelow(True)
+        peaks.append(np.abs(force).max())
     panels[0].set_ylabel("lateral force / axial load [-]")
+    panels[0].set_ylim(-0.42, 0.42)
     limit = device.force_limit(LOAD) / LOAD
     for sign in (1.0, -1.0):
-        panels[1].axhline(sign * limit, color=RED, linewidth=0.8, linestyle="--")
-    panels[1].text(-190.0, limit + 0.012, FORCE_LIMIT, color=RED, fontsize=8.5, va="bottom")
-    panels[1].set_ylim(-0.31, 0.31)
+        panels[2].axhline(sign * limit, color=RED, linewidth=0.8, linestyle="--")
+    panels[2].text(-190.0, limit + 0.012, FORCE_LIMIT, color=RED, fontsize=8.5, va="bottom")
     notes = (
-        ("1st slip: +175 mm", (175.0, 0.205), (60.0, 0.225), "right"),
-        ("2nd slip: −165 mm", (-165.0, -0.205), (-60.0, -0.225), "left"),
+        (panels[1], f"to {peaks[1]:.1f}", (174.0, 0.42), (90.0, 0.36), "right"),
+        (panels[1], f"to −{peaks[1]:.1f}", (-174.0, -0.42), (-90.0, -0.36), "left"),
+        (panels[2], "1st slip: +175 mm", (175.0, 0.205), (60.0, 0.225), "right"),
+        (panels[2], "2nd slip: −165 mm", (-165.0, -0.205), (-60.0, -0.225), "left"),
     )
-    for text, point, place, side in notes:
-        panels[1].annotate(
+    for panel, text, point, place, side in notes:
+        panel.annotate(
             text,
             point,
             place,
@@ -285,8 +293,18 @@ def _forces(
 def demo_sections() -> Figure:
     """Draw the sections of the demo's most displaced LIR-DCFP bearing."""
     frame = moment_frame(bearing=demo.design(), name=demo.LIR)
-    data = time_history(frame, demo.pacoima(demo.DEFAULT_SCALE))
+    motion = demo.pacoima(demo.DEFAULT_SCALE)
+    data = time_history(frame, motion, level=demo.LEVEL, duration=demo.DURATION)
     return bearing_sections(data, worst_bearing(data))
+
+
+def example() -> None:
+    """Run the example of README.md, which draws `docs/figures/example.png`."""
+    text = (DOCS.parent / "README.md").read_text(encoding="utf-8")
+    code = text.partition("```python\n")[2].partition("```")[0]
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        exec(compile(code, "README.md", "exec"), {})  # the page's own code  # noqa: S102
+        shutil.copy("loops.png", DOCS / "figures" / "example.png")
 
 
 def main() -> None:
@@ -295,6 +313,7 @@ def main() -> None:
     (DOCS / "figures").mkdir(exist_ok=True)
     conventions().savefig(DOCS / "conventions.svg", metadata={"Date": None, "Creator": None})
     hysteresis().savefig(DOCS / "figures" / "hysteresis.png", dpi=130)
+    example()
     demo_sections().savefig(DOCS / "figures" / "demo-sections.png", dpi=120)
 
 

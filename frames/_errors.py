@@ -22,4 +22,4 @@ class MotionWarning(UserWarning):
 
 
 class AuditWarning(AnalysisWarning):
-    """An analysis that was completed, in which something that was left out or doubtful mattered."""
+    """A completed analysis in which something that was left out or is uncertain mattered."""

@@ -1,4 +1,4 @@
-"""The frame as the engineer describes it: built by its verbs or taken over, and checked."""
+"""The frame as the engineer describes it: built by its verbs or imported, and checked."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Frame(FrameEditor):
         Raises
         ------
         ModelError
-            If the model cannot be taken over; the message says what to change.
+            If the model cannot be imported; the message says what to change.
         ImportError
             If openseespy is not installed.
 
@@ -163,7 +163,7 @@ class Frame(FrameEditor):
         Returns
         -------
         ModelCheck
-            Mass, weight and loads; periods with bearings held and on the bearings; axial force,
+            Mass, weight and loads; periods on a fixed base and on the bearings; axial force,
             pressure and settlement of each bearing; what is strange. It prints as a table.
 
         Raises

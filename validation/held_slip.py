@@ -1,7 +1,7 @@
-"""The slip that holds without rims, L mu_h - mu1 R1 - mu2 R2, tried on the rig at all levels.
+"""The stable limit of interface slip without rims, L mu_h - mu1 R1 - mu2 R2, tried on the rig at all levels.
 
 A bearing is pushed beyond its rims until the interface has slipped, taken back to the other side,
-and turned again in the direction of the slip: a slip that the interface holds stays as it is, a
+and turned again in the direction of the slip: a stable limit of interface slip stays as it is, a
 larger one runs off the sliders' overlap. docs/theory.md, Eq. (2.7).
 """
 
@@ -91,7 +91,7 @@ def rows() -> list[tuple[str, ...]]:
 
 HEAD = (
     "bearing",
-    "slip that holds [mm]",
+    "stable limit of interface slip [mm]",
     "overlap [mm]",
     *(part for share in SHARES for part in (f"{share:g} of it [mm]", "ends")),
 )

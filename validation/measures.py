@@ -1,4 +1,4 @@
-"""What is compared between two runs of one scene: peaks, energy, slip and what remains."""
+"""What is compared between two runs of one test case: peaks, energy, slip and what remains."""
 
 from __future__ import annotations
 

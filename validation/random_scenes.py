@@ -1,12 +1,12 @@
-"""Random scenes by the thousand: writes docs/validation/random_scenes.md.
+"""Random test cases by the thousand: writes docs/validation/random_scenes.md.
 
     python -m validation.random_scenes --seed 1 --count 5000 --workers 2
     python -m validation.random_scenes --seed 1 --only 1234
 
-Scene `number` of the series `seed` is always the same one, whatever the count. Scenes are run in
+Test case `number` of the series `seed` is always the same one, whatever the count. Test cases are run in
 child processes: one that hangs or dies (of any exception that is not the project's own; its
 traceback goes to the terminal) is a finding, and the rest goes on. With `--minutes` no
-scene is begun after that time; with `--only` one scene is run here, and nothing is written.
+test case is begun after that time; with `--only` one test case is run here, and nothing is written.
 """
 
 from __future__ import annotations
@@ -33,28 +33,28 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 Task = tuple[str, int]
-"""Scene or building, and its number."""
+"""Test case or building, and its number."""
 
 TARGET = Path(__file__).parents[1] / "docs" / "validation" / "random_scenes.md"
 LIMIT = 300.0
-"""Longest time for a scene with all its runs [s]."""
+"""Longest time for a test case with all its runs [s]."""
 
 
 def perform(task: Task, *, seed: int) -> dict[str, Any]:
-    """Run a scene or a building with all its checks and return its report."""
+    """Run a test case or a building with all its checks and return its report."""
     kind, number = task
     return (try_building if kind == "building" else try_scene)(seed, number).as_dict()
 
 
 def warm_up() -> None:
-    """Have the kernels of all levels compiled and kept, so that no scene waits for that."""
+    """Have the kernels of all levels compiled and kept, so that no test case waits for that."""
     calm = GroundMotion(x=np.zeros(3), dt=0.01)
     for level in LEVELS_STATIC:
         time_history(lumped_mass(static_bearing(), 15e3), calm, level=level)
 
 
 def lost(task: Task, how: str, seed: int) -> dict[str, Any]:
-    """Return the report of a scene whose process hung or died."""
+    """Return the report of a test case whose process hung or died."""
     kind, number = task
     if kind == "building":
         report = Report(number, random_building(seed, number)[1], "building", "?")
@@ -67,7 +67,7 @@ def lost(task: Task, how: str, seed: int) -> dict[str, Any]:
 
 
 def tasks(count: int, buildings: int, minutes: float) -> Iterator[Task]:
-    """Yield scenes with buildings in between, until the time is over."""
+    """Yield test cases with buildings in between, until the time is over."""
     end = time.monotonic() + 60.0 * minutes
     given = 0
     for number in range(count):
@@ -80,7 +80,7 @@ def tasks(count: int, buildings: int, minutes: float) -> Iterator[Task]:
 
 
 def only(seed: int, number: int, *, building: bool) -> None:
-    """Run one scene here and print all that is known of it."""
+    """Run one test case here and print all that is known of it."""
     report = (try_building if building else try_scene)(seed, number)
     for name, value in report.as_dict().items():
         if name != "findings":
@@ -93,11 +93,11 @@ def arguments(given: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(prog="python -m validation.random_scenes")
     parser.add_argument("--seed", type=int, default=1, help="of the series")
-    parser.add_argument("--count", type=int, default=5000, help="number of scenes")
-    parser.add_argument("--buildings", type=int, help="under their weight (0.16 a scene)")
+    parser.add_argument("--count", type=int, default=5000, help="number of test cases")
+    parser.add_argument("--buildings", type=int, help="under their weight (0.16 a test case)")
     parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="begin none after")
-    parser.add_argument("--only", type=int, metavar="NUMBER", help="run this scene alone")
+    parser.add_argument("--only", type=int, metavar="NUMBER", help="run this test case alone")
     parser.add_argument("--building", action="store_true", help="NUMBER is that of a building")
     parser.add_argument("--page", type=Path, default=TARGET, help="where the page is written")
     parser.add_argument("--keep", type=Path, help="a file for the reports, JSON by line")
@@ -111,7 +111,7 @@ def arguments(given: Sequence[str] | None) -> argparse.Namespace:
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Run the scenes, write the page; return how many have a finding."""
+    """Run the test cases, write the page; return how many have a finding."""
     chosen = arguments(given)
     if chosen.only is not None:
         only(chosen.seed, chosen.only, building=chosen.building)

@@ -1,6 +1,6 @@
-"""The scenes in which the levels are compared: bearing, mass and motion, each with what it is for.
+"""The test cases in which the levels are compared: bearing, mass and motion, each with what it is for.
 
-Made motions are pulses of a few cycles; recorded ones are read from the folder named by
+Synthetic motion are pulses of a few cycles; recorded ones are read from the folder named by
 LIR_RECORDS. Sources: the paper (COMPDYN 2023), sections 2.2 and 3.1, for the bearings.
 """
 
@@ -47,7 +47,7 @@ class Scene:
     explicit: float = 0.0
 
     def model(self, bearing: LIRBearing | None = None) -> Frame:
-        """Return the mass on this scene's bearing, or on another one."""
+        """Return the mass on this test case's bearing, or on another one."""
         return lumped_mass(bearing or self.bearing, MASS)
 
 
@@ -79,7 +79,7 @@ def records() -> Path | None:
 
 
 def made_scenes() -> list[Scene]:
-    """Return the scenes that need no record."""
+    """Return the test cases that need no record."""
     strong = (2.0, 1.7, 1.5)
     across = (1.7, 1.7, 1.75)
     slow = (7.0, 0.6, 1.7, 5.0)
@@ -127,7 +127,7 @@ def made_scenes() -> list[Scene]:
 
 
 def recorded_scenes(folder: Path | None) -> list[Scene]:
-    """Return the scenes of recorded motions that the folder holds."""
+    """Return the test cases of recorded motions that the folder holds."""
     scenes: list[Scene] = []
     if folder is None:
         return scenes

@@ -1,4 +1,4 @@
-"""The page on the slip of the interface: its tables and text, from the numbers of the scenes."""
+"""The page on the slip of the interface: its tables and text, from the numbers of the test cases."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ BOUNDS = (3.0, 5.0, 10.0)
 SPREAD = ("median", "90 % below", "worst", *(f"within {bound:g} %" for bound in BOUNDS))
 NAMES = {
     "slip": "largest slip",
-    "left": "slip left, over the largest",
+    "left": "residual slip, over the largest",
     "displacement": "peak displacement",
     "force": "force (99.9 %)",
 }
@@ -45,7 +45,7 @@ def errors(entry: Entry, level: str) -> dict[str, float]:
 
 
 def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
-    """Return rows on a group of scenes: errors of both levels."""
+    """Return rows on a group of test cases: errors of both levels."""
     rows = []
     for level in ("pendulum", "contact"):
         fit = [e for e in entries if ends_well(e, level) and ends_well(e, "rigid_body")]
@@ -66,7 +66,7 @@ def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
 
 
 def promise(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
-    """Return the scenes that are called sufficient at 'pendulum', and those that miss it."""
+    """Return the test cases that are called sufficient at 'pendulum', and those that miss it."""
     sufficient = [e for e in entries if e["sufficient"]]
     missed = [
         e
@@ -81,7 +81,7 @@ def promise(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
 
 
 def unlike(entries: Sequence[Entry], level: str) -> list[Entry]:
-    """Return the scenes that end with a failure at one of both levels alone."""
+    """Return the test cases that end with a failure at one of both levels alone."""
     return [e for e in entries if ends_well(e, level) != ends_well(e, "rigid_body")]
 
 
@@ -92,7 +92,7 @@ def _spread(e: FloatArray) -> tuple[str, ...]:
 
 
 def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
-    """Return lines that compare scenes with what 'pendulum' gave earlier; none without that."""
+    """Return lines that compare test cases with what 'pendulum' gave earlier; none without that."""
     kept = {entry["number"]: entry["pendulum"] for entry in before if "pendulum" in entry}
     if not kept:
         return []
@@ -122,13 +122,13 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
     return [
         "## Before the sliders could spin",
         "",
-        f"The level `pendulum` without spin, in the same {len(alike)} scenes with equal rims and "
+        f"The level `pendulum` without spin, in the same {len(alike)} test cases with equal rims and "
         "without uplift, against the same rigid bodies.",
         "",
         table(("of", "", *SPREAD), rows),
         "",
         f"Another end than the rigid bodies' had then {len(unlike(past, 'pendulum'))} of "
-        f"{len(past)} scenes, now {len(unlike(now, 'pendulum'))}.",
+        f"{len(past)} test cases, now {len(unlike(now, 'pendulum'))}.",
         "",
     ]
 
@@ -140,25 +140,25 @@ def by_step(met: Sequence[Entry]) -> list[str]:
         return []
     other = [
         f"{e['number']} ({', '.join(f'`{status}`' for status in e['by_step'])}; "
-        f"{e['pendulum']['slip'] / e['holds']:.2f} of the slip that holds, "
+        f"{e['pendulum']['slip'] / e['holds']:.2f} of the stable limit of interface slip, "
         f"{e['pendulum']['slip'] / e['overlap']:.2f} of the overlap)"
         for e in asked
         if any((status in FINE) is not ends_well(e, "pendulum") for status in e["by_step"])
     ]
     return [
         f"At steps of 5 and 1 ms the level `pendulum` ends otherwise than at the step that it "
-        f"chooses in {len(other)} of {len(asked)} scenes"
+        f"chooses in {len(other)} of {len(asked)} test cases"
         + (f": {', '.join(other)}." if other else "."),
         "",
     ]
 
 
 def on_rig(rows: Sequence[tuple[str, ...]], head: tuple[str, ...]) -> list[str]:
-    """Return lines on the slip that holds, tried on the rig."""
+    """Return lines on the stable limit of interface slip, tried on the rig."""
     if not rows:
         return []
     return [
-        "## The slip that holds, on the rig",
+        "## The stable limit of interface slip, on the rig",
         "",
         "A slip beyond `slip_stability` runs off the overlap as soon as the motion turns again in "
         "its direction, whatever the level (`validation/held_slip.py`). In each cell: "
@@ -182,15 +182,15 @@ def page(
     Parameters
     ----------
     found : sequence of dict
-        The scenes' numbers.
+        The test cases' numbers.
     lost : sequence of str
-        Scenes without a report, and why.
+        Test cases without a report, and why.
     call : str
         What wrote the page.
     before : sequence of dict
-        What the level 'pendulum' gave in the same scenes, earlier.
+        What the level 'pendulum' gave in the same test cases, earlier.
     rig : sequence of tuple
-        Rows on the slip that holds.
+        Rows on the stable limit of interface slip.
     head : tuple of str
         Their headings.
 
@@ -225,8 +225,8 @@ def page(
             f"Written by `{call}`: {len(found)} random bearings under motions of two or three "
             f"components, scaled until the slider meets its rims, which {len(met)} do. Levels "
             "`pendulum` and `contact` against `rigid_body`, whose sliders have a mass; `dt=None`. In "
-            f"{spun} scenes the sliders spin by more than 0.05 rad."
-            + (f" Without a report: scenes {', '.join(lost)}." if lost else ""),
+            f"{spun} test cases the sliders spin by more than 0.05 rad."
+            + (f" Without a report: test cases {', '.join(lost)}." if lost else ""),
             "",
             table(_HEAD, rows),
             "",
@@ -235,7 +235,7 @@ def page(
             "",
             '## What `level="auto"` calls sufficient',
             "",
-            f"At the level `pendulum`: {len(sufficient)} of {len(met)} scenes. Of these {len(missed)} "
+            f"At the level `pendulum`: {len(sufficient)} of {len(met)} test cases. Of these {len(missed)} "
             f"({share:.1%}) are more than 5 % off in displacement or force, more than 10 % in slip, or "
             "end otherwise." + (" " + _listed(missed) if missed else ""),
             "",
@@ -244,7 +244,7 @@ def page(
             table(_ENDS, [_end(entry) for entry in ends]) if ends else "None.",
             "",
             "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
-            "of slip decide; an axial force that rings lets go some per cent earlier. The audit marks "
+            "of slip decide; an axial force that rings lets go some per cent earlier. The assumption check marks "
             "80 % of the one and 90 % of the other.",
             "",
             *by_step(met),
@@ -265,7 +265,7 @@ _ENDS = (
     "contact",
     "rigid_body",
     "largest slip [mm]",
-    "slip that holds [mm]",
+    "stable limit of interface slip [mm]",
     "overlap [mm]",
     "rims",
     "called sufficient",
@@ -274,7 +274,7 @@ _APART = (
     "scene",
     "slider radius [mm]",
     "slip [mm]",
-    "slip left [mm]",
+    "residual slip [mm]",
     "spin [rad]",
     "displacement [mm]",
     "called sufficient",

@@ -170,7 +170,7 @@ def _interface_modes(
     except UnstableError as error:
         label = _largest(system, error.direction, kept[n_b:])
         message = (
-            "the structure buckles under its permanent loads with its bearings held, at "
+            "the structure buckles under its permanent loads on a fixed base, at "
             f'"{label}": reduce the loads or stiffen columns'
         )
         raise ModelError(message) from error

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from frames.results.peaks import Peak
 
 NUMBERS = {
-    "energy_error": ("1", "largest gap of the energy ledger over the largest input"),
+    "energy_error": ("1", "largest gap of the energy balance over the largest input"),
     "numerical_share": ("1", "largest work that the time integration leaves over, over the input"),
     "steps": ("1", "steps accepted"),
     "halvings": ("1", "steps halved"),
@@ -62,7 +62,7 @@ class RunResult(NamedTuple):
 
 
 def layout_of(judged: xr.Dataset) -> Layout:
-    """Return the layout of what the audit reads of a run."""
+    """Return the layout of what the assumption check reads of a run."""
     names = tuple(
         str(name)
         for name, variable in judged.variables.items()
@@ -146,10 +146,16 @@ def _of_runs(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
             ("run",), _texts(row.failed_where for row in rows), "", "bearing or degree of freedom"
         ),
         "audit": labelled(
-            ("run",), _texts(row.audit for row in rows), "", "audit of the run, a line a finding"
+            ("run",),
+            _texts(row.audit for row in rows),
+            "",
+            "assumption check of the run, a line a finding",
         ),
         "doubts": labelled(
-            ("run",), _texts(row.doubts for row in rows), "", 'lines that the audit marks with "!"'
+            ("run",),
+            _texts(row.doubts for row in rows),
+            "",
+            'lines that the assumption check marks with "!"',
         ),
     }
     for name, (unit, meaning) in NUMBERS.items():

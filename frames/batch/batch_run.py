@@ -53,7 +53,8 @@ class Kept(NamedTuple):
 
 
 class _Ended(NamedTuple):
-    # A run: how it ended, what the audit reads, energy at the end, what is recorded besides.
+    # A run: how it ended, what the assumption check reads, energy at the end, what is recorded
+    # besides.
     data: xr.Dataset
     energy: FloatArray
     histories: xr.Dataset | None

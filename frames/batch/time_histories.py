@@ -99,7 +99,7 @@ def time_histories(
         that of the cases; `model`, `motion` and `scale` are coordinates. See docs/results.md. A run
         that stopped early is a row like the others, with its `status` and `message`; what it
         reached is until then. Two warnings at most tell how many runs stopped or are inaccurate,
-        and in how many the audit marks something.
+        and in how many the assumption check marks something.
 
     Raises
     ------
@@ -309,7 +309,7 @@ def _warn_of_runs(rows: Sequence[RunResult]) -> None:
         kinds = Counter(row.status for row in ill)
         text = ", ".join(f"{count} {status}" for status, count in kinds.items())
         warnings.warn(
-            f"{len(ill)} of {len(rows)} runs stopped early or are doubtful ({text}); the first, "
+            f"{len(ill)} of {len(rows)} runs stopped early or have warnings ({text}); the first, "
             f"run {ill[0].place}: {ill[0].message.rstrip('.')}. "
             "See the variables status and message",
             AnalysisWarning,
@@ -321,7 +321,7 @@ def _warn_of_runs(rows: Sequence[RunResult]) -> None:
         first = min(grave or marked, key=_place)
         which = f"{len(grave)} with forces or accelerations beyond reason, the" if grave else "the"
         warnings.warn(
-            f"{len(marked)} of {len(rows)} runs are complete, but look at their audit; {which} "
+            f"{len(marked)} of {len(rows)} runs completed with a warning; {which} "
             f"first, run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
             AuditWarning,
             stacklevel=3,

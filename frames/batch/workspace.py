@@ -49,7 +49,7 @@ class Structure(NamedTuple):
     model: FrameData
     state: GravityState
     template: xr.Dataset
-    """What the audit reads of a run, of the state at rest alone."""
+    """What the assumption check reads of a run, of the state at rest alone."""
     layout: Layout
     step_bytes: float
     """Memory of one recorded step of the histories that are kept [bytes]."""
@@ -212,7 +212,7 @@ class PeakRecorder:
         return Findings(reached, self._gauge.totals(), left, until)
 
     def data(self, done: int) -> xr.Dataset:
-        """Return what the audit reads of the run."""
+        """Return what the assumption check reads of the run."""
         found = self.findings(done)
         peak = peak_velocity(self._motion, found.until)
         return with_other_findings(self._structure.template, found, peak)

@@ -1,1 +1,1 @@
-"""Superstructures taken over from a model that OpenSeesPy holds."""
+"""Superstructures imported from a model that OpenSeesPy holds."""

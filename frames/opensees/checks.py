@@ -1,4 +1,4 @@
-"""What of an OpenSees model cannot be taken over, or should be known: refused, or named."""
+"""What of an OpenSees model cannot be imported, or should be known: refused, or named."""
 
 from __future__ import annotations
 
@@ -238,7 +238,7 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
         )
         raise ModelError(message)
     message = (
-        f'the structure buckles under its permanent loads with its bearings held, at "{label}" '
+        f'the structure buckles under its permanent loads on a fixed base, at "{label}" '
         f"(axes of the frame, z up): the loads are at least {loads / elastic:.3g} times what its "
         "elements can carry in this motion; reduce the loads or stiffen columns"
     )

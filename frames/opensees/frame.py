@@ -58,7 +58,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
     Raises
     ------
     ModelError
-        If the model cannot be taken over.
+        If the model cannot be imported.
     """
     _check_options(options)
     model = read_model()
@@ -94,7 +94,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
 
 
 def refuse_taken(frame: FrameData, structure: Structure, options: Options) -> None:
-    """Refuse a frame taken over whose bearings could not work, or that would fall.
+    """Refuse a frame imported whose bearings could not work, or that would fall.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
 
 LARGEST = 6000
-"""Number of displacements up to which dense matrices are taken over."""
+"""Number of displacements up to which dense matrices are imported."""
 
 SHAPES = ((3, 6), (2, 3))
 """Models that can be read: dimensions, and displacements of a node."""
@@ -160,13 +160,13 @@ def _shape(ops: Any, tags: tuple[int, ...]) -> int:
         message = (
             f"node {other[0]} of the OpenSees model has {counts[tags.index(other[0])]} "
             f"displacements in {ndm} dimensions ({len(other)} of {len(tags)} nodes are like that): "
-            "models with ndm 3, ndf 6 and ndm 2, ndf 3 can be taken over"
+            "models with ndm 3, ndf 6 and ndm 2, ndf 3 can be imported"
         )
         raise ModelError(message)
     if len(tags) * wanted > LARGEST:
         message = (
             f"the OpenSees model has {len(tags) * wanted} displacements, at most {LARGEST} can be "
-            "taken over as full matrices: leave out detail, or condense it"
+            "imported as full matrices: leave out detail, or condense it"
         )
         raise ModelError(message)
     return wanted
@@ -191,7 +191,7 @@ def _refuse_motion(ops: Any, tags: tuple[int, ...]) -> None:
         if not ops.getNodeLoadTags(pattern) and not ops.getEleLoadTags(pattern):
             message = (
                 f"load pattern {pattern} of the OpenSees model has no loads on nodes or elements: "
-                "a ground motion or imposed displacements cannot be taken over; remove it by "
+                "a ground motion or imposed displacements cannot be imported; remove it by "
                 f"ops.remove('loadPattern', {pattern}) and give the motion to time_history"
             )
             raise ModelError(message)

@@ -242,7 +242,7 @@ def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
         return f"{name}{space}(stopped at {end:.2f} s)"
     if status != "ok":
         return f"{name}{space}({status})"
-    return f"{name}{space}(see its audit)" if doubts_of(data) else name
+    return f"{name}{space}(see its assumption check)" if doubts_of(data) else name
 
 
 def system_handles(systems: Mapping[str, xr.Dataset]) -> list[Artist]:

@@ -35,7 +35,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     -------
     Figure
         A circle for each bearing, or for those under one column, with names, largest displacement
-        over capacity, largest slip of the interface and smallest axial force; the colour is the
+        over capacity, largest slip of the interface and minimum axial force; the colour is the
         first of these.
 
     Raises

@@ -143,7 +143,7 @@ class Recorder:
         return self.first + self._rows - 1
 
     def data(self, done: int) -> xr.Dataset:
-        """Return the result of `done` base steps, or what the audit reads of it.
+        """Return the result of `done` base steps, or what the assumption check reads of it.
 
         Parameters
         ----------
@@ -162,7 +162,7 @@ class Recorder:
         return self._reduction.judgeable()
 
     def judgeable(self, data: xr.Dataset) -> xr.Dataset:
-        """Return what the audit reads of a result that `data` gave.
+        """Return what the assumption check reads of a result that `data` gave.
 
         Parameters
         ----------

@@ -25,8 +25,8 @@ class Recording:
     """What a time history records; its parts go together as they are given.
 
     Whatever is left out, the run keeps what it reached at all of its base steps (`peaks`, the
-    audit, the ledger of energy read that), and takes no more memory than what is recorded and a
-    buffer of some 64 MB.
+    assumption check, the energy balance read that), and takes no more memory than what is recorded
+    and a buffer of some 64 MB.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ class Findings(NamedTuple):
 
 
 def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
-    """Return a result without histories with what its run reached, as the audit reads it.
+    """Return a result without histories with what its run reached, as the check reads it.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ class Reduction:
         )
 
     def judgeable(self) -> xr.Dataset:
-        """Return what the audit reads of a run that was taken up to its end: no histories."""
+        """Return what the check reads of a run that was taken up to its end: no histories."""
         state = self._state
         tail = _tail(state)
         at_end = {name: QUANTITIES[name].of(tail)[-1] for name in LEFT if name in state.reached}
@@ -318,7 +318,7 @@ def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
 
 
 def judgeable_of(data: xr.Dataset) -> xr.Dataset:
-    """Return what the audit reads of a result that holds all steps, without its histories.
+    """Return what the check reads of a result that holds all steps, without its histories.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The audit of a run: whether what was left out mattered, and what was modelled was needed.
+"""The check of modelling assumptions: whether what a run left out mattered, what it had was needed.
 
 It reads the Dataset alone: what a run left out is judged by what the run itself reached.
 """
@@ -38,7 +38,7 @@ KERN = 0.25
 """Eccentricity over slider radius up to which a circular contact is closed all over."""
 
 HOLDS = 0.8
-"""Slip over the one that holds without rims, `slip_stability`, from which a run says so."""
+"""Slip over its stable limit s* without rims, `slip_stability`, from which a run says so."""
 
 OVERLAPS = 0.9
 """The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
@@ -52,7 +52,7 @@ EDGE = 0.5
 asked for."""
 
 CONTACT = 0.33
-"""The same where rims are met, from which on the level 'contact' is asked for: of such scenes
+"""The same where rims are met, from which on the level 'contact' is asked for: of such test cases
 forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
 
 TURNED = 0.05
@@ -64,7 +64,7 @@ _ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the audit found on one feature.
+    """What the assumption check found on one feature.
 
     Attributes
     ----------
@@ -105,9 +105,9 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        slip that holds; of a structure with hinges one on how far they turned; one on the sum of
-        all forces, and where it applies one on nodes accelerated by more than 50 g and one on the
-        error of a step that was given.
+        stable limit of interface slip; of a structure with hinges one on how far they turned; one
+        on the sum of all forces, and where it applies one on nodes accelerated by more than 50 g
+        and one on the error of a step that was given.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def audit_report(data: xr.Dataset) -> str:
-    """Return the audit of a time history as text, a line a finding.
+    """Return the assumption check of a time history as text, a line a finding.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def report_of(findings: tuple[Finding, ...]) -> str:
 
 
 def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what the audit of a result marks with "!", a sentence each.
+    """Return what the assumption check of a result marks with "!", a sentence each.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:
     if np.isinf(data.variables["interface_friction"].to_numpy()).all():
-        return _finding("interface", out, False, 0.0, "the sliders are in one piece")
+        return _finding("interface", out, False, 0.0, "the slider is rigid")
     share = float(largest(data, "interface_share").values.max())
     if out or share < FULL_SLIP:
         mattered = out and share >= _reached(data, "interface")
@@ -292,7 +292,9 @@ def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _full_contact(data: xr.Dataset) -> Finding:
-    share = float(largest(data, "eccentricity").values.max())
+    offsets = largest(data, "eccentricity").values
+    where = data.variables["bearing"].to_numpy()[int(np.argmax(offsets))]
+    share = float(offsets.max())
     if share <= KERN:
         verdict = "full contact holds"
     elif share <= EDGE:
@@ -300,7 +302,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
     met = bool(largest(data, "rims_met").values.any())
-    text = f"interface eccentricity reached {share:.2f} of the slider radius: {verdict}"
+    text = f"e/a = {share:.2f} in {where}: {verdict}"
     has_spin = "slider_spin" in data or "reached_spin" in data
     spin = float(largest(data, "spin").values.max()) if has_spin else 0.0
     if spin > SPUN:
@@ -308,7 +310,10 @@ def _full_contact(data: xr.Dataset) -> Finding:
     asked = share > (CONTACT if met else EDGE) or spin > SPUN
     at_pendulum = str(data.attrs["level"]) == "pendulum"
     if asked and at_pendulum:
-        text += ", see the level 'contact'"
+        head = f"full contact is violated ({text})" if share > KERN else f"full contact: {text}"
+        text = f'{head}; rerun with level="contact"'
+    else:
+        text = f"full contact: {text}"
     return Finding(
         feature="full_contact",
         left_out=at_pendulum,
@@ -348,7 +353,7 @@ def _slip_stability(data: xr.Dataset) -> Finding:
         )
     text = "; ".join(parts) or f"the slip reached {_share(share)} of what holds without rims"
     if np.isinf(friction).all():
-        text = "the sliders are in one piece"
+        text = "the slider is rigid"
     finding = _finding("slip_stability", False, bool(parts), share, text)
     return replace(finding, doubtful=bool(parts))
 

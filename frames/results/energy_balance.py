@@ -1,4 +1,4 @@
-"""What the audit says of a run's equilibrium, of violent nodes, and of the steps it took."""
+"""What the check says of a run's equilibrium, of violent nodes, and of the steps it took."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LIGHT = 1e-2  # of the nodes' mean mass: a node that weighs next to nothing bes
 
 
 class Remark(NamedTuple):
-    """A line of the audit."""
+    """A line of the assumption check."""
 
     feature: str
     number: float
@@ -38,7 +38,7 @@ def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of a time history.
+        What the assumption check reads of a time history.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def time_step(data: xr.Dataset) -> tuple[Remark, ...]:
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of a time history.
+        What the assumption check reads of a time history.
 
     Returns
     -------

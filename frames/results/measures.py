@@ -1,4 +1,4 @@
-"""What engineers read off a Dataset: drifts, floor accelerations, the ledger of energy."""
+"""What engineers read off a Dataset: drifts, floor accelerations, the energy balance."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ABSORBED = ENERGY_TERMS[1:]
 
 
 def energy_error(data: xr.Dataset) -> float:
-    """Measure how far the ledger of energy is from closing.
+    """Measure how far the energy balance is from closing.
 
     Parameters
     ----------

@@ -1,8 +1,9 @@
 """What a time history reached: largest values of derived histories, their times, a few totals.
 
-The audit, the judgement of the energy and the table of peaks rest on these numbers alone. A result
-with all steps has them in its histories. A recording that leaves steps out takes them up while the
-run goes on, at every base step, and keeps them as variables ``reached_...``: so both give the same.
+The assumption check, the judgement of the energy and the table of peaks rest on these numbers
+alone. A result with all steps has them in its histories. A recording that leaves steps out takes
+them up while the run goes on, at every base step, and keeps them as variables ``reached_...``: so
+both give the same.
 """
 
 from __future__ import annotations
@@ -285,7 +286,7 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "axial_force": Quantity(_B, "N", "axial force", lambda d: _of(d, "axial_force")),
     "axial_tension": Quantity(
-        _B, "N", "negative of the least axial force", lambda d: -_of(d, "axial_force")
+        _B, "N", "negative of the minimum axial force", lambda d: -_of(d, "axial_force")
     ),
     "vertical_tension": Quantity(
         _B,
@@ -397,7 +398,7 @@ QUANTITIES: dict[str, Quantity] = {
     "energy_numerical": Quantity(
         (), "J", "work that the time integration leaves over", lambda d: _term(d, "numerical")
     ),
-    "energy_gap": Quantity((), "J", "gap of the energy ledger", _gap),
+    "energy_gap": Quantity((), "J", "gap of the energy balance", _gap),
     "energy_yielding": Quantity(
         (), "J", "work that yielding took up", lambda d: _term(d, "yielding")
     ),
@@ -510,6 +511,6 @@ TOTALS: dict[str, Total] = {
         (), "N m/s", "the same with what the temperature changes of that", _work_heated
     ),
     "uplifts": Total((), "1", "how often bearings lifted off", _uplifts),
-    "time_lifted": Total(_B, "s", "time lifted off", _time_lifted),
+    "time_lifted": Total(_B, "s", "uplift duration", _time_lifted),
 }
 """Sums over the steps by name."""

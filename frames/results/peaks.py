@@ -85,7 +85,7 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row for each quantity of `peaks` with its unit, and one each for the status and for what
-        the audit marks; a column for each system.
+        the assumption check marks; a column for each system.
 
     Raises
     ------
@@ -133,14 +133,14 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
     left_over = {name: float(remaining(data, name).max()) for name in ("displacement", "slip")}
     yield _peak("bearing displacement", "m", u, names)
     yield _peak("bearing displacement over capacity", "1", over, names)
-    yield Peak("bearing displacement left", left_over["displacement"], "m", end)
+    yield Peak("residual bearing displacement", left_over["displacement"], "m", end)
     yield _peak("interface slip", "m", slip, names)
     yield _peak("interface slip over overlap", "1", overlap, names)
-    yield Peak("interface slip left", left_over["slip"], "m", end)
+    yield Peak("residual interface slip", left_over["slip"], "m", end)
     yield _peak("rim force", "N", largest(data, "rim_force"), names)
     yield _peak("bearing force in plan", "N", largest(data, "force"), names)
     yield _peak("axial force", "N", largest(data, "axial_force"), names)
-    least = _peak("least axial force", "N", largest(data, "axial_tension"), names)
+    least = _peak("minimum axial force", "N", largest(data, "axial_tension"), names)
     yield least._replace(value=0.0 - least.value)
 
 
@@ -164,8 +164,8 @@ def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:
     lasts = total(data, "time_lifted")
     worst = int(np.argmax(lasts))
     where = str(names[worst]) if lasts[worst] > 0.0 else ""
-    yield Peak("time lifted", float(lasts[worst]), "s", where=where)
-    yield _peak("gap of uplift", "m", largest(data, "gap"), names)
+    yield Peak("uplift duration", float(lasts[worst]), "s", where=where)
+    yield _peak("maximum uplift", "m", largest(data, "gap"), names)
 
 
 def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
@@ -200,13 +200,18 @@ def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
     if not names:
         return
     each = largest(data, "line_drift")
-    yield _peak("storey drift, worst line", "1", each, names)
+    yield _peak("storey drift, maximum at any column line", "1", each, names)
     own = {name: k for k, name in enumerate(storeys)}
     of = np.array([own[name] for name in storey_of])
     ratios = each.values / np.maximum(mean.values[of], 1e-12)
     worst = int(np.argmax(ratios))
     where = names[worst]
-    yield Peak("torsion: worst line over mean drift", float(ratios[worst]), "1", where=where)
+    yield Peak(
+        "torsion: maximum at any column line over mean drift",
+        float(ratios[worst]),
+        "1",
+        where=where,
+    )
 
 
 def _of_yielding(data: xr.Dataset) -> Iterator[Peak]:
@@ -239,6 +244,6 @@ def _walls(data: xr.Dataset) -> BoolArray:
 
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:
-    yield Peak("energy ledger: error over input", energy_error(data), "1")
+    yield Peak("energy balance: error over input", energy_error(data), "1")
     yield Peak("duration computed", computed_until(data), "s")
     yield Peak("seconds of the time loop", float(data.attrs["seconds_loop"]), "s")

@@ -75,7 +75,7 @@ def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
 
 
 def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
-    # How histories are stored: compressed, in single precision but for the ledger of energy.
+    # How histories are stored: compressed, in single precision but for the energy balance.
     small: dict[str, object] = {"zlib": True, "complevel": 2, "shuffle": True}
     return {
         key: small if key == "energy" else {"dtype": "float32", **small}

@@ -60,28 +60,28 @@ ROWS = (
     Row("peak floor acceleration in plan, mean [g]", 1.0 / STANDARD_GRAVITY, ".2f", "", _FLOORS),
     Row("largest interface slip [mm]", 1e3, ".1f", "largest_interface_slip_m", "interface slip"),
     Row("largest rim force [kN]", 1e-3, ".0f", "largest_rim_force_N", "rim force"),
-    Row("largest axial force [kN]", 1e-3, ".0f", "largest_axial_force_N", "axial force"),
-    Row("smallest axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N", "least axial force"),
+    Row("maximum axial force [kN]", 1e-3, ".0f", "largest_axial_force_N", "axial force"),
+    Row("minimum axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N", "minimum axial force"),
     Row(
         "residual displacement in plan [mm]",
         1e3,
         ".1f",
         "residual_displacement_m",
-        "bearing displacement left",
+        "residual bearing displacement",
     ),
     Row(
         "residual interface slip [mm]",
         1e3,
         ".1f",
         "residual_interface_slip_m",
-        "interface slip left",
+        "residual interface slip",
     ),
     Row(
-        "energy ledger: error / input [-]",
+        "energy balance: error / input [-]",
         1.0,
         ".1e",
         "energy_error",
-        "energy ledger: error over input",
+        "energy balance: error over input",
     ),
     Row("run time, time loop [s]", 1.0, ".2f", "run_time_s", "seconds of the time loop"),
 )
@@ -109,7 +109,7 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
     failed = {n: d.attrs["message"] for n, d in results.items() if "failed_at" in d.attrs}
     lines += [f"{name} stopped {message}" for name, message in failed.items()]
     for name, data in results.items():
-        lines += [f"{name}: look at: {doubt}" for doubt in doubts_of(data)]
+        lines += [f"{name}: warning: {doubt}" for doubt in doubts_of(data)]
     return "\n".join(lines)
 
 
@@ -149,12 +149,12 @@ def group_of(name: str) -> str:
 
 
 def status_of(data: xr.Dataset) -> str:
-    """Return "completed", with a mark where the audit has one, or how and when a run stopped."""
+    """Return "completed", with a mark where the check has one, or how and when a run stopped."""
     if "failed_at" in data.attrs:
         return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
     if data.attrs["status"] != "ok":
         return str(data.attrs["status"])
-    return "completed, audit: !" if doubts_of(data) else "completed"
+    return "completed, warning" if doubts_of(data) else "completed"
 
 
 def _cell(row: Row, value: float) -> str:

@@ -6,4 +6,4 @@ class FragilityError(ValueError):
 
 
 class CampaignError(ValueError):
-    """A campaign, or a store of one, that cannot be used; the message names the culprit."""
+    """A campaign, or a database of one, that cannot be used; the message names the culprit."""

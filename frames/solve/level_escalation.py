@@ -1,4 +1,4 @@
-"""``level="auto"``: run, audit, switch on what mattered, until nothing left out mattered."""
+"""``level="auto"``: run, check the assumptions, switch on what mattered, until that is all."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ def escalate_level(
     Parameters
     ----------
     analyse : callable
-        ``analyse(features, level)`` runs the scene; its Dataset can be audited.
+        ``analyse(features, level)`` runs the test case; its Dataset can be checked for its
+        assumptions.
     features : Features
         To begin with.
 
@@ -37,7 +38,7 @@ def escalate_level(
     -------
     xarray.Dataset
         Of the last run. Its attribute `auto_runs` has a line for each run: level, features left
-        out, seconds, and what followed from its audit.
+        out, seconds, and what followed from its assumption check.
     """
     level, lines = "pendulum", []
     for count in range(1, MOST_RUNS + 1):
@@ -57,7 +58,7 @@ def escalate_level(
 
 
 def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
-    """Say in the audit of a result of `escalate_level` that an earlier run ended otherwise.
+    """Say in the check of a result of `escalate_level` that an earlier run ended otherwise.
 
     Parameters
     ----------

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from frames.statics.gravity import GravityState
 
 PROMISE = 1e-3
-"""Largest share of the input by which the ledger of a completed run may be open [-]."""
+"""Largest share of the input by which the energy balance of a completed run may be open [-]."""
 
 ASKED_FOR = 1e-2
 """The same for what the generalised-alpha method takes out, which is what it is chosen for; from
 `PROMISE` on a warning names the share."""
 
 LEAST_INPUT = 1e-6
-"""Input over weight and effective radius below which the ledger is measured against that [-]."""
+"""Input over weight and effective radius below which it measures the energy balance [-]."""
 
 
 TUMBLED = 0.3
@@ -41,13 +41,13 @@ class Outcome(NamedTuple):
 
 
 def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
-    """Judge a completed run by its ledger of energy, and by its sliders where they are bodies.
+    """Judge a completed run by its energy balance, and by its sliders where they are bodies.
 
     Parameters
     ----------
     data : xarray.Dataset
         Of the run, complete but for its status. Gets the attributes `energy_error` and
-        `numerical_share` [-], and a line in its audit where they are too large.
+        `numerical_share` [-], and a line in its assumption check where they are too large.
 
     Returns
     -------
@@ -107,14 +107,14 @@ def _tumbled(data: xr.Dataset) -> str:
 
 
 def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
-    """Audit a run and judge it.
+    """Check the assumptions of a run and judge it.
 
     Parameters
     ----------
     data : xarray.Dataset
-        What the audit reads of the run. Gets the attribute `audit`, those of `evaluated`, and,
-        where a bearing passed a limit at the last step tried, ``exceeded``, ``exceeded_value``,
-        ``exceeded_at`` and ``exceeded_bearing``.
+        What the assumption check reads of the run. Gets the attribute `audit`, those of
+        `evaluated`, and, where a bearing passed a limit at the last step tried, ``exceeded``,
+        ``exceeded_value``, ``exceeded_at`` and ``exceeded_bearing``.
     state : GravityState
         The state it left.
     end : tuple

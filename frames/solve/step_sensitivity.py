@@ -26,7 +26,7 @@ SENSITIVE = 0.01
 
 _FINER = 0.25  # of the tolerance: half the steps, for the error grows with their square
 _TOLERANCE = 1e-3  # where none is given: as of `time_history`
-_OF_RUN = ("energy ledger: error over input", "duration computed", "seconds of the time loop")
+_OF_RUN = ("energy balance: error over input", "duration computed", "seconds of the time loop")
 _HISTORY = "bearing displacement, whole history"
 
 

@@ -98,8 +98,8 @@ def time_history(
     level : {"pendulum", "contact", "rigid_body"} or mapping
         Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
         those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":
-        the cheapest that is sufficient; the analysis is run, audited, and run again with what was
-        missing.
+        the cheapest that is sufficient; the analysis is run, checked for its assumptions, and run
+        again with what was missing.
     method : {"direct", "reduced"}
         "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
         vectors of the structure, in a run with few and runs with more, until two agree: for
@@ -119,20 +119,21 @@ def time_history(
         Of the method "reduced": largest difference of two runs in the peaks of bearing
         displacement and base shear, 1e-3 by default; ten times that in axial forces, floor
         accelerations in plan, storey drifts and yielding parts, a hundred times in vertical
-        accelerations. What is larger in the end is named by a line of the audit.
+        accelerations. What is larger in the end is named by a line of the assumption check.
     record_every : int
         Record every so many base steps: ``Recording(every=record_every)``.
     recording : Recording, optional
         What is recorded: steps, variables, bearings, nodes, windows around impacts, extremes;
-        everything if None. Not together with `record_every`. The audit, `peaks` and the ledger of
-        energy see all base steps, whatever is recorded. At the level "rigid_body" memory is taken
-        for all of them while it runs, and with `every` alone only the recorded ones are seen.
+        everything if None. Not together with `record_every`. The assumption check, `peaks` and the
+        energy balance of energy see all base steps, whatever is recorded. At the level "rigid_body"
+        memory is taken for all of them while it runs, and with `every` alone only the recorded ones
+        are seen.
     on_failure : {"warn", "raise"}
         A run that fails hands back what was computed, with a warning and its reason in the
         attributes; or raises AnalysisError, whose `data` holds the same.
     features : Features, optional
-        What is modelled; everything if None. The audit tells whether what was left out mattered.
-        Not together with ``level="auto"``, which chooses for itself.
+        What is modelled; everything if None. The assumption check tells whether what was left out
+        mattered. Not together with ``level="auto"``, which chooses for itself.
     progress : callable, optional
         Called with the share done (0 to 1) some fifty times.
 
@@ -140,10 +141,11 @@ def time_history(
     -------
     xarray.Dataset
         See docs/results.md. Attributes hold status, message, versions, options, timings and the
-        audit: for each feature left out whether it mattered, with a number. A run whose ledger of
-        energy is open by more than 0.1 % of the input has the status "inaccurate" and warns;
-        what "generalised-alpha" takes out may reach 1 %, and is named by a warning from 0.1 % on.
-        An AuditWarning tells of a completed run in whose audit a line begins with "!".
+        assumption check: for each feature left out whether it mattered, with a number. A run whose
+        energy balance of energy is open by more than 0.1 % of the input has the status "inaccurate"
+        and warns; what "generalised-alpha" takes out may reach 1 %, and is named by a warning from
+        0.1 % on. An AuditWarning tells of a completed run in whose assumption check a line begins
+        with "!".
 
     Raises
     ------
@@ -208,10 +210,10 @@ def time_history(
 
 
 def _told(data: xr.Dataset) -> xr.Dataset:
-    # Warns of what the audit of a completed run marks.
+    # Warns of what the assumption check of a completed run marks.
     doubts = doubts_of(data)
     if doubts and "failed_at" not in data.attrs:
-        what = "the run is complete, but look at its audit: " + "; ".join(doubts)
+        what = "completed with a warning: " + "; ".join(doubts)
         warnings.warn(what, AuditWarning, stacklevel=3)
     return data
 
@@ -238,7 +240,7 @@ def _run(
     level: str | Mapping[str, str],
     options: Options,
 ) -> tuple[xr.Dataset, Outcome, Recorder]:
-    # One run and its audit; what is recorded joins it in the end.
+    # One run and its assumption check; what is recorded joins it in the end.
     attrs = {
         "title": f"time history of {model.name}",
         "motion": motion.name,

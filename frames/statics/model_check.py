@@ -52,7 +52,7 @@ class ModelCheck:
     supports : tuple of (str, float)
         Supports of the structure above the bearings, and what each takes past them [N].
     periods : tuple of float
-        The first three with the bearings held (nodes i and j move together), longest first [s];
+        The first three on a fixed base (nodes i and j move together), longest first [s];
         none where nothing stands on the bearings that could move.
     isolated_period : float
         Of the mass on the bearings, as a pendulum [s].
@@ -89,7 +89,7 @@ class ModelCheck:
         parts = [self.name, text_table(self._totals(), left=2)]
         if self.bearings:
             parts.append(text_table(self._rows(), _HEAD))
-        parts += [f"look at: {note}" for note in self._notes()]
+        parts += [f"warning: {note}" for note in self._notes()]
         return "\n".join(parts)
 
     __repr__ = __str__
@@ -116,7 +116,7 @@ class ModelCheck:
             rows.append(("carried by the bearings", f"{1e-3 * self.carried:.5g} kN"))
             taken = 1e-3 * sum(force for _, force in self.supports) + 0.0
             rows.append(("supports past the bearings", f"{taken:.5g} kN"))
-            rows.append(("periods, bearings held", f"{periods} s"))
+            rows.append(("periods, fixed base", f"{periods} s"))
             rows.append(("period on the bearings", f"{self.isolated_period:.3g} s"))
         return [*rows, *self.motion]
 
@@ -137,7 +137,14 @@ class ModelCheck:
         return rows
 
 
-_HEAD = ("bearing", "axial force", "pressure", "settlement", "pendulum", "slip that holds")
+_HEAD = (
+    "bearing",
+    "axial force",
+    "pressure",
+    "settlement",
+    "pendulum",
+    "stable limit of interface slip",
+)
 
 
 def _held(load: BearingLoad) -> str:

@@ -1,4 +1,4 @@
-"""What of a scene, a model and its motion, is known before any run."""
+"""What of a test case, a model and its motion, is known before any run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
-    """Return what a scene needs as far as that is certain before the run.
+    """Return what a test case needs as far as that is certain before the run.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ class BearingLoad(NamedTuple):
     period : float
         Of its pendulum [s].
     slip_stability : float
-        Slip of the interface that holds without rims [m]; infinite with the slider in one piece.
+        Slip of the interface that holds without rims [m]; infinite with the rigid slider.
     slip_capacity : float
         Slip at which the sliders' overlap ends [m].
     """
@@ -126,7 +126,7 @@ def sanity_warnings(
     axial_forces : ndarray, (n_bearings,)
         Under permanent loads, compression positive [N].
     periods : tuple of float
-        With the bearings held, longest first [s].
+        With the fixed base, longest first [s].
 
     Returns
     -------
@@ -214,7 +214,7 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
     if not periods or periods[0] <= max(isolated, 1.0):
         return []
     return [
-        f"the structure with its bearings held has a period of {periods[0]:.3g} s, the isolation "
+        f"the structure on a fixed base has a period of {periods[0]:.3g} s, the isolation "
         f"{isolated:.3g} s: look at the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) and "
         "mass (N for kg)"
     ]

@@ -74,8 +74,9 @@ class LIRBearing(Specification):
     yield_displacement, interface_yield_displacement : float
         Elastic sliding before slip, on a concave surface and in the interface [m].
     friction_law : {"elastic-plastic", "bouc-wen"}
-        Regularisation of friction. Bouc-Wen creeps under small vibration about a biased force,
-        the more the larger the yield displacement (docs/theory.md); it is there for comparison.
+        Regularisation of friction. Bouc-Wen models ratchet under small vibration about a biased
+        force, the more the larger the yield displacement (docs/theory.md); it is there for
+        comparison.
     bouc_wen_exponent : float
         Exponent of that law [-], at least 1.
     torsional_friction : bool
@@ -157,8 +158,8 @@ class LIRBearing(Specification):
             ("effective radius", f"{self.effective_radius:.4g}", "m"),
             ("pendulum period", f"{self.period:.3g}", "s"),
             ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
-            ("sliding force / load", f"{self.effective_friction:.4g}", "-"),
-            ("slip that holds", f"{self.slip_stability:.4g}", "m"),
+            ("characteristic strength ratio Q/W", f"{self.effective_friction:.4g}", "-"),
+            ("stable limit of interface slip", f"{self.slip_stability:.4g}", "m"),
         ]
         for f in fields(self):
             value, note = getattr(self, f.name), ""
@@ -186,7 +187,7 @@ class LIRBearing(Specification):
         Returns
         -------
         float
-            Lateral force [N]; infinite without rims, with the slider in one piece, or where tilt
+            Lateral force [N]; infinite without rims, with the rigid slider, or where tilt
             and friction angle reach 90 degrees together.
         """
         require_positive("axial_load", axial_load, "N")
@@ -197,7 +198,7 @@ class LIRBearing(Specification):
         return axial_load * math.tan(angle) if angle < 0.5 * math.pi else math.inf
 
     def as_dcfp(self, *, rims: bool = True) -> LIRBearing:
-        """Return the same bearing with its slider in one piece, with or without its rims."""
+        """Return the same bearing with its rigid slider, with or without its rims."""
         if rims:
             return replace(self, interface_friction=math.inf)
         return replace(self, interface_friction=math.inf, capacity=math.inf, rims=None)

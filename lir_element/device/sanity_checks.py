@@ -52,8 +52,8 @@ USUAL_PROPORTIONS = (0.02, 10.0)
 """Height over diameter of a slider [-]."""
 
 HOLDS = 0.9
-"""Slip that holds without rims over the sliders' overlap, below which a design counts on more than
-it has (docs/theory.md, Eq. 2.7). Of the published bearings it is 0.92 and 0.99."""
+"""Stable limit of interface slip over the sliders' overlap, below which a design counts on more
+than it has (docs/theory.md, Eq. 2.7). Of the published bearings it is 0.92 and 0.99."""
 
 USUAL_DENSITY = (500.0, 25e3)
 LARGEST_FRICTION = 0.4

@@ -92,11 +92,11 @@ class Specification:
 
     @property
     def slip_stability(self) -> float:
-        """Interface slip that holds without rims [m]: ``L mu_h - mu1 R1 - mu2 R2``, high speed.
+        """Stable limit of interface slip without rims [m]: ``L mu_h - mu1 R1 - mu2 R2``.
 
         Where the motion turns again in the direction of a larger slip, the interface slides before
         the surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.7). Infinite with
-        the slider in one piece.
+        the rigid slider.
         """
         return self.effective_radius * (self.interface_friction - self.effective_friction)
 

@@ -31,11 +31,11 @@ _LARGEST_TAG = 2**31 - 1
 
 
 class RouteWarning(UserWarning):
-    """The fast route is not possible; the portable one is taken."""
+    """The in-process coupling is not possible; the portable one is taken."""
 
 
 class _Session:
-    # The bearings of this process by tag, and the server of the portable route.
+    # The bearings of this process by tag, and the server of the out-of-process coupling.
 
     def __init__(self) -> None:
         self.bearings: dict[int, Grafted | Remote] = {}
@@ -283,12 +283,12 @@ def _choose(route: str) -> str:
     if not reason:
         return "fast"
     if route == "fast":
-        msg = f'the fast route is not possible: {reason}; take route="portable"'
+        msg = f'the in-process coupling is not possible: {reason}; take route="portable"'
         raise NotPossibleError(msg)
     if not _SESSION.told:
         _SESSION.told = True
         msg = (
-            "the portable route is taken, about 12 times as slow with the same results, as the "
+            "out-of-process coupling is used, about 12 times as slow with the same results, as the "
             f"fast one is not possible: {reason}"
         )
         warnings.warn(msg, RouteWarning, stacklevel=3)

@@ -32,7 +32,7 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
     -------
     ndarray, shape (n_steps, n_bearings)
         The larger of both eccentricities [m]; zero where the axial force has faded (below 0.1 % of
-        the design load). For a slider in one piece: in the same plane.
+        the design load). For a rigid slider: in the same plane.
     """
     radius = props["radius"][:, :1]
     slider_height = props["radius"].sum(axis=1) - props["length"]

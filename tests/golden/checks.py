@@ -165,7 +165,7 @@ def landing(f):
 
 
 def landing_force(f):
-    """Largest axial force of runs in which a bearing lifts off."""
+    """Maximum axial force of runs in which a bearing lifts off."""
     return f.lifted("axial_force").max(), f.limits["axial_force"]
 
 
@@ -212,7 +212,7 @@ def slips_before(f):
 
 
 def resultant(f):
-    """Offset of the resultant between the sliders: rims free, then each alone."""
+    """Offset of the resultant between the sliders: no restrainer contact, then each alone."""
     b, w, s = f.p.bearing, f.whole, f.p.tests.slip
     levers = b.R[0] - b.low, b.R[1] - (b.h - b.low)
     free = levers[0] * (s / b.L + w.share) - b.R[0] * w.fast
@@ -264,20 +264,20 @@ RULES = {
     "runs that failed": lambda f: (f.suite.failed.sum(), 0.0),
     "isolator displacement": displacement,
     "slip over the overlap": lambda f: f.worst(f.slips(), f.d.b.overlap),
-    "slip over the one that holds": lambda f: f.worst(f.slips(), f.d.holds),
-    "slip left": lambda f: f.worst(f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)),
-    "rim force": lambda f: f.of("rim_force", "rim_strength"),
-    "resultant between the sliders, over their radius": lambda f: f.of(
-        "eccentricity", "eccentricity"
+    "slip over its stable limit s*": lambda f: f.worst(f.slips(), f.d.holds),
+    "residual slip": lambda f: f.worst(
+        f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)
     ),
+    "rim force": lambda f: f.of("rim_force", "rim_strength"),
+    "normalised eccentricity e/a": lambda f: f.of("eccentricity", "eccentricity"),
     "lateral force of a bearing": lateral,
     "lateral force that the bearing passes on": lateral,
-    "displacement left": lambda f: f.of("displacement_left", "displacement_left"),
-    "largest axial force": lambda f: f.of("axial_force", "axial_force"),
+    "residual displacement": lambda f: f.of("displacement_left", "displacement_left"),
+    "maximum axial force": lambda f: f.of("axial_force", "axial_force"),
     "pressure on the sliders' overlap": on_overlap,
     "pressure on the liner around its resultant": liner,
-    "gap of uplift over the height of the rims": gap_over_rims,
-    "gap of uplift": lambda f: f.worst(f.lifted("gap").max(0), f.limits["uplift_gap"]),
+    "maximum uplift over the rim height": gap_over_rims,
+    "maximum uplift": lambda f: f.worst(f.lifted("gap").max(0), f.limits["uplift_gap"]),
     "pressure of a landing on the sliders": landing,
     "axial force with a landing": landing_force,
     "base shear": base_shear,
@@ -285,9 +285,9 @@ RULES = {
     "storey drift ratio": drift,
     "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
     "interface holds until a rim is met": holds,
-    "slip that holds": lambda f: (f.p.tests.slip, f.whole.holds),
+    "stable limit of interface slip": lambda f: (f.p.tests.slip, f.whole.holds),
     "interface slips before the rim breaks": slips_before,
-    "resultant between the sliders": resultant,
+    "normalised eccentricity e/a at the rims": resultant,
     "recentring, energy": recentring_energy,
     "recentring, displacement": recentring,
 }
@@ -300,17 +300,17 @@ SUITE = {
     "recentring, displacement",
 }
 OF_RUN = {
-    "gap of uplift over the height of the rims",
-    "gap of uplift",
+    "maximum uplift over the rim height",
+    "maximum uplift",
     "axial force with a landing",
     "pressure of a landing on the sliders",
 }
 
 OF_BEARING = {
     "interface holds until a rim is met",
-    "slip that holds",
+    "stable limit of interface slip",
     "interface slips before the rim breaks",
-    "resultant between the sliders",
+    "normalised eccentricity e/a at the rims",
     "lateral force that the bearing passes on",
     "lateral force of a bearing",
     "pressure on the sliders' overlap",
@@ -324,7 +324,7 @@ def rule_of(title):
         return RULES[title]
     if title.startswith("displacement where a rim engages"):
         return engaged if title.endswith("of histories") else engaged_linear
-    return lifted_for if title.startswith("time lifted off by over") else None
+    return lifted_for if title.startswith("uplift duration above") else None
 
 
 def ratio_of(demand, limit, relation):
@@ -377,7 +377,7 @@ def _void(found, title):
         return any(suite.void for suite in found.each.values())
     if found.suite is None or title in SUITE or found.row["symbol"] in {"eta", "n"}:
         return False
-    if title in OF_RUN or title.startswith("time lifted off"):
+    if title in OF_RUN or title.startswith("uplift duration"):
         return bool(found.suite.stopped.any())
     return found.suite.void
 

@@ -1,7 +1,7 @@
 """Spectra and equivalent-linear analyses of three codes, typed from their formulas.
 
 ASCE 7-22 chapter 17, EN 1998-1 chapter 10, NCh2745. Bearings are pendulums below their rims:
-F = P (D / L + mu), energy of a cycle 4 mu P D. SI units.
+F = P (D / L + mu), energy dissipated per cycle (EDC) 4 mu P D. SI units.
 """
 
 import json
@@ -274,7 +274,7 @@ def above_of(project):
     height, levels = statics["node_position"][:, 2], statics["level_height"]
     nearest = np.abs(height[:, None] - levels).argmin(axis=1)
     mass = np.array([statics["node_mass"][nearest == k, 0].sum() for k in range(len(levels))])
-    facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has bearings held
+    facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has a fixed base
     period = facts["fixed_base_period"]
     return {
         "W_s": G * mass[1:].sum(),

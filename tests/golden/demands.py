@@ -12,19 +12,19 @@ LEVELS = {  # name: factor on the motions, and what is judged
 }
 ROWS = {
     "isolator displacement": ("displacement", 1),
-    "displacement left": ("displacement_left", 1),
+    "residual displacement": ("displacement_left", 1),
     "interface slip": ("slip", 1),
-    "interface slip left": ("slip_left", 1),
+    "residual interface slip": ("slip_left", 1),
     "rim force": ("rim_force", 1),
-    "largest axial force": ("axial_force", 1),
-    "least axial force": ("axial_tension", -1),
+    "maximum axial force": ("axial_force", 1),
+    "minimum axial force": ("axial_tension", -1),
     "uplifts, all bearings": ("uplifts", 1),
-    "time lifted": ("time_lifted", 1),
-    "gap of uplift": ("gap", 1),
+    "uplift duration": ("time_lifted", 1),
+    "maximum uplift": ("gap", 1),
     "base shear": ("base_shear", 1),
     "storey shear": ("storey_shear", 1),
     "storey drift ratio": ("drift", 1),
-    "storey drift ratio, worst line": ("line_drift", 1),
+    "storey drift ratio, maximum at any column line": ("line_drift", 1),
     "floor acceleration in plan": ("floor_plan", 1),
 }
 

@@ -107,7 +107,7 @@ def _model(project, head, rows, tally):
     period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
     tally.printed("tables of the report", "pendulum", found["period on the bearings"], period)
     held = [float(row["period, held [s]"]) for row in project.table("modes")][:3]
-    for text, value in zip(found["periods, bearings held"].split(","), held, strict=False):
+    for text, value in zip(found["periods, fixed base"].split(","), held, strict=False):
         tally.printed("tables of the report", "held", text.strip(), value)
 
 
@@ -133,8 +133,8 @@ def _device(project, head, rows, tally):
         "effective radius": b.L,
         "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
         "lateral capacity": b.capacity,
-        "sliding force / load": b.share(b.fast),
-        "slip that holds": b.L * b.inner - b.fast * b.R.sum(),
+        "characteristic strength ratio Q/W": b.share(b.fast),
+        "stable limit of interface slip": b.L * b.inner - b.fast * b.R.sum(),
         "slider_height": b.h,
         "slider_radius": b.a,
         "interface_friction": b.inner,
@@ -313,13 +313,13 @@ def _limit(project, row):
     if e is None:
         return None
     s = e["system"]
-    if title.startswith("rims free at "):
+    if title.startswith("no restrainer contact at "):
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
         ), project.bearing.capacity
-    if title == "stiffness over that at 0.2 D_M":
+    if title == "effective stiffness ratio, D_M to 0.2 D_M":
         return e["k"], e["k_02"] / 3.0
-    if title == "stiffness over that at 0.2 d_dc":
+    if title == "effective stiffness ratio, d_dc to 0.2 d_dc":
         return e["k"], e["k_02"] / 2.0
     if title.startswith("no uplift") and "not evaluated" not in title:
         part = 0.2 * project.file["spectrum"]["s_ms"]
@@ -330,7 +330,7 @@ def _limit(project, row):
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
-        "period over fixed base": (e["period"], 3.0 * held),
+        "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),
     }

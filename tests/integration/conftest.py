@@ -1,4 +1,4 @@
-"""Runs shared by the tests of the driver; each one's ledger of energy is checked as it is made."""
+"""Runs shared by the tests of the driver; each one's energy balance is checked as it is made."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -18,7 +18,7 @@ LEDGER = 1e-3  # of the input
 
 @pytest.fixture(scope="session")
 def run() -> Callable[..., xr.Dataset]:
-    """Run a time history and check that its ledger of energy closes within 0.1 %."""
+    """Run a time history and check that its energy balance closes within 0.1 %."""
 
     def analyse(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
         data = time_history(model, motion, **options)
@@ -172,7 +172,7 @@ def stand(request: pytest.FixtureRequest) -> Iterator[Stand]:
     pytest.importorskip("openseespy")
     ops = opensees()
     if request.param == "fast" and why_not_fast():
-        pytest.skip(f"the fast route is not possible: {why_not_fast()}")
+        pytest.skip(f"the in-process coupling is not possible: {why_not_fast()}")
     ops.wipe()
     yield Stand(ops, request.param)
     ops.wipe()

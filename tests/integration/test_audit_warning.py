@@ -1,4 +1,4 @@
-"""A completed run with a mark in its audit is told apart wherever it is shown."""
+"""A completed run with a mark in its assumption check is told apart wherever it is shown."""
 
 import math
 import warnings
@@ -59,9 +59,9 @@ def test_a_run_without_a_mark_does_not_warn(model):
 def test_summaries_show_it(tmp_path):
     building = moment_frame(bays=(1, 1), storeys=1, bearing=example_bearing())
     marked = time_history(building, PUSH, features=WITHOUT)
-    assert status_of(marked) == "completed, audit: !"
+    assert status_of(marked) == "completed, warning"
     line = next(line for line in audit_report(marked).splitlines() if line.startswith("! rims"))
-    assert f"one: look at: {line[2:]}" in table_of({"one": marked}).splitlines()
+    assert f"one: warning: {line[2:]}" in table_of({"one": marked}).splitlines()
     write_results({"one": marked}, tmp_path)
     assert line[2:] in (tmp_path / "summary.csv").read_text(encoding="utf-8")
 
@@ -70,7 +70,7 @@ def test_figures_show_it_after_loading(marked, tmp_path):
     save(marked, tmp_path / "one.nc")
     figure = histories({"one": load(tmp_path / "one.nc")})
     texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-    assert "one (see its audit)" in texts
+    assert "one (see its assumption check)" in texts
 
 
 def test_auto_keeps_a_small_slip_where_it_is(model):
@@ -90,10 +90,10 @@ def test_auto_hands_sliders_that_spin_to_the_bodies(model):
     spin = float(np.abs(cheap["slider_spin"]).max())
     assert spin > 0.5
     assert needed_level(audit(cheap)) == "contact"
-    assert f"the sliders spun by {spin:.2g} rad, see the level 'contact'" in cheap.attrs["audit"]
+    assert f'the sliders spun by {spin:.2g} rad; rerun with level="contact"' in cheap.attrs["audit"]
     kept = time_history(model, push, level="auto")
     assert kept.attrs["level"] == "contact"
-    assert "see the level 'contact'" not in kept.attrs["audit"]
+    assert "rerun with level" not in kept.attrs["audit"]
 
 
 def test_of_many_runs_the_gravest_doubt_is_named():
@@ -105,7 +105,7 @@ def test_of_many_runs_the_gravest_doubt_is_named():
     ]
     with pytest.warns(AuditWarning, match=f"first, run 2: {edge}; {thrown}") as found:
         _warn_of_runs(rows)
-    assert "3 of 4 runs are complete" in str(found[0].message)
+    assert "3 of 4 runs completed with a warning" in str(found[0].message)
     assert "; 2 with forces or accelerations beyond reason" in str(found[0].message)
-    with pytest.warns(AuditWarning, match=f"audit; the first, run 1: {edge}"):
+    with pytest.warns(AuditWarning, match=f"with a warning; the first, run 1: {edge}"):
         _warn_of_runs(rows[:2])

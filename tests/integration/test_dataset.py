@@ -444,7 +444,9 @@ def test_base_shear_under_a_slender_column_is_in_equilibrium(run, motion):
 def test_base_shear_holds_a_permanent_lateral_load_on_a_column(motion):
     frame = on_column(Section.box(1.0, 1.0, 0.2))
     frame.add_uniform_load("column", (0.0, 2.5e3, 0.0))
-    data = time_history(frame, motion, dt=DT, duration=DT)  # no input yet to measure a ledger by
+    data = time_history(
+        frame, motion, dt=DT, duration=DT
+    )  # no input yet to measure a energy balance by
     assert_allclose(data["base_shear"].sel(axis="y")[0], 4.0 * 2.5e3, rtol=1e-3)  # P-Delta
 
 

@@ -1,4 +1,4 @@
-"""Runs with features left out: exact where the feature is neutral, and each ledger closes."""
+"""Runs with features left out: exact where the feature is neutral; energy balances close."""
 
 import numpy as np
 import pytest
@@ -55,7 +55,7 @@ def plain(run, motion) -> xr.Dataset:
 
 @pytest.mark.parametrize("name", Features.names())
 def test_ledger_closes_with_each_left_out(run, motion, plain, name):
-    """`run` checks the ledger; what is left out must show, and shake the same mass."""
+    """`run` checks the energy balance; what is left out must show, and shake the same mass."""
     bearing = device().as_dcfp(rims=False) if name == "interface" else device()
     data = run(building(bearing), motion, dt=DT, features=Features().without(name))
     assert name in data.attrs["features_left_out"]

@@ -19,8 +19,8 @@ def test_vertical_shaking_at_twice_the_sticking_frequency(
     """0.5 g vertically and 1 mm/s2 sideways: it sticks, and moves by micrometres as a spring does.
 
     The static a / omega^2 with omega^2 = g f_min (R_1^2 + R_2^2) / (L^2 u_y) + g / L, 27 rad/s, is
-    1.4 um. With a store that follows the axial force the motion grew to 0.7 mm and 0.48 m/s2,
-    and friction gave 120 J of nothing.
+    1.4 um. With a store that follows the axial force the motion grew to 0.7 mm and 0.48
+    m/s2, and friction gave 120 J of nothing.
     """
     t = np.arange(0.0, 10.0, 0.001)
     motion = GroundMotion(

@@ -208,7 +208,7 @@ def test_the_model_stays_as_it_was(ops, tmp_path):
     assert_allclose(ops.eigen(4), eigenvalues, rtol=1e-12)
 
 
-@pytest.mark.meant("Frame.from_opensees")  # of every strangeness that can be taken over
+@pytest.mark.meant("Frame.from_opensees")  # of every strangeness that can be imported
 def test_fixed_interface_modes_are_those_of_the_fixed_base(ops):
     """Rigid links with masses at their ends, equal displacements, consistent masses, torsion."""
     device = lir()

@@ -102,7 +102,7 @@ def integrate(frame: Frame, ground: np.ndarray) -> np.ndarray:
 def test_time_history_equals_newmark_in_full_coordinates(run, monkeypatch):
     monkeypatch.setattr(
         time_history_module, "_ENERGY_TOLERANCE", np.inf
-    )  # the same steps on both routes
+    )  # the same steps on both couplings
     ground = shaking()
     expected = integrate(two_storey_frame(), ground)
     data = run(two_storey_frame(), GroundMotion(*ground.T, dt=DT), dt=DT)

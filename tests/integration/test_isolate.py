@@ -178,7 +178,7 @@ def test_a_symmetric_tangent_takes_a_symmetric_system(ops):
 
 
 def test_taken_over_it_moves_alike(ops, run):
-    """The same model isolated in OpenSees, and taken over on the same bearings."""
+    """The same model isolated in OpenSees, and imported on the same bearings."""
     table(ops, base_mass=1e4)
     gravity_analysis(ops)
     frame = Frame.from_opensees([1, 2, 3, 4], DEVICE)

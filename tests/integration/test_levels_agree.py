@@ -1,4 +1,4 @@
-"""The levels against rigid bodies in the scenes of the speed-error measurement, at one step."""
+"""The levels against rigid bodies in the test cases of the speed-error measurement, at one step."""
 
 from dataclasses import replace
 

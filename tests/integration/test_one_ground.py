@@ -1,4 +1,4 @@
-"""The ground that acts is the ground that is recorded, and the ledger of a run says if it holds."""
+"""The ground that acts is the ground that is recorded, and the energy balance shows it."""
 
 import math
 import warnings

@@ -113,7 +113,7 @@ def test_other_elements_of_opensees_refuse_it() -> None:
 
 
 def test_a_heated_bearing_answers_in_opensees_as_in_frames(stand: Any) -> None:
-    """By both routes; after a restart it begins cold again."""
+    """By both couplings; after a restart it begins cold again."""
     dt = 0.002
     bearing = replace(
         stand.DEVICE, friction_heating=FrictionHeating(), pressure_dependence=PressureDependence()

@@ -73,7 +73,8 @@ def test_transient_is_that_of_the_element(stand: Any, level: str) -> None:
     element.set_trial(u, np.zeros(12), 0.0)
     element.commit()
     stand.shaking(3.6, tolerance=1e-8)
-    # in the portable route the length of the first step after `loadConst -time` is not known
+    # in the out-of-process coupling the length of the first step after `loadConst -time` is not
+    # known
     limit, slips = (1e-7, 1e-12) if stand.route == "fast" else (1e-4, 1e-9)
     if level == "contact":  # a trace of gravity's steps in the points' friction
         limit, slips = max(limit, 1e-5), max(slips, 1e-9)
@@ -240,7 +241,7 @@ def test_other_units_are_the_same_model(stand: Any) -> None:
 @pytest.mark.parametrize("level", LEVELS)
 def test_both_routes_agree(stand: Any, level: str) -> None:
     if stand.route == "portable":
-        pytest.skip("runs both routes in one")
+        pytest.skip("runs both couplings in one")
     runs = []
     for route in ("fast", "portable"):
         stand.route = route
@@ -249,7 +250,8 @@ def test_both_routes_agree(stand: Any, level: str) -> None:
         stand.shaking(3.6)
         runs.append(stand.run(40 if level == "contact" else 200, 0.005))
         runs.append(np.array(bearing_response(1, "slip")))
-    # they differ in the first step after gravity, whose length the portable route does not know
+    # they differ in the first step after gravity, whose length the out-of-process coupling does not
+    # know
     assert np.abs(runs[0] - runs[2]).max() < 1e-6 * np.abs(runs[0]).max()
     assert np.allclose(runs[1], runs[3], rtol=1e-5)
 

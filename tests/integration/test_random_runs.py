@@ -1,4 +1,4 @@
-"""Random scenes (validation.fuzzing): a run completes or says when and why it stopped.
+"""Random test cases (validation.fuzzing): a run completes or says when and why it stopped.
 
 Nothing else is allowed: no NaN, no silent failure, no bearing computed on beyond its limits, no
 energy from nowhere. Every sixth at the level "pendulum" is run again, turned and mirrored; the

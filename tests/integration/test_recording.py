@@ -131,7 +131,7 @@ def analyse(scene: str, **options) -> xr.Dataset:
 
 @pytest.fixture(scope="module")
 def whole():
-    """Return the whole record of a scene, made once."""
+    """Return the whole record of a test case, made once."""
     made: dict[str, xr.Dataset] = {}
 
     def of(scene: str) -> xr.Dataset:

@@ -37,7 +37,7 @@ from lir_element import CoulombFriction, LIRBearing
 
 # Tall and soft on purpose: many modes on few bearings.
 pytestmark = [
-    pytest.mark.meant("the structure with its bearings held has a period"),
+    pytest.mark.meant("the structure on a fixed base has a period"),
 ]
 
 DT = 0.005

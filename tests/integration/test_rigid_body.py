@@ -38,7 +38,7 @@ def bearing(**changes: object) -> LIRBearing:
 
 
 def rigid(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
-    """Run at the level 'rigid_body'; the ledger must close."""
+    """Run at the level 'rigid_body'; the energy balance must close."""
     data = time_history(model, motion, level="rigid_body", **options)
     assert data.attrs["status"] == "ok"
     assert energy_error(data) < 3e-9

@@ -88,7 +88,7 @@ def test_a_box_of_shells(ops):
         corners, bearing(), gravity=G, base_rotations="free", base_diaphragm=False
     )
     found = modes(taken, 4, bearings="fixed").periods
-    # bearings held are springs of their axial stiffness, 2e5 times that of the slab
+    # fixed base are springs of their axial stiffness, 2e5 times that of the slab
     assert_allclose(found, theirs, rtol=2e-5)
     assert theirs[0] / theirs[1] > 1.05
     state = gravity(taken)

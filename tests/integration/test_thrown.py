@@ -33,7 +33,7 @@ def toss(up: float, lateral: float = 6.0) -> GroundMotion:
 def test_rims_act_where_the_slider_is(
     up: float, lift: float, status: str, dt: float | None
 ) -> None:
-    """Thrown up by more than its height it is no longer between the rims: the ledger closes."""
+    """Thrown up by more than its height it is beyond the rims: the energy balance closes."""
     model = lumped_mass(ONE_PIECE, 3e4)
     if status == "ok":
         data = time_history(model, toss(up), dt=dt)

@@ -206,7 +206,7 @@ def test_the_ledger_closes_and_yielding_is_in_it(stack, hinged):
 
 
 def test_the_elastic_energy_is_that_of_the_springs(stack):
-    """Storey links and the vertical springs store it; the ledger finds it by difference."""
+    """Storey links and the vertical springs store it; the energy balance finds it by difference."""
     frame, data = stack
     stored = np.sum(data["link_force"].to_numpy() ** 2 / (2.0 * STIFFNESS), axis=1)
     for spring in frame.springs.values():

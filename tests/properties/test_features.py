@@ -1,4 +1,4 @@
-"""With features left out the element keeps its exact tangent, its ledger and its symmetries."""
+"""With features left out the element keeps exact tangent, energy balance and symmetries."""
 
 from types import SimpleNamespace
 

@@ -104,7 +104,7 @@ def test_no_work_out_of_a_changing_axial_force(
 def test_friction_never_gives_more_than_it_has(
     level: str, name: str, seed: int, lab: SimpleNamespace
 ) -> None:
-    """Random axial forces, uplift among them, at random slidings: the store stays a store.
+    """Random axial forces, uplift among them, at random slidings: the database stays a store.
 
     At the level 'contact' the bearing stays down: its sliders have next to no mass here.
 

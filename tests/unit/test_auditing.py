@@ -1,4 +1,4 @@
-"""The audit's numbers on made cases, and what follows from them."""
+"""The assumption check's numbers on made cases, and what follows from them."""
 
 import math
 from dataclasses import replace
@@ -353,7 +353,7 @@ def test_auto_asks_for_another_level(monkeypatch):
 
 
 def test_auto_names_runs_that_end_otherwise():
-    """One completes, the other fails: the audit says so, and with it every summary."""
+    """One completes, the other fails: the assumption check says so, and with it every summary."""
     ends = {
         "alike": [(RunStatus.OK, 3.0), (RunStatus.INACCURATE, 3.0)],
         "last fails": [(RunStatus.OK, 3.0), (RunStatus.SLIP_EXCEEDED, 1.25)],

@@ -98,7 +98,7 @@ def kept(ratio):
         "window": 8.0,
         "ratios": {"usual over direct": 2.0 * ratio, "best over direct": ratio},
     }
-    kinds = ("singleFPBearing", "TripleFrictionPendulum", "LIR-DCFP, fast route")
+    kinds = ("singleFPBearing", "TripleFrictionPendulum", "LIR-DCFP, in-process coupling")
     found = {
         "state": "ok",
         "key": "a",
@@ -130,7 +130,7 @@ def test_the_rival_is_the_cheapest_of_opensees_own_elements():
     found = kept(25.0)["a"]
     assert rival(found, "plain DCFP", "best").kind == "TripleFrictionPendulum"
     assert rival(found, "plain DCFP", "usual").kind == "singleFPBearing"
-    assert rival(found, "LIR-DCFP", "best").kind == "LIR-DCFP, fast route"
+    assert rival(found, "LIR-DCFP", "best").kind == "LIR-DCFP, in-process coupling"
 
 
 @pytest.mark.parametrize(("ratio", "said"), [(25.0, "met"), (10.0, "**missed**, by a factor")])

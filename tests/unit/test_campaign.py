@@ -353,7 +353,7 @@ def test_a_store_of_other_sources_is_refused_or_taken_over(
         small(tmp_path / "store").run()
     data = small(tmp_path / "store").run(accept_other_sources=True)
     assert data.attrs["sources_accepted"].startswith("after 13 runs: lir-dcfp")
-    small(tmp_path / "store").run()  # they are the store's now
+    small(tmp_path / "store").run()  # they are the results database's now
     assert small(tmp_path / "store").digest() == whole
 
 

@@ -413,7 +413,7 @@ def test_slip_beyond_capacity(sign: float) -> None:
 
 @SIGNS
 def test_rim_overrun(sign: float) -> None:
-    """A one-piece slider driven through its rim: fails at a deformation of a tenth of r."""
+    """A rigid slider driven through its rim: fails at a deformation of a tenth of r."""
     path = sign * np.linspace(0.01, 0.25, 25)
     with pytest.raises(
         AnalysisError, match=r"overran.*rim deformation 0\.008.*rim_overrun"

@@ -50,7 +50,7 @@ def test_static_bearing_by_hand() -> None:
     held = by["interface holds until a rim is met", "N_min"]
     assert held.demand == pytest.approx(100e3 * 0.099 / 1.415)
     assert held.limit == pytest.approx(0.126 * 100e3 / 1.2)
-    assert by["slip that holds", ""].limit == pytest.approx(0.07929)
+    assert by["stable limit of interface slip", ""].limit == pytest.approx(0.07929)
     rim = by["interface slips before the rim breaks", "bottom rim"]
     cos = math.cos(math.asin(0.175 / 1.415))
     assert rim.demand == pytest.approx(150e3 * 0.07929 / 0.75 / cos)
@@ -58,7 +58,9 @@ def test_static_bearing_by_hand() -> None:
         150e3 / overlap_area(0.08, 0.01)
     )
     # bottom rim alone: (R - h/2) mu_h - mu R off the upper slider's axis, that is s* / 2
-    assert by["resultant between the sliders", ""].demand == pytest.approx(0.07929 / 2 / 0.08)
+    assert by["normalised eccentricity e/a at the rims", ""].demand == pytest.approx(
+        0.07929 / 2 / 0.08
+    )
     # the centre of pressure on a liner: s R / L off where frictions are alike, and mu R h / L
     offset = 0.75 * (0.01 + 0.066 * 0.085) / 1.415
     liner = by["pressure on the liner around its resultant", "top surface"]
@@ -202,7 +204,7 @@ def test_friction_is_that_of_the_pressure() -> None:
     lower = 0.8 * 0.05 * 0.7 ** (0.02 * (40.0 - 20.0))
     held = by["interface holds until a rim is met", "N_min"]
     assert held.demand == pytest.approx(loads[0] * upper * 1.5 / 1.415)
-    stable = by["slip that holds", ""]
+    stable = by["stable limit of interface slip", ""]
     assert stable.limit == pytest.approx(1.415 * 0.15 - 1.5 * upper)
     rim = by["interface slips before the rim breaks", "top rim"]
     cos = math.cos(math.asin(0.175 / 1.415))

@@ -1,4 +1,4 @@
-"""The self-test of the fast route: its verdict is kept, and believed."""
+"""The self-test of the in-process coupling: its verdict is kept, and believed."""
 
 import json
 import os

@@ -332,10 +332,10 @@ def test_the_loops_of_the_design_itself_pass() -> None:
     [
         ({"friction": 0.75 * MU}, "friction by the energy"),
         ({"friction": 1.3 * MU}, "friction by the energy"),
-        ({"radius": 0.8 * L}, "second stiffness over N / L"),
-        ({"radius": 1.2 * L}, "second stiffness over N / L"),
+        ({"radius": 0.8 * L}, "post-elastic stiffness over N / L"),
+        ({"radius": 1.2 * L}, "post-elastic stiffness over N / L"),
         ({"radius": -20.0 * L}, "slope of loading"),
-        ({"fade": 0.15}, "energy of a cycle, off the set's mean"),
+        ({"fade": 0.15}, "energy dissipated per cycle (EDC), off the set's mean"),
         ({"fade": 0.3}, "effective damping: drop over the cycles"),
     ],
 )
@@ -370,7 +370,9 @@ def test_drop_and_spread_by_hand() -> None:
     found = {check.title: check for check in judged(loop(fade=0.1))}
     energy = 0.9 ** np.arange(3)
     spread = abs(energy / energy.mean() - 1.0).max()
-    assert found["energy of a cycle, off the set's mean"].demand == pytest.approx(spread, rel=1e-2)
+    assert found["energy dissipated per cycle (EDC), off the set's mean"].demand == pytest.approx(
+        spread, rel=1e-2
+    )
     force = 0.2 / L + MU * energy
     stiffness = found["effective stiffness: drop over the cycles"].demand
     assert stiffness == pytest.approx(1.0 - force[-1] / force[0], rel=1e-3)
@@ -381,7 +383,7 @@ def test_specimens_of_one_set_are_judged_together() -> None:
     one, two = loop(friction=0.85 * MU), loop(friction=1.25 * MU)
     assert judged(one).passed
     both = judged(one, two)
-    assert failing(both) == {"energy of a cycle, off the set's mean"}
+    assert failing(both) == {"energy dissipated per cycle (EDC), off the set's mean"}
 
 
 def test_cycles_of_unlike_displacement_are_refused() -> None:
@@ -419,7 +421,7 @@ def test_the_interface_alone_goes_by_its_own_bounds() -> None:
 
 def test_limits_are_the_engineers() -> None:
     tight = judged(loop(fade=0.03), limits=AcceptanceLimits(spread=0.02, drop=0.01))
-    assert {"energy of a cycle, off the set's mean"} <= failing(tight)
+    assert {"energy dissipated per cycle (EDC), off the set's mean"} <= failing(tight)
     assert judged(loop(fade=0.03)).passed
     with pytest.raises(CheckError, match="around 1"):
         AcceptanceLimits(stiffness=(1.1, 1.2))

@@ -1,4 +1,4 @@
-"""Random scenes: the same from the same numbers; every check sees what it is there for."""
+"""Random test cases: the same from the same numbers; every check sees what it is there for."""
 
 import json
 import os
@@ -30,9 +30,9 @@ from validation.fuzzing.trial import (
 from validation.random_scenes import arguments, lost, main, tasks
 
 SEED, CALM = 1, 26  # a mass in vertical motion, Newmark, a given step
-"""A series and a scene of it that has nothing to find."""
+"""A series and a test case of it that has nothing to find."""
 MIXED = 342
-"""A scene of it with one bearing of a grid at the level "contact"."""
+"""A test case of it with one bearing of a grid at the level "contact"."""
 
 
 @pytest.fixture(scope="module")
@@ -385,10 +385,10 @@ def test_the_page_lists_what_was_found():
     assert page.count("| hang | no report: hang |") == 1
     assert page.count("| crash | no report: crash |") == 2
     assert "| no end within the limit of time | 2 | **1** |" in page
-    assert "2 scenes and 1 buildings" in page
+    assert "2 test cases and 1 buildings" in page
     assert (
         '| level="auto" against all features: the peak differs by more than 0.01 | 1 | 0 |'
-        in page  # scene 4
+        in page  # test case 4
     )
     json.dumps(entries)
 
@@ -398,7 +398,7 @@ def test_the_command(tmp_path, capsys):
     call = ["--count", "1", "--buildings", "1", "--page", str(page), "--keep", str(kept)]
     main(call)
     assert len(kept.read_text(encoding="utf-8").splitlines()) == 2
-    assert page.read_text(encoding="utf-8").startswith("# Random scenes\n")
+    assert page.read_text(encoding="utf-8").startswith("# Random test cases\n")
     main(["--only", "26"])
     assert "number: 26" in capsys.readouterr().out
     with pytest.raises(SystemExit):

@@ -106,7 +106,7 @@ def test_no_permission(tmp_path: Path) -> None:
 
 
 def test_packed_histories(tmp_path: Path) -> None:
-    """Single precision, small, and the ledger as it was."""
+    """Single precision, small, and the energy balance as it was."""
     time = np.linspace(0.0, 10.0, 4001)
     rough = np.sin(time[:, None] * np.arange(1, 9)) * 1e5
     data = xr.Dataset(

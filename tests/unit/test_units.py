@@ -104,7 +104,7 @@ STRANGE: dict[str, tuple[dict[str, Any], str]] = {
     "yield displacement in mm": ({"yield_displacement": 0.25}, "0.25 mm are 0.00025 m"),
     "that of the interface": ({"interface_yield_displacement": 0.01}, "0.01 mm are 1e-05 m"),
     "rim in kN/mm": ({"rim_stiffness": 473.0}, r"473 kN/mm are 4.73e\+08 N/m"),
-    "rim overrun in mm": ({"rim_overrun": 8.0}, "8 mm are 0.008 m"),
+    "restrainer failure in mm": ({"rim_overrun": 8.0}, "8 mm are 0.008 m"),
     "slip capacity in mm": ({"slip_capacity": 80.0}, "80 mm are 0.08 m"),
     "rate in s/mm": ({"friction": VelocityFriction(0.066, 0.03, 0.02)}, "0.02 s/mm are 20 s/m"),
     "density in t/m3": ({"slider_density": 7.85}, "7.85 t/m3 are 7850 kg/m3"),

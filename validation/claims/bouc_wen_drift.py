@@ -38,7 +38,7 @@ CLAIM = Claim(
 GRAVITY = 9.80665
 EXPONENTS = (1.0, 2.0, 4.0, 8.0, 20.0)
 YIELDS = (0.01e-3, 0.1e-3, 1e-3)  # m
-HELD, VIBRATION = 0.19, 0.01  # g, of the made input: held, and its vibration
+HELD, VIBRATION = 0.19, 0.01  # g, of the synthetic motion: held, and its vibration
 FREQUENCY, CYCLES = 1.0, 20  # Hz; cycles of the vibration
 RISE, REST = 6.0, 3.0  # s, in which the held part grows; before the vibration begins
 FIRST, LAST = 7.0, 20.0  # s, of Newhall: after the impacts, and where it is read
@@ -91,7 +91,7 @@ def slip_of(data: xr.Dataset) -> FloatArray:
 
 
 def held_runs() -> dict[tuple[float, float], xr.Dataset]:
-    """Run the made input, by exponent and yield displacement."""
+    """Run the synthetic motion, by exponent and yield displacement."""
     motion = made_input()
     return {
         (eta, u_y): time_history(
@@ -103,7 +103,7 @@ def held_runs() -> dict[tuple[float, float], xr.Dataset]:
 
 
 def drift(data: xr.Dataset) -> float:
-    """Return the drift a cycle of the made input [m], of all cycles but the first."""
+    """Return the drift a cycle of the synthetic motion [m], of all cycles but the first."""
     slip, time = slip_of(data), data["time"].to_numpy()
     begin = RISE + REST + 1.0 / FREQUENCY
     first, last = np.interp([begin, RISE + REST + CYCLES / FREQUENCY], time, slip)
@@ -111,7 +111,7 @@ def drift(data: xr.Dataset) -> float:
 
 
 def held_checks(found: dict[tuple[float, float], xr.Dataset]) -> list[Check]:
-    """Check the made input against the estimate."""
+    """Check the synthetic motion against the estimate."""
     small = YIELDS[:2]
     errors = [
         abs(drift(found[eta, u_y]) / (u_y * estimate(eta)) - 1.0)
@@ -125,7 +125,7 @@ def held_checks(found: dict[tuple[float, float], xr.Dataset]) -> list[Check]:
     still = max(abs(drift(found[math.inf, u_y])) / u_y for u_y in small)
     return [
         below(
-            "made input: drift a cycle / estimate − 1, exponents 1 to 8, u_y up to 0.1 mm",
+            "synthetic motion: drift a cycle / estimate − 1, exponents 1 to 8, u_y up to 0.1 mm",
             "u_y ∫ z^η / (1 − z^η) dz",
             0.05,
             max(errors),
@@ -231,12 +231,12 @@ def text(held: str, newhall: dict[str, str]) -> list[str]:
         "nothing stops it. The elastic-plastic law (η → ∞) has Δw = 0 as long as z₀ + a < 1. The "
         "drift grows with u_y, with the bias and with the **number** of cycles; it falls with "
         "the exponent.",
-        "## A made input",
+        "## A synthetic motion",
         f"The numerical example's bearing is pushed onto its rim by a ground acceleration that "
         f"grows to {HELD:g} g and then vibrates by ±{VIBRATION:g} g, {CYCLES} cycles of "
         f"{FREQUENCY:g} Hz: z₀ = {middle:.2f}, a = {amplitude:.3f}. On the rim the surfaces do not "
         "slide, so that all drift is the interface's.",
-        figure(CLAIM, "held", "Slip under the made input, and drift against the estimate"),
+        figure(CLAIM, "held", "Slip under the synthetic motion, and drift against the estimate"),
         "Drift a cycle in µm: computed (estimate). Columns: `interface_yield_displacement`.",
         held,
         "With u_y = 1 mm the mass vibrates at some 6 Hz on the interface's elastic part: 10 % and "
@@ -270,7 +270,7 @@ def text(held: str, newhall: dict[str, str]) -> list[str]:
 
 
 def page(folder: Path | None) -> Page:
-    """Run the made input and the numerical example, and return the page."""
+    """Run the synthetic motion and the numerical example, and return the page."""
     if folder is None:
         message = f"{CLAIM.name} needs the record {CLAIM.record}"
         raise ValueError(message)
@@ -296,7 +296,7 @@ def page(folder: Path | None) -> Page:
     curve = {float(eta): estimate(float(eta)) for eta in np.geomspace(1.0, 20.0, 40)}
     return Page(
         CLAIM,
-        f"made input within {100.0 * float(results[0].got):.1f} % of the estimate; Newhall, "
+        f"synthetic motion within {100.0 * float(results[0].got):.1f} % of the estimate; Newhall, "
         f"exponent 2, 7 to 20 s: {low:+.2f} mm with u_y = 0.01 mm, {high:+.2f} mm with 1 mm",
         results,
         text(_grid(numbers, "exponent"), tables),

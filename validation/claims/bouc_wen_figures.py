@@ -23,7 +23,7 @@ def drift_figure(
     ratios: Mapping[tuple[float, float], float],
     estimates: Mapping[float, float],
 ) -> Figure:
-    """Draw the slip under the made input, and the drift a cycle over the exponent."""
+    """Draw the slip under the synthetic motion, and the drift a cycle over the exponent."""
     drawn = new_figure(3.3)
     left, right = grid_of(drawn, 1, 2)[0]
     shown = 0.1e-3
@@ -60,7 +60,7 @@ def drift_figure(
     right.minorticks_off()
     caption(right, x="exponent η [-]", y="drift a cycle / u$_y$ [-]", title="drift")
     right.legend(handles=marks, frameon=False, fontsize=7.5, loc="lower left")
-    add_legend(drawn, handles, columns=6, title="Bouc-Wen friction on the rim, made input")
+    add_legend(drawn, handles, columns=6, title="Bouc-Wen friction on the rim, synthetic motion")
     return drawn
 
 

@@ -193,7 +193,7 @@ def page(folder: Path | None) -> Page:
     parts = [
         f"Newhall 360, first {DURATION:g} s; the peak lies at 4.3 s. All rows but those of the "
         "first table have the default tolerance of 1e-8. 'numerical' is the work that the time "
-        "integration leaves over, the ledger what no term accounts for.",
+        "integration leaves over, the energy balance what no term accounts for.",
         reference(CLAIM, "peaks", "Peak displacement over step, contact stiffness and points"),
         "## Step\n\n" + table(HEAD, [row.cells() for row in steps]),
         "Each implicit step is taken once whole and once in two halves; the tolerance bounds the "

@@ -1,4 +1,4 @@
-"""Claim: as a plain DCFP the element is the one-piece slider's theory; the hinged one differs.
+"""Claim: as a plain DCFP the element is the rigid slider's theory; the hinged one differs.
 
     python -m validation.claims.double_pendulum
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 CLAIM = Claim(
     "double_pendulum",
     "The plain DCFP and the theory of Fenz and Constantinou (2006)",
-    "As a plain DCFP the element is the theory of a one-piece slider, and agrees with that of an "
+    "As a plain DCFP the element is the theory of a rigid slider, and agrees with that of an "
     "articulated one where both surfaces slide",
     "statics; Fenz and Constantinou 2006",
 )
@@ -35,7 +35,7 @@ SMALL = 0.1  # m, displacement up to which the tilt counts as small: 0.05 rad
 
 
 def rigid(bearing: LIRBearing, displacement: FloatArray) -> FloatArray:
-    """Return the one-piece slider's force over the load while it slides outwards [-].
+    """Return the rigid slider's force over the load while it slides outwards [-].
 
     ``H = W tan(theta + atan(m))`` with ``sin(theta) = U / L``, ``m = (mu1 R1 + mu2 R2) / L``.
 
@@ -56,7 +56,7 @@ def rigid(bearing: LIRBearing, displacement: FloatArray) -> FloatArray:
 
 
 def checks(found: dict[str, Loops]) -> list[Check]:
-    """Check the element against the one-piece slider, and where the articulated one agrees."""
+    """Check the element against the rigid slider, and where the articulated one agrees."""
     results = []
     free = [run for run in found.values() if run.case.rims is None]
     for one in free:
@@ -67,10 +67,10 @@ def checks(found: dict[str, Loops]) -> list[Check]:
         gap = np.abs(one.element[one.first] / linear - 1.0)[small].max()
         of = f" ({one.case.name})"
         results += [
-            below("element / W tan(θ + atan m) − 1" + of, "one-piece slider, exact", 5e-3,
+            below("element / W tan(θ + atan m) − 1" + of, "rigid slider, exact", 5e-3,
                   float(error), ""),
             below("element / W (U + μ1 R1 + μ2 R2)/L − 1, up to 100 mm" + of,
-                  "one-piece slider, small tilt", 5e-3, float(gap), ""),
+                  "rigid slider, small tilt", 5e-3, float(gap), ""),
         ]  # fmt: skip
     equal, unequal = free[0], free[-1]
     results.append(below("sliding d1/R1 − d2/R2, over the largest", "one axis for both surfaces",
@@ -190,7 +190,7 @@ def comparison(found: dict[str, Loops]) -> str:
         "u* [mm]",
         "force at 20 mm, first way out [-]",
         "half the loop's height at zero [-]",
-        "energy of a cycle / load [m]",
+        "energy dissipated per cycle (EDC) / load [m]",
     )
     return table(head, rows)
 
@@ -243,11 +243,11 @@ def text(rows: str, lost: float) -> list[str]:
         "whatever the radii, the frictions and the place of the hinge. Without it, it is lower: "
         f"for equal surfaces by h/(R1 + R2), {100.0 * HEIGHT / 2.0:.0f} % here.",
         "- **Equal surfaces**: the same loop, to the second order of the tilt.",
-        "- **Unequal frictions**: one piece starts to slide at m W, the hinged slider at μ̄1 W, "
+        "- **Unequal frictions**: one piece starts to slide at m W, the articulated slider at μ̄1 W, "
         "with a steeper branch until u*. That cuts the corners of its loop: "
         f"{lost:.0f} % less energy in the second case. The hinge is the cause: no choice of μ1 and "
         "μ2 makes one piece show it.",
-        "- **Unequal rims**: one piece stops at the first rim, the hinged slider goes on with the "
+        "- **Unequal rims**: one piece stops at the first rim, the articulated slider goes on with the "
         "other part, to d1 R_eff,1/R1 + d2 R_eff,2/R2.",
         "The paper takes `R_eff = R1 + R2 − h` from Fenz and Constantinou, and says that without "
         "rim contact the LIR-DCFP is identical to the classical frictional isolators. Stiffness "
@@ -281,7 +281,7 @@ def page(_: Path | None = None) -> Page:
     lost = [one.energy(one.moments) / one.energy(one.element) - 1.0 for one in found.values()]
     return Page(
         CLAIM,
-        f"closed form of one piece within {100.0 * worst:.3f} %; a hinged slider: same force where "
+        f"closed form of one piece within {100.0 * worst:.3f} %; a articulated slider: same force where "
         f"both surfaces slide, energy {100.0 * lost[0]:+.1f} % with equal and "
         f"{100.0 * lost[1]:+.0f} % with unequal frictions",
         checks(found),

@@ -1,4 +1,4 @@
-"""The figure of the double concave bearings, their sliders in one piece and hinged."""
+"""The figure of the double concave bearings, their rigid sliders and hinged."""
 
 from __future__ import annotations
 
@@ -43,5 +43,5 @@ def draw(found: Mapping[str, Loops]) -> Figure:
     for panel in panels:
         panel.set_ylim(-0.24, 0.24)
     handles = [Line2D([], [], **look) for look in LOOKS]
-    add_legend(drawn, handles, title="Double concave bearings, slider in one piece and hinged")
+    add_legend(drawn, handles, title="Double concave bearings, rigid slider and hinged")
     return drawn

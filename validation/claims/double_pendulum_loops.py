@@ -32,7 +32,7 @@ class Case:
 
     @property
     def bearing(self) -> LIRBearing:
-        """The bearing, its slider in one piece."""
+        """The bearing, its rigid slider."""
         return LIRBearing(
             radius=self.radii,
             slider_height=HEIGHT,

@@ -150,7 +150,7 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
             unbalanced(data, bearing),
             "",
         ),
-        below("ledger of energy" + of, "balance", 1e-3, energy_error(data), ""),
+        below("energy balance" + of, "balance", 1e-3, energy_error(data), ""),
     ]
 
 
@@ -209,7 +209,9 @@ def sensitivity(record: GroundMotion) -> str:
         peak = 1e3 * float(np.abs(data["bearing_displacement"].sel(axis="x")).max())
         offset = 1e3 * abs(float(data["interface_slip"].sel(axis="x")[-1, 0]))
         rows.append((name, f"{peak:.1f}", f"{offset:.1f}", f"{energy_error(data):.1e}"))
-    return table(("case", "peak displacement [mm]", "offset [mm]", "error of the ledger"), rows)
+    return table(
+        ("case", "peak displacement [mm]", "offset [mm]", "error of the energy balance"), rows
+    )
 
 
 def text(data: xr.Dataset, plain: float, overrun: str, rows: str) -> list[str]:

@@ -97,7 +97,7 @@ def stiffness_damping(frame: Frame) -> float:
 
 
 def first_period(frame: Frame) -> float:
-    """Return the first period with the bearings held [s]."""
+    """Return the first period on a fixed base [s]."""
     return float(modes(frame, 1, bearings="fixed").periods[0])
 
 

@@ -3,7 +3,7 @@
     LIR_RECORDS=<folder of records> python -m validation.claims.opensees_element
 
 Source: OpenSeesPy. A steel frame on LIR-DCFP bearings under a recorded motion that drives sliders
-into their rims, once analysed by `frames`, once by OpenSees with `bearing_element`, by both routes.
+into their rims, once analysed by `frames`, once by OpenSees with `bearing_element`, by both couplings.
 Structure and damping are the same in both (see `opensees_building`).
 """
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 CLAIM = Claim(
     "opensees_element",
     "The same building in OpenSees and in frames",
-    "A building on LIR-DCFP bearings answers in OpenSees, by either route, as it does in `frames`: "
+    "A building on LIR-DCFP bearings answers in OpenSees, by either coupling, as it does in `frames`: "
     "peaks within 0.5 % where the step follows the rim impacts",
     "OpenSeesPy",
     EXAMPLE_RECORD,

@@ -2,7 +2,7 @@
 
     LIR_RECORDS=<folder of records> python -m validation.claims.opensees_macro_model
 
-Sources: paper (COMPDYN 2023), sections 2.2 and 3.1, for the scenes; docs/theory.md, section 2, for
+Sources: paper (COMPDYN 2023), sections 2.2 and 3.1, for the test cases; docs/theory.md, section 2, for
 the closed forms of the element; the documentation of OpenSees for those of its elements.
 """
 

@@ -92,7 +92,7 @@ def settings_table(motion: GroundMotion) -> tuple[str, dict[str, Shaken]]:
 
 
 def scenes_table() -> tuple[str, dict[str, dict[str, Floats]], dict[str, float]]:
-    """Run scenes of oblique contact, varying axial force and uplift with both."""
+    """Run test cases of oblique contact, varying axial force and uplift with both."""
     rows: list[tuple[str, ...]] = []
     orbits: dict[str, dict[str, Floats]] = {}
     peaks: dict[str, float] = {}
@@ -132,7 +132,7 @@ def scenes_table() -> tuple[str, dict[str, dict[str, Floats]], dict[str, float]]
         "outcome",
         "peak [mm]",
         "slip at the end [mm]",
-        "largest axial force / weight",
+        "maximum axial force / weight",
     )
     return table(head, rows), orbits, peaks
 
@@ -197,7 +197,7 @@ def text(claim: Claim, numbers: dict[str, float], settings: str, scenes: str) ->
         "side "
         "of the polygon does not turn the slider, as the circle does.",
         "## Uplift, vertical motion, moments",
-        f"Steps of {1e3 * SCENE_STEP:g} ms, scenes of [speed_error.md](speed_error.md).",
+        f"Steps of {1e3 * SCENE_STEP:g} ms, test cases of [speed_error.md](speed_error.md).",
         scenes,
         "**Compressed**, the macro-model follows, also under a varying axial force: peaks within "
         f"{n['compressed']:.1f} % of the level rigid_body. **Lifting off**, "

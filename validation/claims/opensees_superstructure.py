@@ -1,4 +1,4 @@
-"""Claim: a building taken over from OpenSees moves on its bearings as it does in OpenSees.
+"""Claim: a building imported from OpenSees moves on its bearings as it does in OpenSees.
 
     python -m validation.claims.opensees_superstructure
 
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 CLAIM = Claim(
     "opensees_superstructure",
     "A building of OpenSees on bearings of this program",
-    "A building taken over by `Frame.from_opensees` moves as in OpenSees itself, with every kind "
+    "A building imported by `Frame.from_opensees` moves as in OpenSees itself, with every kind "
     "of Rayleigh damping",
     "OpenSeesPy",
 )
@@ -165,7 +165,7 @@ def compare(
     features: Features | None = None,
     dt: float = DT,
 ) -> Comparison:
-    """Analyse the building taken over, and wholly in OpenSees.
+    """Analyse the building imported, and wholly in OpenSees.
 
     Parameters
     ----------
@@ -310,21 +310,21 @@ def _checks(
             "friction pendulums: roof against base", "singleFPBearing", 0.04, sliding.storeys, ""
         ),
         below(
-            "all periods, sticking: taken over against built here",
+            "all periods, sticking: imported against built here",
             "members of this program",
             0.005,
             periods,
             "",
         ),
         below(
-            "displacement of LIR-DCFPs: taken over against built here",
+            "displacement of LIR-DCFPs: imported against built here",
             "members of this program",
             0.005,
             moves,
             "",
         ),
         below(
-            "energy ledger: error / input",
+            "energy balance: error / input",
             "conservation of energy",
             1e-3,
             max(one.ledger for one in every),
@@ -339,7 +339,7 @@ def text(rows: str) -> list[str]:
         figure(CLAIM, "histories", "Displacements from both programs, one upon the other"),
         f"A steel moment frame of 2 by 2 bays and {STOREYS} storeys: elastic beam-columns with "
         "P-Delta, rigid diaphragms, lumped masses with rotational inertia. It is built in "
-        "OpenSees on fixed supports, loaded by its weight, and taken over by "
+        "OpenSees on fixed supports, loaded by its weight, and imported by "
         "`Frame.from_opensees`. The same model then gets isolators in OpenSees, and is analysed "
         f"there by Newmark's method with the same step of {1e3 * DT:g} ms.",
         "## Linear isolators",
@@ -375,7 +375,7 @@ def draw(linear: Comparison, sliding: Comparison) -> Figure:
             axis = axes[row, column]
             for moves, name, style in (
                 (one.expected, "OpenSees", {"color": "0.65", "linewidth": 3.0}),
-                (one.found, "taken over", {"color": "C0", "linewidth": 1.0}),
+                (one.found, "imported", {"color": "C0", "linewidth": 1.0}),
             ):
                 shown = moves[:, row, 0] - (moves[:, 0, 0] if row else 0.0)
                 axis.plot(one.time, 1e3 * shown, label=name, **style)

@@ -179,7 +179,7 @@ def _checks(found: dict[Case, Both], apart: dict[Case, dict[str, float]]) -> lis
         checks.append(above(f"{case.name}: largest interface slip", "rims met", 10.0, slip, "mm"))
     ledger = max(both.ledger for both in found.values())
     checks.append(
-        below("energy ledger: error / input", "conservation of energy", LEDGER, ledger, "")
+        below("energy balance: error / input", "conservation of energy", LEDGER, ledger, "")
     )
     return checks
 

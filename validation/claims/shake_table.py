@@ -195,7 +195,7 @@ def checks(without: xr.Dataset, plain: xr.Dataset, impact: xr.Dataset) -> list[C
             impact.attrs["status"] == "ok",
         ),
         below(
-            "ledger of energy, worst run",
+            "energy balance, worst run",
             "balance",
             1e-3,
             max(energy_error(data) for data in (without, plain, impact)),

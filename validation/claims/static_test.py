@@ -186,7 +186,7 @@ def page(_: Path | None = None) -> Page:
         "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is "
         "free vertically: the axial force swings by half a per cent where the slider meets a rim, "
         "and the largest force with it.",
-        "**Friction from a loop.** The one-piece slider's moment equilibrium makes the force at "
+        "**Friction from a loop.** The rigid slider's moment equilibrium makes the force at "
         "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. Whoever reads 0.066 off "
         "a measured loop as force at zero over load (the paper does not say how its value was "
         "found) should enter `μ = 0.066 L/(R1 + R2) = 0.0623`; see "

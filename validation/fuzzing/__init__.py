@@ -1,1 +1,1 @@
-"""Random scenes: how they are drawn, run, checked and reported (validation/random_scenes.py)."""
+"""Random test cases: how they are drawn, run, checked and reported (validation/random_scenes.py)."""

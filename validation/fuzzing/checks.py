@@ -1,4 +1,4 @@
-"""What must hold in every result of a random scene, whatever became of the run."""
+"""What must hold in every result of a random test case, whatever became of the run."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
     from validation.fuzzing.scenes import Scene
 
 LEDGER = 1e-3
-"""Largest gap, and largest numerical term, of the ledger over the input [-]."""
+"""Largest gap, and largest numerical term, of the energy balance over the input [-]."""
 SMALL_INPUT = 1e-6
-"""Input below which the ledger is not looked at, over weight times effective radius [-]."""
+"""Input below which the energy balance is not looked at, over weight times effective radius [-]."""
 GIVEN_BACK = -1e-9
 """Largest step back of a dissipated energy, and least store, over its largest value [-]."""
 BALANCE = 1e-4
 """Largest unbalanced force on the whole structure, over weight and largest force [-]."""
 WORKS = 1e-3
-"""Largest difference of the work of the forces in the Dataset and in the ledger [-]."""
+"""Largest difference of the work of the forces in the Dataset and in the energy balance [-]."""
 UNLIMITED = {"rim_displacement", "interface_friction"}
 """Variables that may be infinite: without rims, in one piece."""
 STATUSES = {status.name.lower() for status in RunStatus}
@@ -42,7 +42,7 @@ STATUSES = {status.name.lower() for status in RunStatus}
 
 @dataclass
 class Report:
-    """What came out of a scene."""
+    """What came out of a test case."""
 
     number: int
     scene: str
@@ -169,7 +169,7 @@ def _limits(model: Frame, data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
 
 
 def _ledger(report: Report, data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
-    # The ledger closes, without what is only called numerical; or the status says otherwise.
+    # The energy balance closes, without what is only called numerical; or the status says otherwise.
     supplied = float(np.abs(data["energy"].sel(term="input")).max())
     floor = SMALL_INPUT * float(data["weight"]) * float(data["length"].min())
     if supplied <= floor:
@@ -202,7 +202,7 @@ def _friction(data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
 
 
 def _balance(scene: Scene, model: Frame, data: xr.Dataset) -> Iterator[tuple[str, float, str]]:
-    # The accelerations of the Dataset balance its forces, and those do the ledger's work.
+    # The accelerations of the Dataset balance its forces, and those do the energy balance's work.
     if not scene.is_newmark or scene.model == "frame":  # a frame's steel is not in its masses
         return
     weight = float(data["weight"])
@@ -218,7 +218,7 @@ def _balance(scene: Scene, model: Frame, data: xr.Dataset) -> Iterator[tuple[str
     moved = np.diff(_six(data, scene), axis=0)
     force = data["bearing_force"].to_numpy()[:, 0]
     done = float((0.5 * (force[1:] + force[:-1]) * moved).sum())
-    # what friction owes the ledger, having turned within a step, stands in 'numerical'
+    # what friction owes the energy balance, having turned within a step, stands in 'numerical'
     terms = [
         "low_friction_bottom",
         "low_friction_top",
@@ -234,7 +234,11 @@ def _balance(scene: Scene, model: Frame, data: xr.Dataset) -> Iterator[tuple[str
     said = float(data["energy"].sel(term=terms).isel(time=-1).sum())
     scale = float(np.abs(data["energy"]).max())
     if scale > SMALL_INPUT * weight * scene.length and abs(done - said) > WORKS * scale:
-        yield "works", abs(done - said) / scale, "the forces' work is not that of the ledger"
+        yield (
+            "works",
+            abs(done - said) / scale,
+            "the forces' work is not that of the energy balance",
+        )
 
 
 def _six(data: xr.Dataset, scene: Scene) -> FloatArray:

@@ -1,4 +1,4 @@
-"""How runs of one scene ended, and whether two ends are the same but for the error of the step."""
+"""How runs of one test case ended, and whether two ends are the same but for the error of the step."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from frames import Frame
 
 INACCURATE = "inaccurate"
-"""Status of a run that went to its end, with a ledger that is open."""
+"""Status of a run that went to its end, with a energy balance that is open."""
 FAILED_BEARINGS = {status.name.lower() for status in RunStatus if status.is_bearing_failure}
 LATE = 0.1
 """Largest difference of the times at which a bearing fails, over the earlier one [-]."""
@@ -23,7 +23,7 @@ _STEEPEST = math.radians(72.0)
 
 
 def end_of(data: xr.Dataset) -> str:
-    """Return how a run ended; one whose ledger is open went to its end, too."""
+    """Return how a run ended; one whose energy balance is open went to its end, too."""
     status = str(data.attrs["status"])
     return "ok" if status == INACCURATE else status
 

@@ -1,4 +1,4 @@
-"""The page on random scenes: what was run, how it ended, what was found."""
+"""The page on random test cases: what was run, how it ended, what was found."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOST_LISTED = 60
 """Rows of the list of findings."""
 SHARES = (0.5, 0.9, 0.95, 0.99, 1.0)
 GOALS = {False: (0.99, 0.01), True: (0.95, 0.03)}
-"""Without and with uplift: share of the scenes [-], largest error of the peak [-]."""
+"""Without and with uplift: share of the test cases [-], largest error of the peak [-]."""
 KINDS = {
     "crash": "an exception that is not one of the project's, or the process died",
     "hang": "no end within the limit of time",
@@ -37,12 +37,12 @@ KINDS = {
     "end": "an end without time, place, remedy or warning",
     "not finite": "a number that is not finite",
     "limits": "computed on beyond a limit of the bearing, or an axial force that pulls",
-    "ledger": f"gap of the ledger above {LEDGER:g} of the input",
-    "numerical": f"numerical term of the ledger above {LEDGER:g} of the input, status ok",
+    "ledger": f"gap of the energy balance above {LEDGER:g} of the input",
+    "numerical": f"numerical term of the energy balance above {LEDGER:g} of the input, status ok",
     "given back": f"dissipation that falls by more than {-GIVEN_BACK:g} of its end",
     "store": f"elastic store of friction below {GIVEN_BACK:g} of its largest",
     "balance": f"masses times accelerations against forces: off by more than {BALANCE:g}",
-    "works": f"work of the forces in the Dataset against the ledger: off by more than {WORKS:g}",
+    "works": f"work of the forces in the Dataset against the energy balance: off by more than {WORKS:g}",
     "repeat": "a second run that differs in a bit",
     "turn": f"motion turned: displacement changes by more than {TURN:g} of its peak",
     "turn ends differently": "motion turned: another end",
@@ -79,10 +79,10 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
     return (
         "\n\n".join(
             [
-                "# Random scenes",
-                f"Written by `{call}`: {len(scenes)} scenes and {len(buildings)} buildings under their "
+                "# Random test cases",
+                f"Written by `{call}`: {len(scenes)} test cases and {len(buildings)} buildings under their "
                 f"weight, {spent}. {bad} of them have a finding.",
-                "A scene is a model, a motion and the options of its analysis, drawn from its number: "
+                "A test case is a model, a motion and the options of its analysis, drawn from its number: "
                 "bearings from a twentieth of the usual size to those of bridges, plain DCFPs among them, "
                 "radii, frictions, rims and yield displacements unlike, both laws of friction; a mass, "
                 "storeys or a steel frame on them; pulses, noise, spikes, steps and pauses in up to three "
@@ -92,9 +92,9 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
                 "## How they ended",
                 _ends(scenes),
                 "## What is looked for",
-                "Every scene is run twice, once more seen in a mirror, once more with its motion turned "
+                "Every test case is run twice, once more seen in a mirror, once more with its motion turned "
                 "about the vertical (one bearing; by a random angle, with contact points by quarter "
-                f"turns), and where the program chooses the step with one {FINER} times finer. The ledger "
+                f"turns), and where the program chooses the step with one {FINER} times finer. The energy balance "
                 f"is not looked at where the input is below {SMALL_INPUT:g} of weight times effective "
                 "radius. "
                 "A turn, a mirror image or a feature left out is a finding where it changes the "
@@ -131,7 +131,7 @@ def _ends(scenes: Sequence[Entry]) -> str:
         if name in FAILED_BEARINGS:
             what += " (the bearing failed)"
         elif name == INACCURATE:
-            what += " (completed, and says that its ledger is open)"
+            what += " (completed, and says that its energy balance is open)"
         rows.append([what, *(str(n) for n in own), str(sum(own))])
     total = [sum(entry["level"] == level for entry in scenes) for level in columns]
     rows.append(["all", *(str(n) for n in total), str(len(scenes))])
@@ -139,7 +139,7 @@ def _ends(scenes: Sequence[Entry]) -> str:
         f"{kind} {sum(entry['model'] == kind for entry in scenes)}" for kind in MODELS
     )
     lifted, met = (sum(entry[name] for entry in scenes) for name in ("has_uplift", "has_rim"))
-    text = f"Models: {kinds}. {lifted} scenes lift off at some time, {met} meet a rim."
+    text = f"Models: {kinds}. {lifted} test cases lift off at some time, {met} meet a rim."
     return table(["end", *columns, "all"], rows) + "\n\n" + text
 
 
@@ -167,8 +167,8 @@ def _checks(scenes: Sequence[Entry], buildings: Sequence[Entry]) -> str:
     sensitive = sum((entry["sensitivity"] or 0.0) > TURN / MARGIN for entry in scenes)
     doubted = sum(bool(entry["doubts"]) for entry in scenes)
     text = (
-        f"Worst gap of the ledger: {ledger:.1e} of the input; worst numerical term of a run that "
-        f"completed with the status `ok`: {numerical:.1e}. Scenes seen to be sensitive: "
+        f"Worst gap of the energy balance: {ledger:.1e} of the input; worst numerical term of a run that "
+        f"completed with the status `ok`: {numerical:.1e}. Test cases seen to be sensitive: "
         f"{sensitive}. Models or motions found strange before the run: {doubted}."
     )
     return table(["finding", "looked at", "scenes"], rows) + "\n\n" + text
@@ -184,7 +184,7 @@ PARTS: dict[str, Callable[[Entry], bool]] = {
     ", pendulum": lambda entry: entry["level"] == "pendulum",
     ", contact": lambda entry: entry["level"] == "contact",
 }
-"""Which scenes the errors of the chosen step are shown of."""
+"""Which test cases the errors of the chosen step are shown of."""
 
 
 def _errors(scenes: Sequence[Entry]) -> str:

@@ -1,4 +1,4 @@
-"""A random scene that meets rims: a mass on one bearing under two or three components."""
+"""A random test case that meets rims: a mass on one bearing under two or three components."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NEAR = 0.05
 """Of the goal."""
 TRIALS = 18
 UNEQUAL_RADII, UNEQUAL_RIMS, VERTICAL = 0.3, 0.15, 0.4
-"""Shares of scenes with radii that differ, with rims that differ, with three components."""
+"""Shares of test cases with radii that differ, with rims that differ, with three components."""
 
 
 class RimScene(NamedTuple):
@@ -47,7 +47,7 @@ class RimScene(NamedTuple):
             return GroundMotion(x=x, y=y, z=z if z.any() else None, dt=DT, name="random")
 
     def run(self, factor: float, level: str, dt: float | None = None) -> xr.Dataset:
-        """Analyse the scene; failures are results, too."""
+        """Analyse the test case; failures are results, too."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AnalysisWarning)
             return time_history(self.model, self.motion(factor), level=level, dt=dt)
@@ -82,7 +82,7 @@ def random_rim_bearing(rng: np.random.Generator) -> LIRBearing:
 
 
 def random_rim_scene(seed: int, number: int) -> RimScene:
-    """Return scene `number` of the series `seed`: always the same one."""
+    """Return test case `number` of the series `seed`: always the same one."""
     rng = np.random.default_rng((seed, number))
     bearing = random_rim_bearing(rng)
     mass = bearing.resolved()["design_load"] / STANDARD_GRAVITY * rng.uniform(0.3, 2.0)

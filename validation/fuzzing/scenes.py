@@ -1,4 +1,4 @@
-"""A random scene: a model, a motion and the options of its analysis, from two numbers."""
+"""A random test case: a model, a motion and the options of its analysis, from two numbers."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Scene:
         return {name: f"bearing-{ix}-{last - iy}" for name, (ix, iy) in places.items()}
 
     def options_of(self, in_mirror: bool) -> Mapping[str, Any]:
-        """Return the options of the analysis, or those of the scene seen in a mirror along y."""
+        """Return the options of the analysis, or those of the test case seen in a mirror along y."""
         level = self.options["level"]
         if not in_mirror or isinstance(level, str):
             return self.options
@@ -74,7 +74,7 @@ class Scene:
         return self.options["integrator"] in {None, "newmark"} and self.level != "rigid_body"
 
     def describe(self) -> str:
-        """Return the scene in a line."""
+        """Return the test case in a line."""
         dt, scheme = self.options["dt"], self.options["integrator"] or "default"
         if scheme == "generalised-alpha":
             scheme += f" {self.options['spectral_radius']:g}"
@@ -87,17 +87,17 @@ class Scene:
 
 
 def random_scene(seed: int, number: int) -> Scene:
-    """Return scene `number` of the series `seed`: always the same one.
+    """Return test case `number` of the series `seed`: always the same one.
 
     Parameters
     ----------
     seed, number : int
-        Of the series, and of the scene in it; at least 0.
+        Of the series, and of the test case in it; at least 0.
 
     Returns
     -------
-    Scene
-        The scene.
+    Test case
+        The test case.
     """
     kind = chosen(np.random.default_rng((seed, number, 0)), MODELS)
     rng = np.random.default_rng((seed, number, 1))
@@ -241,7 +241,7 @@ def a_stick_on_a_grid(rng: np.random.Generator) -> tuple[list[LIRBearing], Build
         base_mass=base,
         plan=(bays, width),
         damping=damping,
-        overturning=False,  # as the scenes of docs/validation/random_scenes.md
+        overturning=False,  # as the test cases of docs/validation/random_scenes.md
     )
 
 

@@ -1,4 +1,4 @@
-"""One random scene, run and run again: repeated, turned, mirrored, with a finer step."""
+"""One random test case, run and run again: repeated, turned, mirrored, with a finer step."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ TURN = 1e-3
 NOISE = 1e-9
 """Relative change of a motion that must not matter [-]."""
 NOISY_RUNS = 4
-"""How often it is tried: what it does to a scene that lands often is a matter of luck."""
+"""How often it is tried: what it does to a test case that lands often is a matter of luck."""
 MARGIN = 10.0
 """How many times more than that noise a turn may change [-]."""
 SMALL_PEAK = 1e-3
 """Least peak that errors of a chosen step are measured against, over the effective radius [-]."""
 SENSITIVE_ERROR = 1e-2
-"""Error of a chosen step from which the sensitivity of the scene is asked for, too [-]."""
+"""Error of a chosen step from which the sensitivity of the test case is asked for, too [-]."""
 AUTO = 1e-2
 """Largest difference of the peak between what `level="auto"` keeps and all features [-]."""
 FINER = 25
@@ -45,7 +45,7 @@ REFERENCE_LEVELS = ("pendulum", "contact")
 def run(
     scene: Scene, motion: GroundMotion, *, in_mirror: bool = False, **changes: Any
 ) -> tuple[Frame, xr.Dataset, list[warnings.WarningMessage]]:
-    """Return the model, the result and the warnings of a scene."""
+    """Return the model, the result and the warnings of a test case."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         model = scene.build(in_mirror)
@@ -54,12 +54,12 @@ def run(
 
 
 def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True) -> Report:
-    """Run a scene with all its checks.
+    """Run a test case with all its checks.
 
     Parameters
     ----------
     seed, number : int
-        Which scene.
+        Which test case.
     again : bool
         Whether it is run again, turned, mirrored.
     finer : bool
@@ -96,7 +96,7 @@ def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True)
 def compare_runs(
     report: Report, scene: Scene, model: Frame, data: xr.Dataset, *, finer: bool
 ) -> None:
-    """Run the scene again in all ways and compare."""
+    """Run the test case again in all ways and compare."""
     rng = np.random.default_rng((scene.seed, scene.number, 9))
     angle = rng.uniform(0.2, 6.0)
     if differs := same(data, run(scene, scene.motion)[1]):
@@ -147,8 +147,8 @@ def sensitivity(scene: Scene, data: xr.Dataset) -> tuple[float, set[str]]:
 
     Parameters
     ----------
-    scene : Scene
-        The scene.
+    scene : Test case
+        The test case.
     data : Dataset
         Its result.
 

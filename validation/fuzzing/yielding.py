@@ -34,7 +34,7 @@ def random_yielding(seed: int, number: int) -> tuple[Frame, GroundMotion, dict[s
     Parameters
     ----------
     seed, number : int
-        Of the series, and of the scene in it; the same ones give the same scene.
+        Of the series, and of the test case in it; the same ones give the same test case.
 
     Returns
     -------

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-KINDS = {"singleFPBearing": "o", "LIR-DCFP, fast route": "s"}
+KINDS = {"singleFPBearing": "o", "LIR-DCFP, in-process coupling": "s"}
 """By marker; beside a kind stands our own device of it."""
 WHO = {"direct": PALETTE[0], "reduced": PALETTE[2], "usual": PALETTE[3], "best": PALETTE[1]}
 NAMES = {

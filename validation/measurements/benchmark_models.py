@@ -30,7 +30,7 @@ ANGLE = math.radians(30.0)  # of the record in plan
 SCALE = 1.0  # of the record: the rims of the LIR-DCFP are met, none is overrun
 STRONG = 4.0  # s, begin of the strong part
 YIELDING_CAPACITY, YIELDING_FRICTION = 0.3, 0.1  # m and -, of bearings under a frame that yields
-MADE_SCALE = 0.9  # of the made waves, where there is no record
+MADE_SCALE = 0.9  # of the synthetic motions, where there is no record
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ STRUCTURES = {
 
 
 def motion_of(duration: float) -> GroundMotion:
-    """Return the motion: Newhall 1994 at 30 degrees in plan, else made waves of such a size.
+    """Return the motion: Newhall 1994 at 30 degrees in plan, else synthetic motions of such a size.
 
     Parameters
     ----------

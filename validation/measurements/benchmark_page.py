@@ -79,7 +79,7 @@ def text(kept: dict[str, Any]) -> str:
         f"OpenSees {1e3 * FINE['there']:g} ms, with our element in it that of ours). With these "
         "steps they run in turns over the strong part of the motion; ratios are medians of those "
         f"within a turn. Motion: Newhall 1994 times {SCALE:g}, at 30 degrees in plan, {DURATION:g} "
-        "s, or made waves where the record is missing. The LIR-DCFP meets its rims; the plain DCFP "
+        "s, or synthetic motions where the record is missing. The LIR-DCFP meets its rims; the plain DCFP "
         "has none. Usual settings of OpenSees: "
         f"{USUAL.name}. Its best: system, algorithm, numberer and test are varied one after the "
         f"other; the {CANDIDATES} settings cheapest a step and the usual one then each take their "

@@ -22,8 +22,8 @@ FINE = {"here": 5e-4, "there": 2.5e-3}
 """Steps of the converged runs [s]."""
 DURATION = 12.0
 """Of the runs that find the step [s]."""
-PLAIN = ("singleFPBearing", "TripleFrictionPendulum", "plain DCFP, fast route")
-RESILIENT = ("LIR-DCFP, fast route", "LIR-DCFP, macro-model")
+PLAIN = ("singleFPBearing", "TripleFrictionPendulum", "plain DCFP, in-process coupling")
+RESILIENT = ("LIR-DCFP, in-process coupling", "LIR-DCFP, macro-model")
 OWN = (PLAIN[2], RESILIENT[0])
 """Kinds that are this program's element inside OpenSees: they converge to its results."""
 CANDIDATES = 3

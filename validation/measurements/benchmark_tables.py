@@ -138,7 +138,7 @@ def growth(kept: dict[str, Any]) -> list[tuple[str, ...]]:
     """Return rows of exponents: of the cost of a step over bearings, and over unknowns."""
     large = [kept[one.key] for one in there_are(kept) if one.case in "bcd"]
     rows: list[tuple[str, ...]] = []
-    for kind in ("singleFPBearing", "LIR-DCFP, fast route"):
+    for kind in ("singleFPBearing", "LIR-DCFP, in-process coupling"):
         for who in ("direct", "reduced", "usual", "best"):
             costs = [step_cost(found, kind, who) for found in large]
             if sum(map(math.isfinite, costs)) < 2:

@@ -2,7 +2,7 @@
 
     LIR_RECORDS=<folder of records> python -m validation.measurements.features
 
-Runs of one scene take turns; processor time, gravity and audit included. The fastest of each
+Runs of one test case take turns; processor time, gravity and assumption check included. The fastest of each
 counts: a busy machine only adds time.
 """
 
@@ -51,7 +51,7 @@ class Scene(NamedTuple):
 
 
 def scenes() -> list[Scene]:
-    """Return the scenes measured."""
+    """Return the test cases measured."""
     record = Path(os.environ["LIR_RECORDS"]) / "RSN1044_NORTHR_NWH360.AT2"
     building = moment_frame(bearing=design())
     return [
@@ -66,7 +66,7 @@ def scenes() -> list[Scene]:
 
 
 def analyse(scene: Scene, features: Features) -> xr.Dataset:
-    """Run a scene; a failure is told by the table."""
+    """Run a test case; a failure is told by the table."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         return time_history(scene.frame, scene.motion, features=features)
@@ -79,7 +79,7 @@ def peak(data: xr.Dataset) -> float:
 
 
 def feature_rows(scene: Scene) -> list[str]:
-    """Measure a scene with everything, with each feature left out, and with the cheapest model."""
+    """Measure a test case with everything, with each feature left out, and with the cheapest model."""
     cases = [Features(), *(Features().without(name) for name in Features.names()), CHEAPEST]
     seconds: list[list[float]] = [[] for _ in cases]
     results: list[xr.Dataset] = []
@@ -144,8 +144,8 @@ def write() -> str:
         "## Each feature left out",
         "",
         "'Unknowns' are the bearings' degrees of freedom over which Newton's method runs; 'time' "
-        "is the processor's, gravity and audit included, over that with nothing left out; 'peak' "
-        "the change of the peak lateral displacement. The last column repeats what the audit of "
+        "is the processor's, gravity and assumption check included, over that with nothing left out; 'peak' "
+        "the change of the peak lateral displacement. The last column repeats what the assumption check of "
         "that run says.",
     ]
     all_scenes = scenes()
@@ -154,7 +154,7 @@ def write() -> str:
             "",
             f"**{scene.title}**",
             "",
-            "| left out | unknowns | steps | iterations | seconds | time | peak | audit |",
+            "| left out | unknowns | steps | iterations | seconds | time | peak | assumption check |",
             "|---|---|---|---|---|---|---|---|",
             *feature_rows(scene),
         ]
@@ -162,10 +162,10 @@ def write() -> str:
         "",
         "## Where `auto` should begin",
         "",
-        "Time of all runs until nothing left out mattered, gravity and audits included, over that "
+        "Time of all runs until nothing left out mattered, gravity and assumption checks included, over that "
         "of beginning with everything; in brackets the number of runs.",
         "",
-        "| scene | " + " | ".join(STARTS) + " |",
+        "| test case | " + " | ".join(STARTS) + " |",
         "|---|" + "---|" * len(STARTS),
         *start_rows(all_scenes),
         "",

@@ -3,7 +3,7 @@
     python -m validation.measurements.hard_cases
 
 Impacts, axial load through zero, extreme properties and steps. For every run: did it complete, or
-stop with a reason; does the ledger of energy close; did friction ever give energy back; how far is
+stop with a reason; does the energy balance close; did friction ever give energy back; how far is
 it from the reference (level 'rigid_body', or 'contact' at a small step where the bearing stands
 on a frame). The bearing is that of the paper (COMPDYN 2023), section 3.1.
 """
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 TARGET = Path(__file__).parents[2] / "docs" / "validation" / "hard_cases.md"
 REFERENCE_TOLERANCE = 1e-9
 LEDGER = 1e-3
-"""Largest gap of the ledger that passes [-]."""
+"""Largest gap of the energy balance that passes [-]."""
 GIVEN_BACK = -1e-9
 """Largest step back of a dissipated energy, over its largest value [-]."""
 CREEP = (1e-5, 2e-3)
@@ -56,7 +56,7 @@ class Outcome:
     rim_speed: float
     """Speed at the first rim contact [m/s], NaN without one."""
     least_axial: float
-    """Smallest axial force over its static value [-]."""
+    """Minimum axial force over its static value [-]."""
     tilt: float
     """Largest rotation of a plate [rad]."""
     error: float = float("nan")
@@ -214,14 +214,14 @@ def write(found: list[Outcome]) -> str:
             "Written by `python -m validation.measurements.hard_cases`. "
             f"{len(found)} runs, {unsound} of them unsound.",
             "",
-            "A run is sound if it completed, or stopped because the bearing failed (slip, rim overrun, "
-            f"snap-back); all numbers are finite; the ledger of energy closes to {LEDGER:g} of the "
+            "A run is sound if it completed, or stopped because the bearing failed (slip, restrainer failure, "
+            f"snap-back); all numbers are finite; the energy balance closes to {LEDGER:g} of the "
             "input; and friction never gave energy back. Error: of the peak displacement against the "
             "reference, up to the end of the shorter run, in per cent (cyclic test: of the force). Rim "
-            "speed: just before the first contact. N: smallest axial force over its static value. "
+            "speed: just before the first contact. N: minimum axial force over its static value. "
             "Steps in milliseconds, displacements in millimetres, tilts in radian.",
             "",
-            "| case | level | step | outcome | rim speed (m/s) | N | tilt | peak | error | ledger | "
+            "| case | level | step | outcome | rim speed (m/s) | N | tilt | peak | error | energy balance | "
             "energy given back | sound |",
             "|---" * 12 + "|",
             *(line(entry) for entry in found),

@@ -2,7 +2,7 @@
 
     LIR_RECORDS=<folder of records> python -m validation.measurements.history_error
 
-The reference of every scene is a step of 0.1 ms; errors are the largest difference at any time and
+The reference of every test case is a step of 0.1 ms; errors are the largest difference at any time and
 bearing over the largest displacement.
 """
 
@@ -79,8 +79,8 @@ def errors(model: Any, motion: GroundMotion) -> tuple[bool, list[float], list[in
 
 
 def main() -> None:
-    """Run all scenes and print their rows."""
-    print("| scene | rims met | " + " | ".join(f"{t:.0e}" for t in TOLERANCES) + " | steps |")
+    """Run all test cases and print their rows."""
+    print("| test case | rims met | " + " | ".join(f"{t:.0e}" for t in TOLERANCES) + " | steps |")
     print("|---" * (len(TOLERANCES) + 3) + "|")
     for name, (model, motion) in scenes().items():
         met, found, steps = errors(model, motion)

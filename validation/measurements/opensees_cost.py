@@ -2,7 +2,7 @@
 
     python -m validation.measurements.opensees_cost
 
-Buildings of three sizes under one motion, on bearings of OpenSees and on ours by both routes. All
+Buildings of three sizes under one motion, on bearings of OpenSees and on ours by both couplings. All
 that stand in one row of the tables are run in turn, several times; the ratios are medians of the
 ratios within a turn, and hold on a noisy machine.
 """
@@ -85,10 +85,10 @@ def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Pla
     return {
         BASE: (plain, builtin(BASE)),
         "TripleFrictionPendulum": (plain, builtin("TripleFrictionPendulum")),
-        "plain DCFP, fast route": (plain, ours("fast")),
-        "plain DCFP, portable route": (plain, ours("portable")),
-        "LIR-DCFP, fast route": (bearing, ours("fast")),
-        "LIR-DCFP, portable route": (bearing, ours("portable")),
+        "plain DCFP, in-process coupling": (plain, ours("fast")),
+        "plain DCFP, out-of-process coupling": (plain, ours("portable")),
+        "LIR-DCFP, in-process coupling": (bearing, ours("fast")),
+        "LIR-DCFP, out-of-process coupling": (bearing, ours("portable")),
         MACRO: (bearing, lambda _, i, j, device: macro_model(device, i, j, load=load)),
     }
 
@@ -165,9 +165,9 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
                 f"{TURNS} turns. Ratios to {BASE}. The LIR-DCFP meets its rims and slips; {BASE} and the "
                 "plain DCFP have no rims.",
                 table(head, rows),
-                f"Goals in buildings: fast route {FAST_GOAL:g}, portable route {PORTABLE_GOAL:g}. "
+                f"Goals in buildings: in-process coupling {FAST_GOAL:g}, out-of-process coupling {PORTABLE_GOAL:g}. "
                 + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
-                "An element of the portable route waits for some four answers of another process an "
+                "An element of the out-of-process coupling waits for some four answers of another process an "
                 'iteration; the smaller the rest of the model, the more that counts. "stops": plain '
                 "Newton runs in circles in some step, as friction turns round or slips under a rim; "
                 "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "

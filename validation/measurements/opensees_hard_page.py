@@ -235,7 +235,7 @@ def write(
                 f"{LIMIT:g} s hangs. They run in a separate process, replaced after a crash or a hang.",
                 "**Columns.** Error: of the largest displacement against the level 'rigid_body', up to the "
                 "end of the shorter run. Balance: input less kinetic energy less work done on the device, "
-                "over the largest input (element: the ledger). Energy made: the largest amount that the "
+                "over the largest input (element: the energy balance). Energy made: the largest amount that the "
                 "device gave back of what it had taken up beyond what a pendulum under its axial load, "
                 "`N U²/2L`, and its axial spring store, over the largest work, at instants at which it is "
                 "off "

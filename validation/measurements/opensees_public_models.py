@@ -192,7 +192,7 @@ class Outcome:
     frame: Frame
     notes: tuple[str, ...]
     fixed: FloatArray
-    """Periods in `frames` with the bearings held [s]."""
+    """Periods in `frames` on a fixed base [s]."""
     sticking: tuple[FloatArray, FloatArray]
     """Periods on sticking bearings in OpenSees and in `frames` [s]."""
     there: list[Motions]
@@ -333,13 +333,13 @@ def page(found: Sequence[Outcome]) -> str:
         "would give back more energy than it has stored ([theory.md](../theory.md)), OpenSees does "
         "not: that is the difference of the others, and it shrinks with the step.",
         "## Equilibrium and cost",
-        "Axial forces at rest, the energy ledger of `frames`, and computation for a step (the "
+        "Axial forces at rest, the energy balance of `frames`, and computation for a step (the "
         "smaller one) in both programs on the same machine, which had other work: the ratio "
         "counts. `frames` keeps all modes of the structure; damping that is not proportional to "
         "the present stiffness costs the square of their number a step. Plain Newton's method of "
         "OpenSees factorises the whole model several times a step.",
         table(
-            ("model", "axial forces differ by", "ledger, error / input", "OpenSees [ms]",
+            ("model", "axial forces differ by", "energy balance, error / input", "OpenSees [ms]",
              "frames [ms]"),
             costs,
         ),

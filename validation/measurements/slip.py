@@ -1,10 +1,10 @@
-"""The slip of the interface over random scenes that meet rims: writes docs/validation/slip.md.
+"""The slip of the interface over random test cases that meet rims: writes docs/validation/slip.md.
 
     python -m validation.measurements.slip --count 1000 --workers 2
 
 Bearings and motions of two or three components are drawn; each motion is scaled until the slider
 meets its rims. The levels 'pendulum' and 'contact' are compared with 'rigid_body', whose sliders
-have a mass, and with both what `level="auto"` calls sufficient. Scenes are run in child processes.
+have a mass, and with both what `level="auto"` calls sufficient. Test cases are run in child processes.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ steps of 5 ms alone meet its peaks by chance."""
 STEPS = (5e-3, 1e-3)
 """At which the level 'pendulum' is to end as at the step that it chooses [s]."""
 LIMIT = 300.0
-"""Longest time for a scene with all its runs [s]."""
+"""Longest time for a test case with all its runs [s]."""
 
 
 def finer(data: xr.Dataset, name: str) -> FloatArray:
@@ -72,7 +72,7 @@ def outcome(data: xr.Dataset) -> dict[str, Any]:
 
 
 def perform(number: int, *, seed: int) -> dict[str, Any]:
-    """Run a scene at all levels; a scene whose rims are not met has the factor None."""
+    """Run a test case at all levels; a test case whose rims are not met has the factor None."""
     scene = random_rim_scene(seed, number)
     found: dict[str, Any] = {"number": number, "factor": meeting(scene)}
     if found["factor"] is None:
@@ -106,9 +106,9 @@ def _read(path: Path | None) -> list[dict[str, Any]]:
 
 
 def main(given: Sequence[str] | None = None) -> None:
-    """Run the scenes and write the page."""
+    """Run the test cases and write the page."""
     parser = argparse.ArgumentParser(prog="python -m validation.measurements.slip")
-    parser.add_argument("--seed", type=int, default=1, help="series of scenes (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
     parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
     parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")

@@ -2,7 +2,7 @@
 
     LIR_RECORDS=<folder of records> python -m validation.measurements.speed_error
 
-The reference of every scene is the level 'rigid_body', implicit, with a tolerance of 1e-10; how far
+The reference of every test case is the level 'rigid_body', implicit, with a tolerance of 1e-10; how far
 looser tolerances and the explicit mode lie from it is the error of the reference itself. Goals are
 those of the project: see `GOALS`.
 """
@@ -44,7 +44,7 @@ HEADINGS = {
     "quantile": "F 99.9 %",
     "energy": "energy",
     "slip": "slip",
-    "left": "slip left",
+    "left": "residual slip",
     "residual": "residual u",
 }
 SPEED_GOAL = 1e4
@@ -149,7 +149,7 @@ def extract(results: list[Result]) -> str:
         "0.5 / 1.5 / 1.5, with uplift 3 in displacement. All runs: "
         "[validation/speed_error.md](validation/speed_error.md).",
         "",
-        "| scene | pendulum | contact | reference |",
+        "| test case | pendulum | contact | reference |",
         "|---|---|---|---|",
     ]
     for result in results:
@@ -183,7 +183,7 @@ def write_extract(text: str) -> None:
 
 
 def feature_rows(results: list[Result]) -> list[str]:
-    """Return one row a feature left out: errors of peak displacement and force, by scene."""
+    """Return one row a feature left out: errors of peak displacement and force, by test case."""
     chosen = [result for result in results if result.features]
     names = [name for name, _ in chosen[0].features]
     rows = [
@@ -222,7 +222,7 @@ def study_rows(scenes: list[Scene]) -> list[str]:
         "A wider slider of the same stiffness shows it (unequal rims, pendulum at "
         f"{1e3 * OUTPUT:g} ms against its own reference):",
         "",
-        "| slider radius (m) | peak u | peak F | F 99.9 % | energy | slip | slip left |",
+        "| slider radius (m) | peak u | peak F | F 99.9 % | energy | slip | residual slip |",
         "|---|---|---|---|---|---|---|",
     ]
     scene = next(scene for scene in scenes if scene.name == STUDIED[1])
@@ -233,7 +233,7 @@ def study_rows(scenes: list[Scene]) -> list[str]:
 
 
 def scene_rows(results: list[Result]) -> list[str]:
-    """Return what the scenes are, with the axial force that came out."""
+    """Return what the test cases are, with the axial force that came out."""
     return [
         f"| {r.name} | {r.what} | {r.reference.axial.min():.2f} to {r.reference.axial.max():.2f} |"
         for r in results
@@ -253,7 +253,7 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
             f"{REFERENCE_TOLERANCE:.0e}, outputs every {1e3 * OUTPUT:g} ms; for the building the level "
             f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
             "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
-            "time, energy dissipated by friction, and largest slip of the interface; slip left in per "
+            "time, energy dissipated by friction, and largest slip of the interface; residual slip in per "
             "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
             "compared at the output times of the coarser run: the largest one is a single sample next "
             "to an impact, and depends on them.",
@@ -261,9 +261,9 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
             *(f"Left out here: {text}." for text in missing),
             "![Error over cost](figures/speed_error.png)",
             "",
-            "## Scenes",
+            "## Test cases",
             "",
-            "| scene | what it is | axial force over its static value |",
+            "| test case | what it is | axial force over its static value |",
             "|---|---|---|",
             *scene_rows(results),
             "",
@@ -276,7 +276,7 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
             "it is than the reference: the implicit one at its default tolerance of 1e-8, and the "
             "explicit one.",
             "",
-            "| level | scene | step | peak u | F 99.9 % | energy | implicit / | explicit / |",
+            "| level | test case | step | peak u | F 99.9 % | energy | implicit / | explicit / |",
             "|---|---|---|---|---|---|---|---|",
             *goal_rows(results),
             "",
@@ -295,9 +295,9 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
             "",
             "## All runs",
             "",
-            "Steps and cost (of one second of the scene) in milliseconds.",
+            "Steps and cost (of one second of the test case) in milliseconds.",
             "",
-            "| scene | level | step | "
+            "| test case | level | step | "
             + " | ".join(HEADINGS[n] for n in NAMES)
             + " | cost | implicit / | explicit / |",
             "|---" * (len(NAMES) + 6) + "|",
@@ -308,10 +308,10 @@ def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
 
 
 def main() -> None:
-    """Run all scenes, write page and figure."""
+    """Run all test cases, write page and figure."""
     folder = records()
     scenes = [*recorded_scenes(folder), *made_scenes()]
-    missing = [] if folder else ["scenes of recorded motions (set LIR_RECORDS)"]
+    missing = [] if folder else ["test cases of recorded motions (set LIR_RECORDS)"]
     warm_up(scenes[0])
     results = [static_loop()]
     for scene in scenes:

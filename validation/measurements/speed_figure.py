@@ -1,4 +1,4 @@
-"""The figure of error over cost: a panel for each scene, a line for each level."""
+"""The figure of error over cost: a panel for each test case, a line for each level."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def level_of(row: Row) -> str:
 
 
 def panel(ax: Axes, result: Result) -> None:
-    """Draw one scene."""
+    """Draw one test case."""
     for level, (colour, marker) in LEVELS.items():
         rows = [r for r in result.rows if level_of(r) == level and r.status == "ok"]
         if level == "rigid_body":
@@ -83,7 +83,7 @@ def panel(ax: Axes, result: Result) -> None:
 
 
 def draw(results: list[Result]) -> Figure:
-    """Draw all scenes that were run with several steps."""
+    """Draw all test cases that were run with several steps."""
     chosen = [r for r in results if len(r.rows) > 2]
     count = -(-len(chosen) // COLUMNS)
     figure = new_figure(1.0 + 2.1 * count)

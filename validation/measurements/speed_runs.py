@@ -1,4 +1,4 @@
-"""Runs of every scene at every level and step, beside a reference that is shown to be converged."""
+"""Runs of every test case at every level and step, beside a reference that is shown to be converged."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Row:
     errors: Errors
     seconds: float
     share: float
-    """Seconds of computation a second of the scene."""
+    """Seconds of computation a second of the test case."""
     implicit: float
     """Cost of the implicit reference over that of this run."""
     explicit: float
@@ -61,7 +61,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Result:
-    """All runs of a scene, with what its reference says of itself."""
+    """All runs of a test case, with what its reference says of itself."""
 
     name: str
     what: str
@@ -108,7 +108,7 @@ def options_of(dt: float | None) -> dict[str, Any]:
 
 
 def run_scene(scene: Scene) -> Result:
-    """Run a scene at all levels."""
+    """Run a test case at all levels."""
     model = scene.model()
 
     def go(level: str, duration: float = scene.duration, **options: Any) -> Response:
@@ -150,7 +150,7 @@ def without(bearing: LIRBearing, **changes: Any) -> LIRBearing:
 
 
 def features(scene: Scene, reference: Response) -> list[tuple[str, Errors]]:
-    """Return the errors of the level 'pendulum' when something of the scene is left out."""
+    """Return the errors of the level 'pendulum' when something of the test case is left out."""
     bearing, motion = scene.bearing, scene.motion
     top = tuple(CoulombFriction(law.f_max) for law in bearing.frictions)
     cases: list[tuple[str, LIRBearing, GroundMotion]] = [

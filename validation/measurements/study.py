@@ -94,7 +94,7 @@ def halved(sets: Sets) -> list[dict[str, Any]]:
 
 
 def performed(runs: Campaign, workers: int) -> dict[str, Any]:
-    """Run what is not done, and return what it cost, with the store's digest."""
+    """Run what is not done, and return what it cost, with the results database's digest."""
     before = runs.store.status().done if runs.store.exists else 0
     clock, cpu = perf_counter(), process_time()
     with _quietly():

@@ -26,9 +26,9 @@ SHOWN = {
     "storey drift, mean": ("storey drift [%]", 1e2, ".2f"),
     FLOOR: ("floor acceleration [g]", 1.0 / STANDARD_GRAVITY, ".2f"),
     "bearing displacement": ("bearing displacement [mm]", 1e3, ".0f"),
-    "bearing displacement left": ("displacement left [mm]", 1e3, ".1f"),
+    "residual bearing displacement": ("residual displacement [mm]", 1e3, ".1f"),
     "interface slip": ("interface slip [mm]", 1e3, ".1f"),
-    "interface slip left": ("slip left [mm]", 1e3, ".1f"),
+    "residual interface slip": ("residual slip [mm]", 1e3, ".1f"),
     "rim force": ("rim force [kN]", 1e-3, ".0f"),
     "base shear over weight": ("base shear / W", 1.0, ".2f"),
 }
@@ -81,7 +81,7 @@ def _curves(found: Found) -> Figure:
 
 def _medians(found: Found) -> Figure:
     figure = ps.new_figure(2.9)
-    shown = (DEMAND, FLOOR, "bearing displacement left")
+    shown = (DEMAND, FLOOR, "residual bearing displacement")
     for panel, quantity in zip(ps.grid_of(figure, 1, 3)[0], shown, strict=True):
         text, factor, _ = SHOWN[quantity]
         for k, name in enumerate(DEVICES):

@@ -56,7 +56,7 @@ def page(found: Found) -> str:
                 "## Fragility",
                 _fragilities(found),
                 "## Demands",
-                f"![Median ductility, floor acceleration, displacement left over the intensity](figures/{MEDIANS})",
+                f"![Median ductility, floor acceleration, residual displacement over the intensity](figures/{MEDIANS})",
                 "Medians over all records, and the range of the middle 68 %; a line ends where half of "
                 "the records have failed a bearing.",
                 _demands(found),
@@ -110,7 +110,7 @@ def _definitions() -> str:
         (
             "collapse",
             f"ductility {ULTIMATE:g} (an assumption; the hinges do not degrade), or "
-            "failure of a bearing: slip beyond the overlap, or a rim overrun",
+            "failure of a bearing: slip beyond the overlap, or a restrainer failure",
         ),
         ("failure of a bearing", "exceeds every limit state (docs/fragility.md)"),
         (
@@ -362,7 +362,7 @@ def _cost(found: Found) -> str:
         f"{cost['runs']} histories, {cost['computed']} of them in this call: "
         f"{cost['clock']:.0f} s of clock, {cost['cpu']:.0f} s of processor time with "
         f"{cost['workers']} workers (compilation is cached), {cost['memory']:.0f} MB of memory at "
-        f"most. The time loop takes: {loops}. Digest of the store: `{cost['digest']}`."
+        f"most. The time loop takes: {loops}. Digest of the results database: `{cost['digest']}`."
     )
 
 

@@ -87,9 +87,9 @@ DEMANDS = (
     "storey drift, mean",
     "floor acceleration in plan, mean",
     "bearing displacement",
-    "bearing displacement left",
+    "residual bearing displacement",
     "interface slip",
-    "interface slip left",
+    "residual interface slip",
     "rim force",
     "base shear over weight",
 )

@@ -70,14 +70,14 @@ MIDDLE = ("bearing-1-1", "bearing-2-1")
 
 ROWS = (
     "isolator displacement",
-    "displacement left",
+    "residual displacement",
     "interface slip",
-    "interface slip left",
+    "residual interface slip",
     "rim force",
-    "least axial force",
-    "largest axial force",
+    "minimum axial force",
+    "maximum axial force",
     "uplifts, all bearings",
-    "gap of uplift",
+    "maximum uplift",
     "base shear",
     "storey shear",
     "storey drift ratio",
@@ -172,7 +172,7 @@ def lenient_parts(source: Path, folder: Path) -> ProjectInputs:
 def device_numbers(
     parts: ProjectInputs, known: Preliminary, *, rims: bool
 ) -> dict[str, dict[str, float]]:
-    """Return what the histories of a project ask of sliders in one piece, by bound."""
+    """Return what the histories of a project ask of rigid sliders, by bound."""
     plain = {n: link.bearing.as_dcfp(rims=rims) for n, link in known.frame.bearings.items()}
     runs = bounded_histories(
         known.frame.with_bearings(plain),

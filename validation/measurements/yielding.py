@@ -3,8 +3,8 @@
     python -m validation.measurements.yielding --count 200 --workers 2
     python -m validation.measurements.yielding --only 17
 
-Every scene is run as drawn and again at half the step, or at a quarter of the tolerance where the
-program chooses the step. Scenes are run in child processes.
+Every test case is run as drawn and again at half the step, or at a quarter of the tolerance where the
+program chooses the step. Test cases are run in child processes.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ TARGET = FOLDER / "yielding.md"
 TOLERANCE = 1e-4
 """Error of a step over the displacement reached, the default of `time_history`."""
 LEDGER = 1e-3
-"""Largest gap of the ledger that passes [-]."""
+"""Largest gap of the energy balance that passes [-]."""
 GIVEN_BACK = -1e-3
 """What a part may give back beyond what it took up, over the input of energy [-]: its work is
 summed by the trapezoidal rule, in which a contact that begins within a step leaves an error."""
 LIMIT = 300.0
-"""Longest time for a scene with both runs [s]."""
+"""Longest time for a test case with both runs [s]."""
 LEAST = {"peak": 1e-3, "link": 1.0, "hinge": 1e-3}
 """From which on a value is compared: displacement [m], ductility [-], rotation [rad]."""
 WORDS = {
@@ -54,7 +54,7 @@ CALL = "python -m validation.measurements.yielding"
 
 
 def perform(number: int, *, seed: int) -> dict[str, Any]:
-    """Run a scene at both steps and return what the page says of it."""
+    """Run a test case at both steps and return what the page says of it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # bearings near their limits, and the ends of the runs
         frame, motion, options, words = random_yielding(seed, number)
@@ -128,7 +128,7 @@ def _is_finite(data: xr.Dataset) -> bool:
 
 
 def is_sound(entry: dict[str, Any]) -> bool:
-    """Return whether both runs of a scene ended in order, with their energies."""
+    """Return whether both runs of a test case ended in order, with their energies."""
     named = {"ok", *(status.name.lower() for status in RunStatus if status.is_bearing_failure)}
     return (
         named.issuperset(entry["status"])
@@ -139,7 +139,7 @@ def is_sound(entry: dict[str, Any]) -> bool:
 
 
 def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str:
-    """Return the page from the entries of `perform`, and scenes whose process hung or died."""
+    """Return the page from the entries of `perform`, and test cases whose process hung or died."""
     first, second = (Counter(entry["status"][k] for entry in found) for k in range(2))
     ends = [
         (status, str(first[status]), str(second[status])) for status in sorted({*first, *second})
@@ -147,23 +147,23 @@ def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str
     bad = [entry for entry in found if not is_sound(entry)]
     texts = [
         "# Random buildings that yield",
-        f"Written by `{call}`. {len(found)} scenes: sticks of one to six storeys with bilinear and "
+        f"Written by `{call}`. {len(found)} test cases: sticks of one to six storeys with bilinear and "
         "Bouc-Wen storeys (degrading and pinching, too), and moment frames with hinges in beams "
         "and columns (with axial force, too), on LIR-DCFPs; some of them with dampers, ties and "
-        "walls around the base. Motions are scaled to peaks of 2 to 12 m/s². Every scene is run "
+        "walls around the base. Motions are scaled to peaks of 2 to 12 m/s². Every test case is run "
         "as drawn (half of them at given steps of 2, 5 or 10 ms, the others at steps that the "
         "program chooses), and again at half the step or a quarter of the tolerance.",
         "## Ends",
         table(("end", "as drawn", "finer"), ends),
         "What the bearing names (`slip_exceeded` and its like) is a failure of the bearing, not of "
-        f"the computation. The rims are met in {sum(one['rims'] for one in found)} scenes; "
+        f"the computation. The rims are met in {sum(one['rims'] for one in found)} test cases; "
         f"{_count(found, 'link')} sticks and {_count(found, 'hinge')} frames yield.",
         *_unexplained(bad, lost),
         "## Energy",
         table(
             ("what", "limit", "median", "worst"),
             [
-                ("ledger: error / input", f"{LEDGER:g}", *_middle(found, "ledger", max)),
+                ("energy balance: error / input", f"{LEDGER:g}", *_middle(found, "ledger", max)),
                 (
                     "work given back by a part / input",
                     f"{-GIVEN_BACK:g}",
@@ -177,7 +177,7 @@ def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str
         f"{1e3 * LEAST['peak']:g} mm, a ductility of {LEAST['link']:g}, or {LEAST['hinge']:g} rad; "
         "runs that end early are compared up to the end of the shorter one.",
         table(
-            ("quantity", "step", "scenes", *(_quantile(q) for q in QUANTILES), "worst scene"),
+            ("quantity", "step", "scenes", *(_quantile(q) for q in QUANTILES), "worst test case"),
             [
                 row
                 for name in WORDS
@@ -201,9 +201,9 @@ def _count(found: Sequence[dict[str, Any]], name: str) -> int:
 
 
 def _unexplained(bad: Sequence[dict[str, Any]], lost: Sequence[str]) -> list[str]:
-    count = f"Scenes with an end that is not explained, or energies out of bounds: {len(bad)}."
+    count = f"Test cases with an end that is not explained, or energies out of bounds: {len(bad)}."
     lines = [
-        f"- {one['number']} ({one['words']}): {' / '.join(one['status'])}; ledger "
+        f"- {one['number']} ({one['words']}): {' / '.join(one['status'])}; energy balance "
         f"{one['ledger']:.1e}, given back {one['given_back']:.1e}"
         for one in bad
     ]
@@ -254,7 +254,7 @@ def _worst(found: Sequence[dict[str, Any]]) -> str:
         )[-1:]
     }
     lines = [f"- {number}: {one['words']}" for number, one in sorted(named.items())]
-    return "Scenes named there:\n\n" + "\n".join(lines) if lines else ""
+    return "Test cases named there:\n\n" + "\n".join(lines) if lines else ""
 
 
 def _cost(found: Sequence[dict[str, Any]], frame: bool) -> tuple[str, ...]:
@@ -264,12 +264,12 @@ def _cost(found: Sequence[dict[str, Any]], frame: bool) -> tuple[str, ...]:
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Run the scenes and write the page; return how many are not sound."""
+    """Run the test cases and write the page; return how many are not sound."""
     parser = argparse.ArgumentParser(prog=CALL)
-    parser.add_argument("--seed", type=int, default=1, help="series of scenes (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
     parser.add_argument("--count", type=int, default=200, help="how many are drawn")
     parser.add_argument("--workers", type=int, default=1, help="child processes")
-    parser.add_argument("--only", type=int, metavar="NUMBER", help="run this scene alone")
+    parser.add_argument("--only", type=int, metavar="NUMBER", help="run this test case alone")
     options = parser.parse_args(given)
     if options.only is not None:
         for name, value in perform(options.only, seed=options.seed).items():

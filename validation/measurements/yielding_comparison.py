@@ -3,7 +3,7 @@
     LIR_RECORDS=<folder of records> python -m validation.measurements.yielding_comparison
 
 The demo's building and one of light members, with plastic hinges in columns and beams, stand on
-LIR-DCFP bearings, on plain bearings with the same rims, on plain bearings of a larger plan, and on
+LIR-DCFP bearings, on plain bearings with the same rims, on plain bearings of a larger diameter, and on
 these in a moat whose walls stand where the rims were. Records are scaled to equal demands.
 """
 

@@ -112,7 +112,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
     return (
         "\n\n".join(
             [
-                "# Isolated buildings that yield: LIR-DCFP, rims, a larger plan, a moat wall",
+                "# Isolated buildings that yield: LIR-DCFP, rims, a larger diameter, a moat wall",
                 introduction(found, left_out),
                 f"![Storey drift, hinge rotation and floor acceleration over the demand, four systems, two frames](figures/{FIGURE})",
                 "Dots are single records; a line ends before the demand at which a run of its system "
@@ -130,7 +130,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
                 f"{100.0 * SAME:g} %, of rotations within {1e3 * LEAST['rotation']:g} mrad, of drifts "
                 f"left within {1e2 * LEAST['residual']:g} %.",
                 "Runs in which rims or a wall do better than the LIR-DCFP by drift, hinge rotation or "
-                "drift left (LIR-DCFP first):",
+                "residual drift (LIR-DCFP first):",
                 losses(found, met),
                 "## What yielding changes",
                 yielding_changes(found, elastic_at),
@@ -174,7 +174,7 @@ def introduction(found: Sequence[Row], left_out: Sequence[str]) -> str:
             "stronger than beams; the girders above the bearings stay elastic. Rotations are plastic "
             f"ones; members yield at M L / 6 E I: {yield_rotations()}.",
             "Systems: the LIR-DCFP, rims at 250 mm, its interface free to slip by some 80 mm more; the "
-            "plain DCFP with the same rims; the plain DCFP of a larger plan, which "
+            "plain DCFP with the same rims; the plain DCFP of a larger diameter, which "
             "meets none; and that "
             "one in a moat whose walls stand 250 mm away on all sides "
             f"({WALL_STIFFNESS / 1e6:g} kN/mm a side, restitution {RESTITUTION:g}: assumptions, as "
@@ -223,7 +223,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             f"{over('floor', MOAT, g, '.2f')} g in the moat; drift {over('drift', RIMS, 1e2, '.2f')} % "
             f"and {over('drift', MOAT, 1e2, '.2f')} %; hinge rotation "
             f"{over('rotation', RIMS, 1e3, '.1f')} mrad and {over('rotation', MOAT, 1e3, '.1f')} mrad.",
-            "- **The DCFP of larger plan is the best of all where there is room for it.** At the same "
+            "- **The Larger-diameter DCFP is the best of all where there is room for it.** At the same "
             f"demand, LIR-DCFP first: base shear {over('shear', WIDE, 1.0, '.2f')} W, drift "
             f"{over('drift', WIDE, 1e2, '.2f')} %, floor acceleration {over('floor', WIDE, g, '.2f')} "
             f"g, displacement up to {gaps[0]:.0f} against {gaps[1]:.0f} mm. What the LIR-DCFP saves is "
@@ -237,7 +237,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             f"{g * middle(MOAT, 'floor'):.1f} g: damaged, and standing. Walls behind the "
             "LIR-DCFP give it the same ([below](#a-soft-wall-and-walls-behind-the-lir-dcfp)).",
             f"- **In {behind} of {all_runs} comparisons with rims or walls these do better** by drift, "
-            "hinge rotation or drift left (second table below): where the impact is slight, as the "
+            "hinge rotation or residual drift (second table below): where the impact is slight, as the "
             "corner of a moat is farther than the rims, and in the light frame where the limit of the "
             "LIR-DCFP lets hinges yield, too.",
             "- **It needs a wider gap than a building that is stopped**: displacement at demand "

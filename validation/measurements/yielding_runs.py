@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 YIELD_STRESS = 345e6
 """Of the steel [Pa]."""
 
-LIR, RIMS, WIDE, MOAT = "LIR-DCFP", "DCFP with rims", "DCFP of larger plan", "DCFP in a moat"
+LIR, RIMS, WIDE, MOAT = "LIR-DCFP", "DCFP with rims", "Larger-diameter DCFP", "DCFP in a moat"
 SYSTEMS = (LIR, RIMS, WIDE, MOAT)
 SOFT, BEHIND = "DCFP in a soft moat", "LIR-DCFP, walls behind"
 VARIANTS = (SOFT, BEHIND)
@@ -178,7 +178,9 @@ def model_of(structure: Structure, system: str, *, elastic: bool = False) -> Fra
     """Return a building on a system."""
     own = bearings_of(structure.name)
     if system not in (LIR, BEHIND):
-        rims = system == RIMS  # a larger plan: none are met, and its displacement is what it needs
+        rims = (
+            system == RIMS
+        )  # a larger diameter: none are met, and its displacement is what it needs
         own = {place: bearing.as_dcfp(rims=rims) for place, bearing in own.items()}
     frame = moment_frame(
         bearing=own,

@@ -20,7 +20,7 @@ COLUMNS = (
     ("storey drift [%]", "drift", 1e2, ".2f"),
     ("hinge rotation [mrad]", "rotation", 1e3, ".1f"),
     ("hinges that yield", "hinges", 1.0, ".0f"),
-    ("drift left [%]", "residual", 1e2, ".2f"),
+    ("residual drift [%]", "residual", 1e2, ".2f"),
     ("base shear / W", "shear", 1.0, ".2f"),
     ("floor acceleration [g]", "floor", 1.0 / STANDARD_GRAVITY, ".2f"),
     ("of the roof [g]", "roof", 1.0 / STANDARD_GRAVITY, ".2f"),
@@ -30,7 +30,7 @@ MEASURES = (
     ("drift", "storey drift"),
     ("rotation", "hinge rotation"),
     ("floor", "floor acceleration"),
-    ("residual", "drift left"),
+    ("residual", "residual drift"),
     ("shear", "base shear"),
 )
 SAME = 0.02
@@ -166,7 +166,7 @@ def wins_table(found: Sequence[Row], demands: Sequence[float]) -> str:
 
 
 def worse(found: Sequence[Row], other: str, demands: Sequence[float]) -> list[tuple[Row, Row]]:
-    """Return the pairs in which the LIR-DCFP does worse by drift, rotation or drift left."""
+    """Return the pairs in which the LIR-DCFP does worse by drift, rotation or residual drift."""
     return [
         pair
         for pair in pairs(found, other, demands)
@@ -183,7 +183,7 @@ def losses(found: Sequence[Row], demands: Sequence[float]) -> str:
         "against",
         "drift [%]",
         "hinge rotation [mrad]",
-        "drift left [%]",
+        "residual drift [%]",
     ]
     lines = []
     for other in (RIMS, MOAT):

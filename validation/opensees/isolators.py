@@ -128,4 +128,4 @@ def waves(scale: float, duration: float, dt: float = 0.01) -> GroundMotion:
     envelope = np.minimum(t, 1.0) * np.minimum((duration - t) / 1.5, 1.0)
     parts = ((1.8, 1.5), (1.4, 1.9), (0.8, 0.3))
     x, y, z = (scale * peak * envelope * np.sin(2.0 * np.pi * t / period) for peak, period in parts)
-    return GroundMotion(x, y, z, dt=dt, name="made waves")
+    return GroundMotion(x, y, z, dt=dt, name="synthetic motions")

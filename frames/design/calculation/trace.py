@@ -174,7 +174,7 @@ class Trace:
         return Trace(step for step in self if step.symbol in wanted)
 
     def copy(self) -> Trace:
-        """Return the same calculation, to be gone on with apart."""
+        """Return the same calculation, to be continued apart."""
         return Trace(self)
 
     def value(self, symbol: str) -> float:

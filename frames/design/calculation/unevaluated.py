@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from frames.design.calculation.check import Check
 
 OF_AXIAL_FORCES = ("N", "t_up", "g", "N_land")
-"""Symbols of axial force, time lifted off, gap and force of landing in checks of time histories."""
+"""Symbols of axial force, uplift duration, gap and force of landing in checks of time histories."""
 
 NOT_EVALUATED = "not evaluated"
 """Stands in the title of a check that was not evaluated."""

@@ -221,7 +221,7 @@ class ASCE7:
                 judge("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
                 limit(limits, "effective period", "T_M", "<=", "T_lim"),
                 limit(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                limit(limits, "stiffness over that at 0.2 D_M", "k_M", ">=", "k_lim"),
+                limit(limits, "effective stiffness ratio, D_M to 0.2 D_M", "k_M", ">=", "k_lim"),
             ]
         )
 
@@ -285,7 +285,7 @@ class ASCE7:
         limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
         t.given("a_fb", self.period_ratio)
         t("T_least", "a_fb * T_fb", "s")
-        found: list[Check] = [limit(limits, "period over fixed base", "T_M", ">=", "T_least")]
+        found: list[Check] = [limit(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
         if self.irregular:
             t.given("n_irr", 1.0, note="irregular, as given")
             t.given("n_irr_lim", 0.0)

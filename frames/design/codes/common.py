@@ -231,7 +231,7 @@ def capacity_check(
         shown="mm",
         note="displacement at the first rim contact",
     )
-    title = f"rims free at {words}"
+    title = f"no restrainer contact at {words}"
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:

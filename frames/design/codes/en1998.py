@@ -210,7 +210,7 @@ class EN1998:
                 subjects=names,
                 note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            limit(limits, "stiffness over that at 0.2 d_dc", "K_eff", ">=", "K_lim"),
+            limit(limits, "effective stiffness ratio, d_dc to 0.2 d_dc", "K_eff", ">=", "K_lim"),
             limit(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
             limit(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
         ]
@@ -257,7 +257,7 @@ class EN1998:
                 limit(clause, "side of the plan", "B_plan", "<=", "B_lim"),
                 limit(clause, "effective period", "T_eff", "<=", "T_lim"),
                 limit(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                limit(clause, "period over fixed base", "T_eff", ">=", "T_least"),
+                limit(clause, "period ratio T_eff / T_fb", "T_eff", ">=", "T_least"),
                 limit(clause, "vertical period", "T_v", "<=", "T_v_lim"),
             ]
         )

@@ -47,7 +47,7 @@ class ProgrammeDemands:
     Parameters
     ----------
     loads : (float, float), optional
-        Least and largest axial force of a bearing with the earthquake [N]: of time histories or
+        Least and maximum axial force of a bearing with the earthquake [N]: of time histories or
         load combinations. None: the least and the largest of the system's combinations.
     wind : float, optional
         Lateral force of the design wind on one bearing [N].
@@ -55,7 +55,7 @@ class ProgrammeDemands:
         Displacement without an earthquake, of temperature for instance [m].
     slip : float, optional
         Interface slip of time histories [m]. What the displacement that bearings must allow is
-        beyond the rims, and a quarter of the slip that holds, are tested at least.
+        beyond the rims, and a quarter of the stable limit of interface slip, are tested at least.
     impact_speed : float, optional
         Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
         the displacement that bearings must allow; its largest, where that does not reach a rim.

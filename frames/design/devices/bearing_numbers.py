@@ -55,7 +55,7 @@ def enter_bearing(
     bounds : PropertyBounds or None
         Factors of its friction; that of the bearing alone if None.
     loads : (float, float), optional
-        Least and largest axial force [N], entered as N_min and N_max: friction that depends on
+        Least and maximum axial force [N], entered as N_min and N_max: friction that depends on
         pressure is then at its upper bound that of the least, at its lower one that of the
         largest pressure. None: that of its reference pressure.
 
@@ -93,7 +93,7 @@ def enter_bearing(
         "m",
         shown="mm",
         source=source,
-        note="slip that holds",
+        note="stable limit of interface slip",
     )
     note = "slip at which the sliders' overlap ends"
     t.given("s_cap", bearing.resolved()["slip_capacity"], "m", shown="mm", note=note)

@@ -48,7 +48,7 @@ def capacity_checks(
     slip_left : float
         Interface slip that an earlier event left in that direction [m].
     bounds : PropertyBounds, optional
-        Bounds of friction, for the slip that holds.
+        Bounds of friction, for the stable limit of interface slip.
     bound : {"lower", "nominal", "upper", ""}
         Bound that the displacement belongs to.
 
@@ -127,7 +127,7 @@ def engagement_checks(
 
     Notes
     -----
-    A rim is met at ``U = L d / R``, plates parallel, no slip left.
+    A rim is met at ``U = L d / R``, plates parallel, no residual slip.
     """
     require_rims(bearing)
     rule = code_named(code).rims

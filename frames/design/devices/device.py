@@ -39,7 +39,7 @@ def device_checks(
     bearing : LIRBearing
         The bearing, friction nominal. A slider in two pieces, with rims.
     loads : (float, float)
-        Least and largest axial force along the slider while it works, N_min and N_max [N], > 0. At
+        Least and maximum axial force along the slider while it works, N_min and N_max [N], > 0. At
         a rim it exceeds the vertical load by ``1 / (cos(theta) - mu_h sin(theta))``.
     slip : float
         Largest interface slip that is reckoned with [m].
@@ -81,7 +81,8 @@ def device_checks(
     ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
     >>> checks = device_checks(bearing, (100e3, 150e3), slip=0.02)
     >>> print(checks[2])
-    slip that holds: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md (2.7)]
+    stable limit of interface slip: 20 mm <= 79.29 mm, ratio 0.252, passed [no code: docs/theory.md
+    (2.7)]
     """
     limits = DesignLimits() if limits is None else limits
     t = enter_bearing(bearing, bounds, ordered_loads(loads))
@@ -129,7 +130,9 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
 
 def _stable(judge: CheckBuilder) -> Check:
     note = "low friction at its upper bound, the interface's at its lower"
-    return judge(f"{NO_CODE} (2.7)", "slip that holds", "s", "<=", "s_star", note=note)
+    return judge(
+        f"{NO_CODE} (2.7)", "stable limit of interface slip", "s", "<=", "s_star", note=note
+    )
 
 
 def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> list[Check]:
@@ -162,9 +165,16 @@ def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> lis
 
 
 def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
-    # Of the resultant in the interface from both sliders' axes, (10.2): rims free, then each alone.
+    # Of the resultant in the interface from both sliders' axes, (10.2): no restrainer contact, then
+    # each alone.
     t = judge.t
-    t("e_1", "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U", "m", shown="mm", note="rims free")
+    t(
+        "e_1",
+        "(R_1 - h_1) * (s / L + mu_e) - R_1 * mu_1_U",
+        "m",
+        shown="mm",
+        note="no restrainer contact",
+    )
     t("e_2", "(R_2 - h_2) * mu_h_U - mu_2_L * R_2", "m", shown="mm", note="bottom rim alone")
     t("e_3", "(R_1 - h_1) * mu_h_U - mu_1_L * R_1", "m", shown="mm", note="top rim alone")
     free, alone = "abs(e_1), abs(e_1 - s)", "abs(e_2 - s), abs(e_3 - s)"
@@ -172,7 +182,7 @@ def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
     t("epsilon", f"max({free}, {alone}, {left}) / a", source="docs/theory.md (10.2)")
     own = limits.clause_of("eccentricity") == PROJECT_LIMIT
     t.given("epsilon_lim", limits.eccentricity, note="of the project" if own else "a proposal")
-    title, note = "resultant between the sliders", "over their radius; tips at 1"
+    title, note = "normalised eccentricity e/a at the rims", "tips at 1"
     return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
 
 

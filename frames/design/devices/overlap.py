@@ -74,7 +74,7 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
 
 
 def liner_pressure(t: Trace, k: int, load: str) -> float:
-    """Enter the mean pressure on the part of a liner that is centred on its resultant, rims free.
+    """Enter the mean pressure on the part of a liner around its resultant, no restrainer contact.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def liner_pressure(t: Trace, k: int, load: str) -> float:
     """
     if not math.isfinite(t.value("s")):
         return t.given(f"p_{k}", math.inf, "Pa", note=t["s"].note)
-    note = "twice the offset of the centre of pressure, rims free"
+    note = "twice the offset of the centre of pressure, no restrainer contact"
     formula, source = f"2 * abs(R_{k} * (s / L + mu_e - mu_{k}_U))", "docs/theory.md, section 2"
     t(f"c_{k}", formula, "m", shown="mm", source=source, note=note)
     return pressure(t, f"p_{k}", load, f"c_{k}")

@@ -140,7 +140,7 @@ class BearingDemands:
         return self._worst(clause, "isolator displacement", fill, places, standing)
 
     def slips(self) -> list[Check]:
-        """Return the checks of slip over overlap, over the slip that holds, and of what is left."""
+        """Return the checks of slip over the overlap and its stable limit, and of residual slip."""
         most, left = peaks_of_runs(self.data, "slip"), peaks_of_runs(self.data, "slip_left")
 
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
@@ -162,8 +162,10 @@ class BearingDemands:
             *self._worst(
                 f"{NO_CODE}, section 2", "slip over the overlap", of("s", most, "s_cap"), self._lir
             ),
-            *self._worst(holds, "slip over the one that holds", of("s", most, "s_star"), self._lir),
-            *self._worst(holds, "slip left", of("s_left", left, after), self._lir),
+            *self._worst(
+                holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir
+            ),
+            *self._worst(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
 
     def _enter_slip(self, t: Trace, k: int) -> None:
@@ -181,15 +183,15 @@ class BearingDemands:
         """Return the checks of rim force, eccentricity and pressures, where they have limits."""
         found, limits = list[Check](), self.limits
         found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
-        title = "resultant between the sliders, over their radius"
+        title = "normalised eccentricity e/a"
         found += self._against(
             title, "eccentricity", "epsilon", "eccentricity", "-", note=self._of_resultants
         )
         title = "lateral force of a bearing"
         found += self._against(title, "force", "H", "lateral_force", "N")
         name = "displacement_left"
-        found += self._against("displacement left", name, "D_left", name, "m", "mm")
-        found += self._against("largest axial force", "axial_force", "N", "axial_force", "N")
+        found += self._against("residual displacement", name, "D_left", name, "m", "mm")
+        found += self._against("maximum axial force", "axial_force", "N", "axial_force", "N")
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"

@@ -132,7 +132,11 @@ class BoundChecks:
     def _note(self) -> str:
         # With each check: why there is no value, or that there is more to read.
         marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
-        more = f"audits of {marked} runs mark something: see the check of runs" if marked else ""
+        more = (
+            f"assumption checks of {marked} runs mark something: see the check of runs"
+            if marked
+            else ""
+        )
         return "; ".join(part for part in (self._suite.reason, more) if part)
 
     @property
@@ -193,7 +197,7 @@ class BoundChecks:
             t.given("t_allowed", 0.0, "s")
             stopped = bool((self.data["status"].to_numpy() != "ok").any())
             judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
-            clause, title = self._clause(self.rules.force_clause), f"time lifted off by over {gap}"
+            clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             said = "; ".join(
                 part for part in (self._suite.void if stopped else "", self._small_gaps) if part
             )

@@ -22,31 +22,31 @@ if TYPE_CHECKING:
 
 COUNTED = {
     "uplifts, all bearings": "uplifts",
-    "time lifted": "time_lifted",
-    "gap of uplift": "gap",
+    "uplift duration": "time_lifted",
+    "maximum uplift": "gap",
 }
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
 _TABLE = (
     ("isolator displacement", "displacement", "m", 1.0),
-    ("displacement left", "displacement_left", "m", 1.0),
+    ("residual displacement", "displacement_left", "m", 1.0),
     ("interface slip", "slip", "m", 1.0),
-    ("interface slip left", "slip_left", "m", 1.0),
+    ("residual interface slip", "slip_left", "m", 1.0),
     ("rim force", "rim_force", "N", 1.0),
-    ("largest axial force", "axial_force", "N", 1.0),
-    ("least axial force", "axial_tension", "N", -1.0),
+    ("maximum axial force", "axial_force", "N", 1.0),
+    ("minimum axial force", "axial_tension", "N", -1.0),
     ("uplifts, all bearings", "uplifts", "-", 1.0),
-    ("time lifted", "time_lifted", "s", 1.0),
-    ("gap of uplift", "gap", "m", 1.0),
+    ("uplift duration", "time_lifted", "s", 1.0),
+    ("maximum uplift", "gap", "m", 1.0),
     ("base shear", "base_shear", "N", 1.0),
     ("storey shear", "storey_shear", "N", 1.0),
     ("storey drift ratio", "drift", "-", 1.0),
-    ("storey drift ratio, worst line", "line_drift", "-", 1.0),
+    ("storey drift ratio, maximum at any column line", "line_drift", "-", 1.0),
     ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
 )
 _NOTES = {
     "storey drift ratio": "mean of the storey, in plan",
-    "storey drift ratio, worst line": "in plan",
+    "storey drift ratio, maximum at any column line": "in plan",
     "floor acceleration in plan": "mean of the level",
 }
 _ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")

@@ -105,7 +105,8 @@ def history_checks(
     code : str or HistoryRules
         The code, "ASCE 7-22", "EN 1998" or "NCh2745", or its rules with other factors.
     bounds : PropertyBounds, optional
-        Factors that the runs at a bound were made with: the slip that holds goes by them.
+        Factors that the runs at a bound were made with: the stable limit of interface slip goes by
+        them.
     limits : DesignLimits, optional
         What bearings and structure may be asked for; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional
@@ -124,7 +125,8 @@ def history_checks(
         displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and
         what `limits` asks for. Where more runs failed than the rules allow, no value is formed of
         the others: each check that needs it fails (`Check.void`), its demand is what the runs
-        reached, and its note names those that failed. Notes also tell what the runs' audits mark.
+        reached, and its note names those that failed. Notes also tell what the runs' assumption
+        checks mark.
 
     Raises
     ------
@@ -163,10 +165,10 @@ def history_demands(
         A row a quantity with its unit (SI); the worst bearing, storey or level. Columns:
 
         - each bound ("value" of runs at none): mean or largest of the runs, as the code counts
-          them; of the least axial force the mean or the smallest of the runs' smallest;
+          them; of the minimum axial force the mean or the smallest of the runs' smallest;
           ``attrs["statistics"]`` says which, and of how many;
         - envelope: the largest of these, and where it is;
-        - worst: the largest of all single runs (of the least axial force the smallest), and its
+        - worst: the largest of all single runs (of the minimum axial force the smallest), and its
           run;
         - note: what the row is of, and which gaps do not count;
         - void: where more runs failed than the rules allow, which and why. The numbers of that

@@ -107,7 +107,7 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
     data : xarray.Dataset
         Of a time history with the histories of bearings and nodes.
     after : float
-        Time after the landing in which the largest axial force counts as its force [s].
+        Time after the landing in which the maximum axial force counts as its force [s].
 
     Returns
     -------

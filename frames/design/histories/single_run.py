@@ -130,7 +130,7 @@ def event_checks(
     -------
     Checks
         That the run is complete; for each event the worst bearing's slip over the smaller of
-        overlap and s*, and its slip left. Of a run that failed all fail.
+        overlap and s*, and its residual slip. Of a run that failed all fail.
 
     Raises
     ------
@@ -142,13 +142,16 @@ def event_checks(
     found, devices = [_complete(data, bound)], devices_of(data, frame)
     for event, rows in slips_of_events(data, ends).groupby("event"):
         left = "s_star" if limits.slip_left is None else "s_allowed"
-        for column, symbol, limit in (("slip", "s", "s_lim"), ("slip_left", "s_left", left)):
+        for column, symbol, limit, what in (
+            ("slip", "s", "s_lim", "slip"),
+            ("slip_left", "s_left", left, "residual slip"),
+        ):
             each = {
                 name: _slip_of(devices[name], symbol, value, limit, limits)
                 for name, value in zip(rows["bearing"], rows[column], strict=True)
                 if not devices[name].is_dcfp
             }
-            title = f"{column.replace('_', ' ')}, event {event}"
+            title = f"{what}, event {event}"
             found += Governing(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
     return Checks(replace(check, void=void) for check in found)
 
@@ -157,7 +160,7 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     t = Trace()
     t.given("n_failed", float(str(data.attrs["status"]) != "ok"), note="runs that failed")
     t.given("n_allowed", 0.0)
-    said = (f"audit: {doubt}" for doubt in doubts_of(data))
+    said = (f"assumption check: {doubt}" for doubt in doubts_of(data))
     note = "; ".join((str(data.attrs["message"]), *said))
     judge = CheckBuilder(t, bound, CONFIRMED)
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
@@ -193,7 +196,7 @@ def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> C
 
 def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
     wanted = {
-        "gap": ("gap of uplift", "g", "m", "mm", limits.uplift_gap),
+        "gap": ("maximum uplift", "g", "m", "mm", limits.uplift_gap),
         "landing_force": ("force of landing", "N_land", "N", "kN", limits.axial_force),
     }
     if all(limit is None for *_, limit in wanted.values()):

@@ -276,9 +276,11 @@ def motion_of(data: xr.Dataset, k: int) -> str:
 
 
 def audit_notes(data: xr.Dataset) -> str:
-    """Return what the audits of runs mark, by motion."""
+    """Return what the assumption checks of runs mark, by motion."""
     doubts = [str(value) for value in data["doubts"].to_numpy()]
-    return "; ".join(f"audit of {motion_of(data, k)}: {d}" for k, d in enumerate(doubts) if d)
+    return "; ".join(
+        f"assumption check of {motion_of(data, k)}: {d}" for k, d in enumerate(doubts) if d
+    )
 
 
 def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[Check]:
@@ -289,7 +291,7 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
     data : xarray.Dataset
         The runs, or one.
     doubts : list of str
-        What the audit of each marks.
+        What the assumption check of each marks.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings.
 
@@ -302,7 +304,14 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
     if features == "none":
         return []
     t = Trace()
-    t.given("n_spoilt", float(sum(" left out: " in d for d in doubts)), note="by their audits")
+    t.given(
+        "n_spoilt",
+        float(sum(" left out: " in d for d in doubts)),
+        note="by their assumption checks",
+    )
     t.given("n_allowed", 0.0)
-    judge, title = CheckBuilder(t, bound, CONFIRMED), "runs in which what was left out mattered"
-    return [judge("no code: audit", title, "n_spoilt", "<=", "n_allowed", note=features)]
+    judge, title = (
+        CheckBuilder(t, bound, CONFIRMED),
+        "runs whose modelling assumptions are violated",
+    )
+    return [judge("no code: assumption check", title, "n_spoilt", "<=", "n_allowed", note=features)]

@@ -67,7 +67,7 @@ class Uplift:
         -------
         list of Check
             The gap over the height of the rims and over `uplift_gap`; where a bearing lifted off,
-            its largest axial force in such a run over `axial_force`, or its pressure.
+            its maximum axial force in such a run over `axial_force`, or its pressure.
         """
         return [*self.rims(), *self.gaps(), *self.landings()]
 
@@ -86,7 +86,7 @@ class Uplift:
                 t.given("h_rim", own, "m", shown="mm", note="height of the rims, as given")
             each[name] = self._with_gap(t, k, "h_rim")
         clause = self.clause or PROPOSED_LIMIT
-        return self._worst(clause, "gap of uplift over the height of the rims", each)
+        return self._worst(clause, "maximum uplift over the rim height", each)
 
     def gaps(self) -> list[Check]:
         """Return the check of the gap over `uplift_gap`; none where it is not given."""
@@ -95,7 +95,7 @@ class Uplift:
             t = Trace()
             t.given("g_lim", limit or 0.0, "m", shown="mm", note="as given")
             each[name] = self._with_gap(t, k, "g_lim")
-        return self._worst(PROJECT_LIMIT, "gap of uplift", each)
+        return self._worst(PROJECT_LIMIT, "maximum uplift", each)
 
     def landings(self) -> list[Check]:
         """Return the check of the landing's force or pressure; none where nothing lifted off."""

@@ -310,6 +310,6 @@ def _loads(known: Preliminary, demands: pd.DataFrame) -> list[float]:
     for loads in known.system.combinations.values():
         found += loads
     bounds = demands[bounds_of(demands)]
-    for which in ("least", "largest"):
+    for which in ("minimum", "maximum"):
         found += [float(load) for load in bounds.loc[f"{which} axial force"]]
     return found

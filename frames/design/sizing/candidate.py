@@ -285,7 +285,7 @@ def _measures(
 
 
 def _rimmed(plain: LIRBearing, slider_radius: float, t: Trace) -> LIRBearing:
-    with warnings.catch_warnings():  # the slip that holds is among the checks
+    with warnings.catch_warnings():  # the stable limit of interface slip is among the checks
         warnings.simplefilter("ignore", DesignWarning)
         return replace(
             plain,

@@ -58,7 +58,7 @@ class Design:
         Parameters
         ----------
         device : str
-            "LIR-DCFP"; "DCFP": the same plates and rims with the slider in one piece; "DCFP
+            "LIR-DCFP"; "DCFP": the same plates and rims with the rigid slider; "DCFP
             without rim contact": that with plates so large that its rims are not met.
 
         Returns

@@ -31,11 +31,12 @@ class AcceptanceLimits:
     Parameters
     ----------
     spread : float
-        Of second stiffness and energy of a cycle from the mean of the set's cycles [-].
+        Of post-elastic stiffness and energy dissipated per cycle (EDC) from the mean of the set's
+        cycles [-].
     drop : float
         Of effective stiffness and damping over the cycles of a test [-].
     stiffness : (float, float)
-        Range of the second stiffness over N / L [-].
+        Range of the post-elastic stiffness over N / L [-].
 
     Raises
     ------
@@ -84,9 +85,9 @@ def acceptance_checks(
     Returns
     -------
     Checks
-        Of each set: least slope of loading, spread of second stiffness and energy, second
+        Of each set: least slope of loading, spread of post-elastic stiffness and energy, second
         stiffness and friction within their bounds, drops of effective stiffness and damping over
-        the cycles of a test. Displacements beyond the rims have no second stiffness and no
+        the cycles of a test. Displacements beyond the rims have no post-elastic stiffness and no
         friction of the surfaces; of the interface alone friction, spread and drop of the energy.
 
     Raises
@@ -151,7 +152,7 @@ class _Set:
         own = FrictionPendulum.of(self.bearing)
         reached = max(max(c.highest, -c.lowest) for c in self._cycles)
         t, judge = self._begin(TO_BE_CONFIRMED)
-        found = [self._each(judge, "E", "energy of a cycle", "spread")]
+        found = [self._each(judge, "E", "energy dissipated per cycle (EDC)", "spread")]
         if reached <= own.capacity:
             t.given_each(
                 "k_d",
@@ -171,7 +172,7 @@ class _Set:
                     self.clause, "slope of loading", "k_inc", ">=", "k_0", subjects=self._labels
                 )
             )
-            found.append(self._each(judge, "k_d", "second stiffness", "spread"))
+            found.append(self._each(judge, "k_d", "post-elastic stiffness", "spread"))
             found += self._stiffness(judge, own) + self._friction(judge, own)
         return found + self._drops(judge, ("k_eff", "beta_eff"))
 
@@ -184,7 +185,7 @@ class _Set:
         mu, said = self.bearing.interface_friction, "friction of the interface"
         range_ = factors.lower, factors.upper
         return [
-            self._each(judge, "E", "energy of a cycle", "spread"),
+            self._each(judge, "E", "energy dissipated per cycle (EDC)", "spread"),
             *self._within(judge, "mu_h", mu, range_, said),
             *self._drops(judge, ("E",)),
         ]
@@ -222,10 +223,10 @@ class _Set:
     def _stiffness(self, judge: CheckBuilder, own: FrictionPendulum) -> list[Check]:
         t = judge.t
         t.given("L", own.effective_radius, "m")
-        t("r_k", "sum(k_d * L / N) / n", note="second stiffness over N / L, mean")
+        t("r_k", "sum(k_d * L / N) / n", note="post-elastic stiffness over N / L, mean")
         for name, value in zip(("low", "high"), self.limits.stiffness, strict=True):
             t.given(f"r_{name}", value)
-        title = "second stiffness over N / L"
+        title = "post-elastic stiffness over N / L"
         return [
             judge.worst(self.clause, title, "r_k", relation, limit, subjects=(self.name,))
             for relation, limit in _range("r_low", "r_high")

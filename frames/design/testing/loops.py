@@ -136,8 +136,8 @@ def loop_properties(test: PrototypeTest) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a cycle: displacements and forces at both ends [m, N], effective stiffness
-        (ASCE 7-22 (17.8-1)) [N/m] and damping (17.8-2) [-], energy [J], second stiffness k_d, the
-        mean slope of both loading halves [N/m], friction by the energy [-], mean load [N].
+        (ASCE 7-22 (17.8-1)) [N/m] and damping (17.8-2) [-], energy [J], post-elastic stiffness
+        k_d, the mean slope of both loading halves [N/m], friction by the energy [-], mean load [N].
 
     Notes
     -----

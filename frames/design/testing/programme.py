@@ -28,7 +28,7 @@ PROPOSAL = "no code: a proposal"
 """Clause of tests that no code has."""
 
 _ALIKE = 1e-6  # of displacements at two bounds
-_LEAST_SLIP = 0.25  # of the slip that holds: tested though runs slip less
+_LEAST_SLIP = 0.25  # of the stable limit of interface slip: tested though runs slip less
 _STEPS = (0.25, 0.50, 0.67, 1.00)
 
 
@@ -168,7 +168,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
             load,
             3.0,
             speed,
-            "rims met, interface slips and comes back; slip left, liner and rims looked at",
+            "rims met, interface slips and comes back; residual slip, liner and rims looked at",
             PROPOSAL,
         )
     moved = min(d.result.displacement, 0.9 * rim)

@@ -1,4 +1,4 @@
-"""A batch of a campaign computed: its runs as arrays of the shape that the store has."""
+"""A batch of a campaign computed: its runs as arrays of the shape that the results database has."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Batch(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """What the store is laid out by: the first model of each name that can be set up."""
+    """What the results database is laid out by: the first model of each name that can be set up."""
 
     frames: dict[str, Frame]
     layout: xr.Dataset
@@ -139,7 +139,7 @@ def compute(
     work : Work
         The campaign's.
     layout : xarray.Dataset
-        Variables and labels of the store, `Reference.layout`.
+        Variables and labels of the results database, `Reference.layout`.
     batch : int
         Which.
     workers : int or None
@@ -228,7 +228,7 @@ class _Runs:
 
 
 def _extra(data: xr.Dataset, layout: xr.Dataset) -> str:
-    # What results have that the store has no place for, in words.
+    # What results have that the results database has no place for, in words.
     for dim in {*layout.dims} & {*data.dims} - {"run"}:
         if extra := _texts(data, dim) - _texts(layout, dim):
             return (
@@ -278,7 +278,7 @@ def _put(arrays: dict[str, Any], at: IntArray, found: xr.Dataset, layout: xr.Dat
 
 
 def _recorded(found: xr.Dataset, layout: xr.Dataset, places: list[int]) -> xr.Dataset:
-    # The histories alone, with names as texts of any length, which the store takes.
+    # The histories alone, with names as texts of any length, which the results database takes.
     names = [name for name in found.data_vars if name not in layout.data_vars]
     data = found[names].drop_vars(["model", "motion", "scale", "motion_digest"])
     data = data.assign_coords(run=places)

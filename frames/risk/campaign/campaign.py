@@ -1,4 +1,4 @@
-"""Campaigns: models, motions, scales and parameters, run in batches into a store on disk."""
+"""Campaigns: models, motions, scales and parameters, run in batches into a database on disk."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ FEWEST, MOST, PARTS = 16, 512, 8
 
 
 class Campaign:
-    """Many time histories in a store on disk, which can be stopped at any moment and resumed.
+    """Many time histories in a database on disk, which can be stopped at any moment and resumed.
 
     Parameters
     ----------
@@ -59,7 +59,8 @@ class Campaign:
         Histories to be kept besides what is reached.
     batch : int, optional
         Runs of a batch, the least that is computed and written at once. None: an eighth of all,
-        at least 16 and at most 512, with histories 16; of a store that is there, its own.
+        at least 16 and at most 512, with histories 16; of a results database that is there, its
+        own.
     duration, dt, level, integrator, spectral_radius, tolerance, features
         As for `time_histories`, the same for all runs.
 
@@ -132,7 +133,7 @@ class Campaign:
         self._work = Work(plan, structures, grounds, options, record)
 
     def __repr__(self) -> str:
-        """Return the store and the number of runs."""
+        """Return the results database and the number of runs."""
         plan = self._work.plan
         sets = "" if plan.sample is None else f"{plan.sets} sets of parameters x "
         return (
@@ -160,9 +161,9 @@ class Campaign:
             Called with a `BatchProgress` of the runs of this call; True writes it to the standard
             error.
         accept_other_sources : bool
-            Whether a store that other sources or another version of the package began is gone on
-            with: where a change does not touch the numbers. The store keeps from which run on.
-            Everything else must be as it was planned, properties of the bearings included.
+            Whether a results database that other sources or another version of the package began is
+            gone on with: where a change does not touch the numbers. The store keeps from which run
+            on. Everything else must be as it was planned, properties of the bearings included.
 
         Returns
         -------
@@ -172,18 +173,18 @@ class Campaign:
         Raises
         ------
         CampaignError
-            If the store was planned otherwise, or begun by other sources of the package (each
-            difference is named), or is in use, no model
+            If the results database was planned otherwise, or begun by other sources of the package
+            (each difference is named), or is in use, no model
             can be set up, or the cluster is lost.
         OSError
-            If the store cannot be written. What was done before stays.
+            If the results database cannot be written. What was done before stays.
         KeyboardInterrupt
-            After Ctrl-C; the batches done are in the store.
+            After Ctrl-C; the batches done are in the results database.
 
         Warns
         -----
         AnalysisWarning
-            How many runs stopped early or are doubtful.
+            How many runs stopped early or have warnings.
         ModelWarning
             What was warned of while models were built and set up.
         """

@@ -1,4 +1,4 @@
-"""Batches of a campaign as tasks of Dask: workers compute, the owner of the store alone writes."""
+"""Batches of a campaign as tasks of Dask: workers compute, the database's owner alone writes."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def over_cluster(
     work : Work
         The campaign's.
     layout : xarray.Dataset
-        Of the store.
+        Of the results database.
     batches : sequence of int
         Which.
     workers : int or None

@@ -1,4 +1,4 @@
-"""One campaign at a time on a store: a lock that the system lets go of when its process ends."""
+"""One campaign at a time on a database: a lock that the system lets go of when its process ends."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BYTE = 1 << 30  # that Windows locks: far behind the text, which others may rea
 
 @contextmanager
 def locked(path: Path) -> Generator[None, None, None]:
-    """Hold a lock file; that of a process that has died is taken over.
+    """Hold a lock file; that of a process that has died is seized.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Results of a store as they are handed out: texts as Python's, runs that are not done empty."""
+"""Results of a database as they are handed out: texts as Python's, runs that are not done empty."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ indexing: Any = xarray_indexing  # its types are those of another kind of arrays
 
 
 def opened(where: Path) -> xr.Dataset:
-    """Return a group of a store, its values read where they are used, its labels at once."""
+    """Return a group of a database, its values read where they are used, its labels at once."""
     data: xr.Dataset = xr.open_zarr(where, chunks=None, consolidated=False)
     labels: dict[Any, Any] = {
         name: (label.dims, np.array(label.to_numpy().tolist(), dtype=object), label.attrs)
@@ -32,14 +32,14 @@ def opened(where: Path) -> xr.Dataset:
 
 
 def results_of(where: Path, plan: Mapping[str, Any], done: BoolArray) -> xr.Dataset:
-    """Return what the runs of a store reached.
+    """Return what the runs of a results database reached.
 
     Parameters
     ----------
     where : Path
         Group of the results.
     plan : mapping
-        Of the store.
+        Of the results database.
     done : ndarray of bool, shape (runs,)
         Runs whose batch is complete: whatever stands in the rows of others is not shown.
 

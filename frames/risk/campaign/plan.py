@@ -40,7 +40,7 @@ class Plan:
     sample : ParameterSample or None
         Sets of parameters, if any.
     batch : int
-        Runs of a batch, which is a chunk of the store.
+        Runs of a batch, which is a chunk of the results database.
     """
 
     models: tuple[str, ...]
@@ -82,7 +82,7 @@ class Plan:
 
 
 def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
-    """Return in words how what a store was planned with differs from what is given now.
+    """Return in words how what a results database was planned with differs from what is given now.
 
     Parameters
     ----------

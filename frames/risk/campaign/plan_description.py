@@ -1,4 +1,4 @@
-"""What a store is planned with: all that must be the same for it to be gone on with."""
+"""What a results database is planned with: all that must be the same for it to be resumed."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FORMAT, READABLE = 2, (1, 2)
 """Format of the stores that are written, and those that can be read."""
 
 SOURCES = "sources", "program"
-"""ProjectInputs of a plan in which a store may differ where other sources are accepted."""
+"""ProjectInputs of a plan in which a database may differ where other sources are accepted."""
 
 TAKEN_OVER = "gone on with"
 """Part of a plan that tells which other sources were accepted, after how many runs."""
@@ -84,13 +84,13 @@ def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[st
     Parameters
     ----------
     stored, given : mapping
-        That of a store, and what is given now.
+        That of a results database, and what is given now.
 
     Returns
     -------
     tuple of list of str
-        Differences of what is computed, and of the sources that compute it: of the store's plan
-        those that were accepted last.
+        Differences of what is computed, and of the sources that compute it: of the results
+        database's plan those that were accepted last.
     """
     latest = dict(stored)
     for taken in stored.get(TAKEN_OVER, []):

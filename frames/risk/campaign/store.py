@@ -43,7 +43,7 @@ class CampaignStatus(NamedTuple):
     statuses : dict of str to int
         Number of runs done by their status.
     doubtful : int
-        Runs in which the audit marks something.
+        Runs in which the assumption check marks something.
     warnings : tuple of str
         What was warned of while batches were computed.
     """
@@ -57,7 +57,9 @@ class CampaignStatus(NamedTuple):
     def __str__(self) -> str:
         """Return it on one line."""
         parts = ", ".join(f"{count} {name}" for name, count in self.statuses.items())
-        doubts = f"; the audit marks something in {self.doubtful}" if self.doubtful else ""
+        doubts = (
+            f"; the assumption check marks something in {self.doubtful}" if self.doubtful else ""
+        )
         return f"{self.done} of {self.total} runs done{f': {parts}' if parts else ''}{doubts}"
 
 
@@ -79,11 +81,11 @@ class CampaignStore:
 
     @property
     def exists(self) -> bool:
-        """Whether there is a store."""
+        """Whether there is a results database."""
         return (self.path / _PLAN).is_file()
 
     def plan(self) -> dict[str, Any]:
-        """Return what the store was planned with.
+        """Return what the results database was planned with.
 
         Returns
         -------
@@ -112,7 +114,7 @@ class CampaignStore:
         return dict(found)
 
     def create(self, plan: Plan, described: Mapping[str, Any], layout: xr.Dataset) -> None:
-        """Make the store, in one move: there is a whole one, or none.
+        """Make the results database, in one move: there is a whole one, or none.
 
         Parameters
         ----------
@@ -151,7 +153,7 @@ class CampaignStore:
     def require_plan(
         self, described: Mapping[str, Any], *, accept_other_sources: bool = False
     ) -> None:
-        """Refuse to go on with another plan than that of the store.
+        """Refuse to go on with another plan than that of the results database.
 
         Parameters
         ----------
@@ -159,7 +161,7 @@ class CampaignStore:
             What is given now.
         accept_other_sources : bool
             Whether the version of the package and its sources may be others than those that began
-            the store; plan.json keeps which ones took over, and after how many runs.
+            the results database; plan.json keeps which ones took over, and after how many runs.
 
         Raises
         ------
@@ -184,7 +186,7 @@ class CampaignStore:
             msg = (
                 f"{self.path} was computed by other sources of the package: its runs and new ones "
                 "might not belong together. Name another store; or, if the change does not touch "
-                "the numbers, run(accept_other_sources=True), which is kept in the store\n"
+                "the numbers, run(accept_other_sources=True), which the results database keeps\n"
                 f"{listed(sources)}"
             )
             raise CampaignError(msg)
@@ -195,7 +197,7 @@ class CampaignStore:
 
     @contextmanager
     def owned(self) -> Generator[None, None, None]:
-        """Hold the store alone.
+        """Hold the results database alone.
 
         Yields
         ------
@@ -229,7 +231,7 @@ class CampaignStore:
         Raises
         ------
         CampaignError
-            If the store was laid out for other results.
+            If the results database was laid out for other results.
         OSError
             If it cannot be written. The batch has no mark then, and is run again.
         """
@@ -380,7 +382,7 @@ class CampaignStore:
 
 
 def open_campaign(path: str | Path) -> CampaignStore:
-    """Return the store of a campaign, to look at, also while the campaign runs.
+    """Return the results database of a campaign, to look at, also while the campaign runs.
 
     Parameters
     ----------

@@ -105,9 +105,9 @@ class LimitState:
 
     @staticmethod
     def residual_displacement(limit: float) -> LimitState:
-        """Return a bearing displacement left at the end above `limit` [m]."""
+        """Return a residual bearing displacement at the end above `limit` [m]."""
         name = f"residual displacement {1e3 * limit:g} mm"
-        return LimitState(name, "bearing displacement left", _above_0(limit))
+        return LimitState(name, "residual bearing displacement", _above_0(limit))
 
     @staticmethod
     def drift(limit: float) -> LimitState:

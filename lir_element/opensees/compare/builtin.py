@@ -63,7 +63,7 @@ def builtin_commands(
         Tags of the node below and the node above; model of three dimensions, six degrees of
         freedom a node, z upwards.
     bearing : LIRBearing
-        The device, its slider in one piece: `bearing.as_dcfp()`, without rims
+        The device, its rigid slider: `bearing.as_dcfp()`, without rims
         ``bearing.as_dcfp(rims=False)``.
     axial_load : float, optional
         Load that stiffnesses refer to [N]; the bearing's design load if None. Strength and
@@ -173,7 +173,7 @@ def builtin_element(
         Tags of the node below and the node above, on one vertical, coincident or
         `bearing.height` apart.
     bearing : LIRBearing
-        The device, its slider in one piece.
+        The device, its rigid slider.
     axial_load : float, optional
         Load that stiffnesses refer to [N]; the bearing's design load if None.
     first_tag : int, optional

@@ -64,7 +64,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     Parameters
     ----------
     bearing : LIRBearing
-        The device; its slider in one piece.
+        The device; its rigid slider.
     axial_load : float
         Load that the stiffness before sliding and the torque refer to [N].
 
@@ -93,7 +93,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     if not bearing.is_dcfp:
         msg = (
             f"interface_friction = {bearing.interface_friction:g}: no element of OpenSees has an "
-            "interface that slips; give bearing.as_dcfp(), its slider in one piece"
+            "interface that slips; give bearing.as_dcfp(), its rigid slider"
         )
         raise ValueError(msg)
     if bearing.friction_law != "elastic-plastic":

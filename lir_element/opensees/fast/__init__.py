@@ -1,1 +1,1 @@
-"""The fast route: compiled callbacks in the process of the model."""
+"""The in-process coupling: compiled callbacks in the process of the model."""

@@ -1,4 +1,4 @@
-"""The fast route: a host element whose states are determined in the model's own process."""
+"""The in-process coupling: a host element with its states determined in the model's process."""
 
 from __future__ import annotations
 

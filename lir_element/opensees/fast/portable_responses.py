@@ -1,4 +1,4 @@
-"""What an element of the portable route says of itself, where the build of OpenSees allows it.
+"""What an out-of-process element says of itself, where the build of OpenSees allows it.
 
 Its states are determined in another process. What recorders ask for by the names of OpenSees'
 bearings, its line in a printed model, and that a database does not hold it, is done here.
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Manners:
-    """Some functions of ours in an element of the portable route.
+    """Some functions of ours in an element of the out-of-process coupling.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Whether the fast route works with the OpenSees at hand: tried once in a process of its own.
+"""Whether in-process coupling works with the OpenSees at hand: tried once in another process.
 
     python -m lir_element.opensees.fast.selftest
 
@@ -41,7 +41,7 @@ _AGREEMENT = 1e-12
 
 @functools.cache
 def why_not_fast() -> str:
-    """Return why the fast route is not possible with this OpenSees; empty if it is."""
+    """Return why the in-process coupling is not possible with this OpenSees; empty if it is."""
     opensees()
     try:
         addresses()
@@ -53,7 +53,7 @@ def why_not_fast() -> str:
     key = _fingerprint(path)
     known = _kept(verdicts)
     if key not in known:
-        say("trying whether OpenSees takes the bearing by the fast route: once, a minute or three")
+        say("trying the in-process coupling with OpenSees: once, a minute or three")
         known[key] = _run_child()
         keep(verdicts, json.dumps(known, indent=1).encode())
     return known[key]

@@ -1,4 +1,4 @@
-"""Addresses of what the fast route calls or replaces in the OpenSees library."""
+"""Addresses of what the in-process coupling calls or replaces in the OpenSees library."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ CALLED = {
 
 
 class NotPossibleError(RuntimeError):
-    """The fast route is not possible here; the message says why."""
+    """The in-process coupling is not possible here; the message says why."""
 
 
 @functools.cache

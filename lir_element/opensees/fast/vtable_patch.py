@@ -222,7 +222,7 @@ def address_of(records: Records, name: str) -> int:
 
 
 def common_functions() -> dict[str, int]:
-    """Return the addresses of the callbacks of both routes; compiled on first use."""
+    """Return the addresses of the callbacks of both couplings; compiled on first use."""
     from lir_element.opensees.kernels import callbacks
 
     names = (

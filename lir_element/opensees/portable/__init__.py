@@ -1,1 +1,1 @@
-"""The portable route: a server process over a loopback connection."""
+"""The out-of-process coupling: a server process over a loopback connection."""

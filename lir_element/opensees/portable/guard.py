@@ -72,7 +72,7 @@ class Guard:
         free = np.flatnonzero(self._block["channels"][0, :, 0] == -1)
         if not len(free):
             msg = (
-                f"the portable route serves {MOST_CHANNELS} bearings at a time: "
+                f"the out-of-process coupling serves {MOST_CHANNELS} bearings at a time: "
                 'take fewer, or route="fast"'
             )
             raise ValueError(msg)

@@ -1,4 +1,4 @@
-"""The portable route: bearings in a process of their own, behind `genericClient` elements."""
+"""The out-of-process coupling: bearings in another process, behind `genericClient` elements."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ class Remote:
 
 
 class Orphans:
-    """Elements of the portable route that a forked process finds in its copy of the model.
+    """Elements of the out-of-process coupling that a forked process finds in its copy of the model.
 
     Their server is the parent's. In this process they answer nothing, so that an analysis fails
     and a wipe leaves the parent's bearings alone.
@@ -220,7 +220,7 @@ class Orphans:
 
 
 class Server:
-    """The process that serves all bearings of this one in the portable route."""
+    """The process that serves all bearings of this one in the out-of-process coupling."""
 
     def __init__(self) -> None:
         ours, theirs = Pipe()

@@ -1,4 +1,4 @@
-"""The process that determines the states of bearings in the portable route.
+"""The process that determines the states of bearings in the out-of-process coupling.
 
     python -m lir_element.opensees.portable.server HANDLE PARENT
 
