@@ -18,7 +18,7 @@ def module_names() -> list[str]:
         names += [
             info.name
             for info in pkgutil.walk_packages(found.__path__, f"{package}.", onerror=lambda _: None)
-            if not info.name.endswith("__main__")
+            if not info.name.endswith(("__main__", "frames.ahead"))
         ]
     return names
 

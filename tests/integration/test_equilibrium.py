@@ -21,7 +21,6 @@ from frames import (
     shear_building,
     step_sensitivity,
     time_histories,
-    time_history,
 )
 from frames.results.assumption_checks import doubts_of
 from frames.solve import time_history as time_history_module
@@ -240,7 +239,7 @@ def test_similar_scenes_move_alike(run, scene, steps, monkeypatch):
     Chosen steps know one time without a scale, beside the largest step.
     """
     capacity, found = (0.08 if scene == "impacts" else 0.15), []
-    impulse = time_history._ERROR_EVENT
+    impulse = time_history_module._ERROR_EVENT
     for s in (1.0, 4.0):
         monkeypatch.setattr(time_history_module, "_ERROR_EVENT", impulse * s**0.5)
         c = 1.2 * MOTION.components

@@ -316,7 +316,7 @@ def test_auto_settles_at_once_where_nothing_is_missing():
 
 
 def settled(bearing: LIRBearing, features: Features) -> xr.Dataset:
-    return level_escalation.settle(
+    return level_escalation.escalate_level(
         lambda kept, level: run(bearing, features=kept, level=level), features
     )
 
@@ -347,7 +347,7 @@ def test_auto_asks_for_another_level(monkeypatch):
         levels.append(level)
         return data.assign_attrs(level=level)
 
-    again = level_escalation.settle(analyse, Features())
+    again = level_escalation.escalate_level(analyse, Features())
     assert levels == ["pendulum", "contact"]
     assert "again at the level 'contact'" in again.attrs["auto_runs"]
 

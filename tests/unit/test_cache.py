@@ -202,8 +202,8 @@ def no_home(_: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_without_a_place_to_keep_them_kernels_compile_in_memory(
     package: Path, monkeypatch: pytest.MonkeyPatch, trouble: Callable[..., None]
 ) -> None:
-    cache = package.parent / "cache"
-    trouble(cache, monkeypatch)
+    folder = package.parent / "cache"
+    trouble(folder, monkeypatch)
     for factor, expected in ((2.0, 3.0), (4.0, 5.0)):  # an edit is noticed here as well
         write(package, factor)
         monkeypatch.setattr(cache, "_said", set())
@@ -214,7 +214,7 @@ def test_without_a_place_to_keep_them_kernels_compile_in_memory(
             warnings.simplefilter("error")
             assert start(package)(1.0) == expected  # told once
     assert not [p for p in package.parent.rglob("*") if p.suffix in {".nbi", ".nbc", ".kernel"}]
-    assert not [p for p in cache.rglob("*") if p.is_file()]  # no partial file either
+    assert not [p for p in folder.rglob("*") if p.is_file()]  # no partial file either
 
 
 def cut(content: bytes) -> bytes:

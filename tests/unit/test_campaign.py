@@ -412,7 +412,7 @@ def test_fragility_takes_the_motions_that_were_run_and_one_design(tmp_path: Path
 def test_sources_that_numbers_depend_on_are_all_in_the_plan() -> None:
     from frames._provenance import numerical_sources
 
-    root = Path(open_campaign.__code__.co_filename).parents[2]
+    root = Path(open_campaign.__code__.co_filename).parents[3]
     kernels = {
         p.relative_to(root).as_posix()
         for package in ("frames", "lir_element")

@@ -201,6 +201,7 @@ class EN1998:
             capacity_check(
                 t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed", "gamma_x d_bd"
             ),
+            judge.worst("EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names),
             judge.worst(
                 "EN 1998-2 7.7.1",
                 "recentring, displacement",

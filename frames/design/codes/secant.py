@@ -126,6 +126,11 @@ def iterate_displacement(
     raise CheckError(msg)
 
 
+def _alike(one: Check, other: Check) -> bool:
+    pairs = ((one.ratio, other.ratio), (one.demand, other.demand), (one.limit, other.limit))
+    return all(math.isclose(a, b, rel_tol=_ALIKE) or a is b for a, b in pairs)
+
+
 def _severity(check: Check) -> tuple[float, float]:
     return check.ratio, abs(check.limit) - abs(check.demand)
 
@@ -197,8 +202,7 @@ class CheckBuilder:
         ]
         worst = max(found, key=_severity)
         # of those that differ by round-off alone the first: the processor decides no names
-        alike = (c for c in found if math.isclose(c.ratio, worst.ratio, rel_tol=_ALIKE))
-        return worst if math.isinf(worst.ratio) else next(alike, worst)
+        return next(c for c in found if _alike(c, worst))
 
     def _made(
         self,
