@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+_LONGEST = 200
+"""Characters of a value that a message repeats; of longer ones it names the type."""
+
 
 def as_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, infinity and NaN included.
@@ -144,7 +147,10 @@ def require_type(
 ) -> None:
     """Raise a TypeError unless `value` is of one of the kinds."""
     if not isinstance(value, kinds):
-        msg = f"{name} = {value!r} must be {what_it_must_be}"
+        said = repr(value)
+        if "\n" in said or len(said) > _LONGEST:
+            said = f"a {type(value).__name__}"
+        msg = f"{name} = {said} must be {what_it_must_be}"
         raise TypeError(msg)
 
 

@@ -162,7 +162,14 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
     if not Path(path).is_file():
         msg = f"{path} is no file: give one that save, or `lir run`, has written"
         raise FileNotFoundError(msg)
+    try:
+        data = xr.open_dataset(path, engine="h5netcdf")
+    except (OSError, ValueError) as error:
+        msg = (
+            f"{path} is no file of results (netCDF): give one that save, or `lir run`, has written"
+        )
+        raise OSError(msg) from error
     if lazy:
-        return xr.open_dataset(path, engine="h5netcdf")
-    with xr.open_dataset(path, engine="h5netcdf") as data:
+        return data
+    with data:
         return data.load()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -11,7 +12,11 @@ from lir_element.argument_checks import require_choice, require_positive
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
+from lir_element.device.bearing_checks import (
+    AT_RIGID_BODY,
+    DesignWarning,
+    require_constant_friction,
+)
 from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
@@ -36,6 +41,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 _TOO_FAR = 10.0  # of the radius: a path in millimetres
+_IN_KN = 1e-3  # of the design load: a load below was given in kN
 _INCREMENT = 0.2  # largest increment over the yield displacement of the surfaces
 
 
@@ -97,6 +103,7 @@ def cyclic_test(
             f"the plates, {longest:g} m: give metres, 150 mm as 0.15"
         )
         raise ValueError(msg)
+    _check_unit(bearing, loads)
     speed = require_positive("velocity", velocity, "m/s")
     if level == "rigid_body":
         require_constant_friction(bearing, AT_RIGID_BODY)
@@ -139,6 +146,18 @@ def _follow(run: RigRun, contacts: Contacts | None) -> RunStatus:
         return follow_path(run, contacts, last, increments)
 
     return interruptible(go, lambda: int(run.reached[0]), len(run.path))
+
+
+def _check_unit(bearing: LIRBearing, loads: Floats) -> None:
+    # A load that a thousand times itself would be a usual one was given in kN.
+    most, design = float(loads.max()), bearing.resolved()["design_load"]
+    if most < _IN_KN * design:
+        warnings.warn(
+            f"axial_load = {most:g} N is {most / design:.2g} times the design load of {design:.4g} "
+            f"N: give newtons, {most:g} kN as {1e3 * most:g}",
+            DesignWarning,
+            stacklevel=3,
+        )
 
 
 def _path(displacement: ArrayLike) -> Floats:
