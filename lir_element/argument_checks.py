@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-
 _LONGEST = 120  # characters of a value in a message
 
 

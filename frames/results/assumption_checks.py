@@ -17,6 +17,7 @@ from frames.results.energy_balance import Remark, equilibrium, time_step
 from frames.results.peak_response import Extreme, largest, left_out, total
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
+from lir_element.tables import html_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,6 +94,20 @@ class Finding:
     doubtful: bool = False
 
 
+class Findings(tuple[Finding, ...]):
+    """Findings of a run, which print as text and as a table in a notebook."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        """Return a line a finding; "!" begins warnings."""
+        return report_of(self)
+
+    def _repr_html_(self) -> str:
+        rows = [tuple(line.split(": ", 1)) for line in report_of(self).splitlines()]
+        return html_table("check of modelling assumptions", rows)
+
+
 def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge what a time history left out, and what of the rest it needed.
 
@@ -124,7 +139,8 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
     remarks = tuple(_remarked(each) for each in (*equilibrium(data), *time_step(data)))
-    return (*found, _full_contact(data), _slip_stability(data), *_yielding(data), *remarks)
+    whole = (_full_contact(data), _slip_stability(data), *_yielding(data))
+    return Findings((*found, *whole, *remarks))
 
 
 def audit_report(data: xr.Dataset) -> str:
@@ -296,7 +312,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
     where = data.variables["bearing"].to_numpy()[int(np.argmax(offsets))]
     share = float(offsets.max())
     if share <= KERN:
-        verdict = "full contact holds"
+        verdict = "holds"
     elif share <= EDGE:
         verdict = "partial contact, no tipping"
     else:

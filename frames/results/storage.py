@@ -164,8 +164,8 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
         raise FileNotFoundError(msg)
     try:
         data = xr.open_dataset(path, engine="h5netcdf")
-    except OSError as cause:
-        msg = f"{path} holds no results ({cause}): give a file that save, or `lir run`, has written"
+    except (OSError, ValueError) as cause:
+        msg = f"{path} holds no results (netCDF): give a file that save, or `lir run`, has written"
         raise OSError(msg) from cause
     if lazy:
         return data

@@ -14,6 +14,7 @@ from frames.statics.blas_threads import blas_threads_for
 from frames.statics.gravity import GravityState, gravity
 from frames.statics.springs import spring_matrix
 from lir_element.argument_checks import require_choice
+from lir_element.tables import html_table, text_table
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
@@ -23,7 +24,10 @@ if TYPE_CHECKING:
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
 
 
-@dataclass(frozen=True)
+_HEAD = ("mode", "period [s]", "mass x [-]", "mass y [-]", "mass z [-]")
+
+
+@dataclass(frozen=True, repr=False)
 class Modes:
     """Natural modes of a frame on its bearings.
 
@@ -40,6 +44,19 @@ class Modes:
     periods: FloatArray
     shapes: FloatArray
     mass_ratios: FloatArray
+
+    def __repr__(self) -> str:
+        """Return periods and mass ratios as a table, without the shapes."""
+        return text_table(self._rows(), _HEAD, left=0)
+
+    def _repr_html_(self) -> str:
+        return html_table("natural modes", self._rows(), _HEAD)
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        return [
+            (str(k + 1), f"{period:.4g}", *(f"{ratio:.3f}" for ratio in ratios))
+            for k, (period, ratios) in enumerate(zip(self.periods, self.mass_ratios, strict=True))
+        ]
 
 
 def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:

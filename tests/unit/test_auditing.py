@@ -271,7 +271,7 @@ def test_full_contact_levels():
     share = found(data)["full_contact"].number
     assert_allclose(share, 5.0 * float(data["interface_slip_size"].max()), rtol=0.05)
     for factor, text in (
-        (0.2, "full contact holds"),
+        (0.2, "holds"),
         (0.4, "no tipping"),
         (0.8, "edge contact"),
         (1.2, "the slider tips"),

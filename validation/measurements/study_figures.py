@@ -14,6 +14,7 @@ from validation.measurements.study_runs import ALL, DEVICES, LIMITS, SLIP
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     Found = Mapping[str, Any]
@@ -80,9 +81,12 @@ def _curves(found: Found) -> Figure:
 
 
 def _medians(found: Found) -> Figure:
-    figure = ps.new_figure(2.9)
+    figure = ps.new_figure(5.0)
     shown = (DEMAND, FLOOR, "residual bearing displacement")
-    for panel, quantity in zip(ps.grid_of(figure, 1, 3)[0], shown, strict=True):
+    grid = ps.grid_of(figure, 2, 2)
+    panels = (*grid[0], grid[1][0])
+    _collapsed(grid[1][1], found)
+    for panel, quantity in zip(panels, shown, strict=True):
         text, factor, _ = SHOWN[quantity]
         for k, name in enumerate(DEVICES):
             rows = found["parts"][ALL]["demands"][quantity][name]
@@ -100,6 +104,17 @@ def _medians(found: Found) -> Figure:
         ps.caption(panel, x="Sa(3 s) [m/s2]", y=text)
     _legend(figure, "Medians and the middle 68 % of all records")
     return figure
+
+
+def _collapsed(panel: Axes, found: Found) -> None:
+    # The share that the medians leave out: without it a device that fails looks ideal.
+    stripes = found["parts"][ALL]["limits"]["collapse"]["stripes"]
+    for k, name in enumerate(DEVICES):
+        at, exceeded, total = np.array(stripes[name]).T
+        share = 100.0 * exceeded / np.maximum(total, 1.0)
+        panel.plot(at, share, marker=MARKERS[k], markersize=3.0, **ps.line_of(k))
+    panel.set_ylim(0.0, 102.0)
+    ps.caption(panel, x="Sa(3 s) [m/s2]", y="share of collapse [%]")
 
 
 def _legend(figure: Figure, title: str) -> None:

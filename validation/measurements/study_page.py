@@ -56,9 +56,10 @@ def page(found: Found) -> str:
                 "## Fragility",
                 _fragilities(found),
                 "## Demands",
-                f"![Median ductility, floor acceleration, residual displacement over the intensity](figures/{MEDIANS})",
+                f"![Median ductility, floor acceleration, residual displacement and share of collapse over the intensity](figures/{MEDIANS})",
                 "Medians over all records, and the range of the middle 68 %; a line ends where half of "
-                "the records have failed a bearing.",
+                "the records have failed a bearing. The last panel has the share of records that "
+                "collapse, failed bearings included.",
                 _demands(found),
                 "## Size of the larger DCFP",
                 _sizes(found),

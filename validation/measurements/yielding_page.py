@@ -43,6 +43,7 @@ from validation.measurements.yielding_tables import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from validation.measurements.yielding_tables import Row
@@ -54,14 +55,15 @@ PACOIMA = "Pacoima Dam 1971"
 def figure(found: Sequence[Row]) -> Figure:
     """Draw drift, hinge rotation and floor acceleration over the demand, medians of records."""
     drawn = ps.new_figure(4.9)
-    grid = ps.grid_of(drawn, 2, 3, share_x=True)
+    grid = ps.grid_of(drawn, 2, 4, share_x=True)
     shown = (
         ("storey drift [%]", "drift", 1e2),
         ("hinge rotation [mrad]", "rotation", 1e3),
         ("floor acceleration [g]", "floor", 1.0 / STANDARD_GRAVITY),
     )
     demands = sorted({row["demand"] for row in found})
-    for panels, structure in zip(grid, structures(), strict=True):
+    for (*panels, last), structure in zip(grid, structures(), strict=True):
+        _failed_share(last, found, structure, demands)
         for panel, (text, key, factor) in zip(panels, shown, strict=True):
             for k, system in enumerate(SYSTEMS):
                 points = []
@@ -85,13 +87,25 @@ def figure(found: Sequence[Row]) -> Figure:
             ps.caption(panel, title=f"{structure} frame", y=text)
             panel.set_ylim(bottom=0.0)
     for panel in grid[1]:
-        ps.caption(panel, x="demand [-]")
+        ps.caption(panel, x="demand / capacity [-]")
     handles = grid[0][0].get_lines()
     named = [line for line in handles if line.get_linestyle() not in ("None", "")]
     for line, system in zip(named, SYSTEMS, strict=True):
         line.set_label(system)
     ps.add_legend(drawn, named, columns=4, title="Medians over records where all runs complete")
     return drawn
+
+
+def _failed_share(panel: Axes, found: Sequence[Row], structure: str, demands: list[float]) -> None:
+    # What the lines of the other panels leave out: without it a device that fails looks ideal.
+    for k, system in enumerate(SYSTEMS):
+        shares = []
+        for demand in demands:
+            rows = chosen(found, structure=structure, demand=demand, system=system, elastic=False)
+            shares.append(100.0 * (1.0 - len(completed(rows)) / len(rows)) if rows else math.nan)
+        panel.plot(demands, shares, marker="os^D"[k], markersize=3.5, **ps.line_of(k))
+    panel.set_ylim(0.0, 102.0)
+    ps.caption(panel, y="runs with a failed bearing [%]")
 
 
 def yield_rotations() -> str:
@@ -116,7 +130,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
                 introduction(found, left_out),
                 f"![Storey drift, hinge rotation and floor acceleration over the demand, four systems, two frames](figures/{FIGURE})",
                 "Dots are single records; a line ends before the demand at which a run of its system "
-                "stopped: a bearing failed.",
+                "stopped: a bearing failed. The last column has the share of runs that did.",
                 "## Medians over the records",
                 *(
                     part
@@ -223,7 +237,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             f"{over('floor', MOAT, g, '.2f')} g in the moat; drift {over('drift', RIMS, 1e2, '.2f')} % "
             f"and {over('drift', MOAT, 1e2, '.2f')} %; hinge rotation "
             f"{over('rotation', RIMS, 1e3, '.1f')} mrad and {over('rotation', MOAT, 1e3, '.1f')} mrad.",
-            "- **The Larger-diameter DCFP is the best of all where there is room for it.** At the same "
+            "- **The larger-diameter DCFP is the best of all where there is room for it.** At the same "
             f"demand, LIR-DCFP first: base shear {over('shear', WIDE, 1.0, '.2f')} W, drift "
             f"{over('drift', WIDE, 1e2, '.2f')} %, floor acceleration {over('floor', WIDE, g, '.2f')} "
             f"g, displacement up to {gaps[0]:.0f} against {gaps[1]:.0f} mm. What the LIR-DCFP saves is "

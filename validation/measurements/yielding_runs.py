@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 YIELD_STRESS = 345e6
 """Of the steel [Pa]."""
 
-LIR, RIMS, WIDE, MOAT = "LIR-DCFP", "DCFP with rims", "Larger-diameter DCFP", "DCFP in a moat"
+LIR, RIMS, WIDE, MOAT = "LIR-DCFP", "DCFP with rims", "larger-diameter DCFP", "DCFP in a moat"
 SYSTEMS = (LIR, RIMS, WIDE, MOAT)
 SOFT, BEHIND = "DCFP in a soft moat", "LIR-DCFP, walls behind"
 VARIANTS = (SOFT, BEHIND)
