@@ -1,15 +1,21 @@
 """The site: ``make docs`` builds it from these pages and the docstrings of the public names.
 
 The folder of sources is the repository itself, so that links between pages are the same for a
-reader of the files and on the site.
+reader of the files and on the site. Scripts of docs/gallery and docs/tutorials are run by the
+build; with LIR_DOCS_RUN=0 in the environment they become pages without output and pictures.
 """
 
+import os
+import sys
+import warnings
 from importlib.metadata import version as version_of
+from pathlib import Path
 
-from docutils import nodes
-from docutils.utils.math.latex2mathml import tex2mathml
-from sphinx.application import Sphinx
-from sphinx.writers.html5 import HTML5Translator
+from sphinx_gallery.sorting import ExplicitOrder, FileNameSortKey
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+from figures import scraper  # of docs/_ext  # noqa: E402
 
 project = "LIR-DCFP"
 author = "The lir-dcfp developers"
@@ -19,19 +25,50 @@ version = release = version_of("lir-dcfp")
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+    "formulas",  # docs/_ext
+    "objects",
 ]
 root_doc = "docs/index"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/**"]
-templates_path = ["_templates"]
+exclude_patterns = ["docs/_templates/**", "docs/gallery/**", "docs/tutorials/**"]
+templates_path = [str(HERE / "_templates")]  # autosummary would look beside the repository
+myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 4
 default_role = "code"
 
+autosummary_generate = True
 autodoc_typehints = "none"  # docstrings have types, shapes and units
 autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True}
 napoleon_google_docstring = False
 napoleon_use_ivar = True
+
+SECTIONS = ("bearing", "building", "design", "research", "opensees")
+sphinx_gallery_conf = {
+    "examples_dirs": [str(HERE / "tutorials"), str(HERE / "gallery")],
+    "gallery_dirs": ["docs/generated/tutorials", "docs/generated/gallery"],
+    "filename_pattern": r"\.py$",
+    "plot_gallery": os.environ.get("LIR_DOCS_RUN", "1") != "0",
+    "subsection_order": ExplicitOrder([f"docs/gallery/{name}" for name in SECTIONS]),
+    "within_subsection_order": FileNameSortKey,
+    "backreferences_dir": "docs/generated/backreferences",
+    "doc_module": ("lir_element", "frames"),
+    "abort_on_example_error": True,
+    "remove_config_comments": True,
+    "download_all_examples": False,
+    "show_memory": False,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+    "thumbnail_size": (480, 336),
+    "image_scrapers": (scraper,),
+    "reset_modules": ("matplotlib",),
+}
+suppress_warnings = ["config.cache"]  # functions and objects in sphinx_gallery_conf
+warnings.filterwarnings("ignore", category=UserWarning, message=".*Agg.*")  # figures are not shown
 
 html_theme = "furo"
 html_static_path = ["_static"]
@@ -41,16 +78,3 @@ html_title = f"LIR-DCFP {release}"
 html_additional_pages = {"index": "to_start.html"}
 html_copy_source = False
 html_show_sourcelink = False
-
-autodoc_default_options = {"members": True}
-
-
-def write_formula(writer: HTML5Translator, node: nodes.math | nodes.math_block) -> None:
-    """Write a formula as MathML."""
-    writer.body.append(tex2mathml(node.astext(), as_block=isinstance(node, nodes.math_block)))
-    raise nodes.SkipNode
-
-
-def setup(app: Sphinx) -> None:
-    """Make the renderer of formulas known."""
-    app.add_html_math_renderer("mathml", (write_formula, None), (write_formula, None))

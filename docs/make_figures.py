@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
+import theory_figures  # beside this file
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
@@ -307,11 +308,25 @@ def example() -> None:
         shutil.copy("loops.png", DOCS / "figures" / "example.png")
 
 
+THEORY = {
+    "string": lambda: theory_figures.string(*drawn_bearing()),
+    "rim": theory_figures.rim,
+    "friction": theory_figures.friction,
+    "step": theory_figures.step,
+    "eccentricity": theory_figures.eccentricity,
+    "points": theory_figures.points,
+    "heat": theory_figures.heat,
+}
+
+
 def main() -> None:
     """Write the figures."""
     mpl.rcParams.update({"svg.hashsalt": "lir-dcfp", "font.size": SIZE, "mathtext.fontset": "stix"})
     (DOCS / "figures").mkdir(exist_ok=True)
     conventions().savefig(DOCS / "conventions.svg", metadata={"Date": None, "Creator": None})
+    theory_figures.levels().savefig(DOCS / "figures" / "levels.png", dpi=130)
+    for name, draw in THEORY.items():
+        draw().savefig(DOCS / "figures" / f"theory-{name}.png", dpi=130)
     hysteresis().savefig(DOCS / "figures" / "hysteresis.png", dpi=130)
     example()
     demo_sections().savefig(DOCS / "figures" / "demo-sections.png", dpi=120)

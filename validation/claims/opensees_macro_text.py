@@ -179,7 +179,7 @@ def text(claim: Claim, numbers: dict[str, float], settings: str, scenes: str) ->
         "on the slip. In the bearing the load W acts at the slip s off the slider's axis, which "
         "adds "
         "`W s/L`: `H = ± m W + W U/L`, centred on zero "
-        "([theory.md](../theory.md#2-forces-and-equilibrium-of-the-slider)). The loops are apart "
+        "([theory.md](../theory_bearing.md#2-forces-and-equilibrium-of-the-slider)). The loops are apart "
         "by "
         f"W s/L: {n['offset']:.1f} % of the friction force after 10 mm, and as much more as the "
         "slip "

@@ -1,0 +1,26 @@
+"""
+Energy balance
+==============
+
+Where the energy of the ground motion goes; the balance of every run must close.
+"""
+
+import numpy as np
+
+from frames import GroundMotion, energy_error, moment_frame, plots, time_history
+from frames.demo import bearing_for
+
+t = np.arange(0.0, 6.0, 0.01)  # s
+x, y = (a * np.sin(w * t) * (t < 3.14) for a, w in ((2.0, 4.0), (0.8, 5.0)))  # m/s2
+motion = GroundMotion(x=x, y=y, dt=0.01)
+bearing = bearing_for(500e3)
+building = moment_frame((1, 1), 2, bearing=bearing)
+plain = building.with_bearings(bearing.as_dcfp())
+runs = {
+    name: time_history(model, motion, duration=6.0, level="contact")
+    for name, model in {"LIR-DCFP": building, "plain DCFP": plain}.items()
+}
+
+assert all(energy_error(run) < 1e-3 for run in runs.values())
+
+plots.energy(runs)
