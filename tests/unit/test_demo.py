@@ -21,9 +21,11 @@ needs_record = pytest.mark.skipif(
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of a quick run."""
+    """Folder of a quick run, by the condensed element: `make demo` has contact points."""
     folder = tmp_path_factory.mktemp("demo")
-    assert demo.main(["--quick", "--output", str(folder)]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(demo, "LEVEL", "pendulum")
+        assert demo.main(["--quick", "--output", str(folder)]) == 0
     return folder
 
 
