@@ -347,7 +347,7 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     voids = set()
     for line, is_void in said.items():
         tall = SMALL.replace('storey_height = "3 m"', 'storey_height = "8 m"')
-        (folder / "uplift.toml").write_text(f"{tall}\n[analysis]\n{line}\n")
+        (folder / "uplift.toml").write_text(f'{tall}\n[analysis]\nbounds = ["lower"]\n{line}\n')
         done = ran(folder / "uplift.toml", folder / "up")
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)
