@@ -355,7 +355,7 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
         head = next(name for name in demands.columns if name.startswith("lower, "))
         assert (" reached, " in head) == is_void
         level = demands[demands["level"] == "maximum"]  # at which bearings are judged
-        why = str(level["void"].fillna("").iloc[0]).removeprefix("level maximum, ")
+        why = str(level["void"].astype("object").fillna("").iloc[0]).removeprefix("level maximum, ")
         checks = pd.read_csv(folder / "up" / "checks.csv", keep_default_na=False)
         of_loads = checks[checks["title"].isin(AT_LOADS_OF_RUNS)]
         assert len(of_loads) == 4
