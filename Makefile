@@ -29,7 +29,7 @@ types: $(READY)  ## mypy, strict, on both packages
 	$(RUN) -m mypy
 
 clean:  ## remove caches, builds and the virtual environment
-	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo
+	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo docs/generated docs/api/generated
 	find . -name __pycache__ -not -path './.git/*' -prune -exec rm -rf {} +
 	@if [ -f "$(VENV)/pyvenv.cfg" ]; then echo "rm -rf $(VENV)"; rm -rf "$(VENV)"; fi
 

@@ -52,8 +52,8 @@ def string(bearing: LIRBearing, now: Posture) -> Figure:
     for start, end in ((c_1, points["bottom"]), (c_2, points["top"])):
         ax.plot([start[0], end[0]], [start[1], end[1]], color=GREY, linewidth=0.8, linestyle="--")
     labels = (
-        (c_1 + [-0.01, 0.02], "$C_1$", "black", "right"),
-        (c_2 + [0.012, 0.0], "$C_2$", "black", "left"),
+        (c_1 + np.array([-0.01, 0.02]), "$C_1$", "black", "right"),
+        (c_2 + np.array([0.012, 0.0]), "$C_2$", "black", "left"),
         (c_1 + 0.2 * (c_2 - c_1) + [0.012, 0.0], "$c$", GREEN, "left"),
         (c_1 + 0.25 * (foot - c_1) + [-0.012, 0.0], "$-l\\,n$", GREY, "right"),
         (0.5 * (foot + c_2) + [0.0, -0.025], "$s$", RED, "center"),
@@ -62,7 +62,7 @@ def string(bearing: LIRBearing, now: Posture) -> Figure:
         ax.text(*place, words, color=colour, ha=side, va="center", fontsize=15)
     ax.set_aspect("equal")
     ax.set_axis_off()
-    ax.set(xlim=(-0.30, 0.42), ylim=(-0.29, 0.42))
+    ax.set(xlim=(-0.30, 0.50), ylim=(-0.29, 0.42))
     return figure
 
 
@@ -94,7 +94,9 @@ def friction() -> Figure:
     figure, (left, right) = panels_of(2)
     v = np.linspace(0.0, 0.4, 201)
     left.plot(1e3 * v, 0.065 - 0.0325 * np.exp(-15.0 * v), color=BLUE)
-    left.set(xlabel="sliding speed [mm/s]", ylabel=r"friction coefficient $\mu$ [-]", ylim=(0, 0.08))
+    left.set(
+        xlabel="sliding speed [mm/s]", ylabel=r"friction coefficient $\mu$ [-]", ylim=(0, 0.08)
+    )
     left.text(210, 0.068, "$f_{max}$", fontsize=11)
     left.text(12, 0.028, "$f_{min}$", fontsize=11)
     u = np.concatenate([np.linspace(0, 4, 400), np.linspace(4, -4, 800), np.linspace(-4, 4, 800)])
@@ -174,7 +176,7 @@ def points() -> Figure:
         panel.add_patch(Circle((0, 0), 1.0, facecolor=BOTTOM, edgecolor="black"))
         for radius, count in rings:
             angle = 2.0 * np.pi * np.arange(count) / count
-            size = 40.0 if radius == 1.0 or len(rings) == 1 else 80.0
+            size = 40.0 if radius > 0.9 or len(rings) == 1 else 80.0
             panel.scatter(radius * np.cos(angle), radius * np.sin(angle), size, RED, zorder=3)
         panel.set(xlim=(-1.15, 1.15), ylim=(-1.15, 1.15), aspect="equal", title=title)
         panel.set_axis_off()
@@ -197,7 +199,9 @@ def heat() -> Figure:
         path = reach * np.sin(np.linspace(0.0, 10.0 * np.pi, 601))
         test = cyclic_test(bearing, path, LOAD, velocity=0.4).squeeze()
         name = f"cycles of ±{1e3 * reach:.0f} mm"
-        panel.plot(test["time"], test["temperature"].sel(contact="bottom"), color=colour, label=name)
+        panel.plot(
+            test["time"], test["temperature"].sel(contact="bottom"), color=colour, label=name
+        )
     panel.set(xlabel="time [s]", ylabel="middle of the plate [°C]")
     panel.legend(frameon=False)
     return figure
@@ -218,7 +222,11 @@ def levels() -> Figure:
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     questions = (
         (5.6, "One bearing, and a reference\nto trust other results by?", "yes"),
-        (4.1, "Do bearings lift off, land on an edge,\nhardly carry, or meet rims one by one?", "yes"),
+        (
+            4.1,
+            "Do bearings lift off, land on an edge,\nhardly carry, or meet rims one by one?",
+            "yes",
+        ),
         (2.6, "Not known?", "yes"),
     )
     answers = (
@@ -235,7 +243,9 @@ def levels() -> Figure:
         ax.annotate("", (2.5, y - 1.0), (2.5, y - 0.5), arrowprops=arrow)
         ax.text(2.62, y - 0.76, "no", fontsize=9.5, va="center")
     box(ax, 2.5, 1.1, '"pendulum", the default:\nbuildings, design, campaigns', BOTTOM, 4.2)
-    words = "Every run checks its modelling\nassumptions: a warning names the\nlevel that is needed."
+    words = (
+        "Every run checks its modelling\nassumptions: a warning names the\nlevel that is needed."
+    )
     ax.text(7.6, 1.1, words, ha="center", va="center", fontsize=10, color=GREY)
     ax.set(xlim=(0.0, 9.8), ylim=(0.4, 6.3))
     ax.set_axis_off()
