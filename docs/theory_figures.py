@@ -114,7 +114,8 @@ def friction() -> Figure:
             found.append(z)
         right.plot(u, found, color=colour, label=name)
     right.set(xlabel="sliding / yield displacement", ylabel="hysteretic variable z [-]")
-    right.legend(fontsize=8, frameon=False, loc="lower right")
+    right.set_ylim(-1.6, 1.1)
+    right.legend(fontsize=8, frameon=False, loc="lower center", ncols=2)
     return figure
 
 

@@ -30,13 +30,18 @@ BOLD = {
 }
 """Bold Greek letters: docutils would set all that follows one in bold."""
 
+BAR = re.compile(r"(?<!\\left)(?<!\\right)\|")
 CITED = re.compile(r"\((\d+\.\d+)\)")
 PAGES = "docs/theory"
 
 
 def mathml(text: str, *, block: bool) -> str:
     """Return a formula as MathML."""
-    return tex2mathml(GREEK.sub(lambda found: BOLD[found[1]], text), as_block=block)
+    text = GREEK.sub(lambda found: BOLD[found[1]], text)
+    first, *others = BAR.split(text)  # bars open and close in turn, without space around them
+    for k, other in enumerate(others):
+        first += (r"\right|" if k % 2 else r"\left|") + other
+    return str(tex2mathml(first, as_block=block)).strip()
 
 
 def write_inline(writer: HTML5Translator, node: nodes.math) -> None:
