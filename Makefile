@@ -43,7 +43,7 @@ wheel: $(READY)  ## build a wheel that brings its compiled kernels along, into d
 	LIR_BUILD_KERNELS=1 $(RUN) -m build --wheel
 
 clean:  ## remove caches, builds and the virtual environment
-	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo
+	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist demo docs/generated docs/api/generated
 	find . -name __pycache__ -not -path './.git/*' -prune -exec rm -rf {} +
 	@if [ -f "$(VENV)/pyvenv.cfg" ]; then echo "rm -rf $(VENV)"; rm -rf "$(VENV)"; fi
 

@@ -2,7 +2,8 @@
 
 The folder of sources is the repository itself, so that links between pages are the same for a
 reader of the files and on the site. Scripts of docs/gallery and docs/tutorials are run by the
-build; with LIR_DOCS_RUN=0 in the environment they become pages without output and pictures.
+build; with LIR_DOCS_RUN=0 in the environment they become pages without output and pictures, and
+sources are not shown.
 """
 
 import os
@@ -17,6 +18,8 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
 from figures import scraper  # of docs/_ext  # noqa: E402
 
+RUN = os.environ.get("LIR_DOCS_RUN", "1") != "0"  # 0: as the tests build it
+
 project = "LIR-DCFP"
 author = "The lir-dcfp developers"
 project_copyright = f"2026, {author}"
@@ -27,7 +30,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
-    "sphinx.ext.viewcode",
+    *(["sphinx.ext.viewcode"] if RUN else []),
     "sphinx_gallery.gen_gallery",
     "formulas",  # docs/_ext
     "objects",
@@ -52,7 +55,7 @@ sphinx_gallery_conf = {
     "examples_dirs": [str(HERE / "tutorials"), str(HERE / "gallery")],
     "gallery_dirs": ["docs/generated/tutorials", "docs/generated/gallery"],
     "filename_pattern": r"\.py$",
-    "plot_gallery": os.environ.get("LIR_DOCS_RUN", "1") != "0",
+    "plot_gallery": RUN,
     "subsection_order": ExplicitOrder([f"docs/gallery/{name}" for name in SECTIONS]),
     "within_subsection_order": FileNameSortKey,
     "backreferences_dir": "docs/generated/backreferences",
@@ -61,9 +64,11 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "download_all_examples": False,
     "show_memory": False,
+    "write_computation_times": False,
     "show_signature": False,
     "min_reported_time": 1e9,
     "thumbnail_size": (480, 336),
+    "ignore_repr_types": r"matplotlib|frames\.plots",  # pictures are enough
     "image_scrapers": (scraper,),
     "reset_modules": ("matplotlib",),
 }

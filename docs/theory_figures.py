@@ -52,8 +52,8 @@ def string(bearing: LIRBearing, now: Posture) -> Figure:
     for start, end in ((c_1, points["bottom"]), (c_2, points["top"])):
         ax.plot([start[0], end[0]], [start[1], end[1]], color=GREY, linewidth=0.8, linestyle="--")
     labels = (
-        (c_1 + [-0.01, 0.02], "$C_1$", "black", "right"),
-        (c_2 + [0.012, 0.0], "$C_2$", "black", "left"),
+        (c_1 + np.array([-0.01, 0.02]), "$C_1$", "black", "right"),
+        (c_2 + np.array([0.012, 0.0]), "$C_2$", "black", "left"),
         (c_1 + 0.2 * (c_2 - c_1) + [0.012, 0.0], "$c$", GREEN, "left"),
         (c_1 + 0.25 * (foot - c_1) + [-0.012, 0.0], "$-l\\,n$", GREY, "right"),
         (0.5 * (foot + c_2) + [0.0, -0.025], "$s$", RED, "center"),
@@ -62,7 +62,7 @@ def string(bearing: LIRBearing, now: Posture) -> Figure:
         ax.text(*place, words, color=colour, ha=side, va="center", fontsize=15)
     ax.set_aspect("equal")
     ax.set_axis_off()
-    ax.set(xlim=(-0.30, 0.42), ylim=(-0.29, 0.42))
+    ax.set(xlim=(-0.30, 0.50), ylim=(-0.29, 0.42))
     return figure
 
 
@@ -114,7 +114,8 @@ def friction() -> Figure:
             found.append(z)
         right.plot(u, found, color=colour, label=name)
     right.set(xlabel="sliding / yield displacement", ylabel="hysteretic variable z [-]")
-    right.legend(fontsize=8, frameon=False, loc="lower right")
+    right.set_ylim(-1.6, 1.1)
+    right.legend(fontsize=8, frameon=False, loc="lower center", ncols=2)
     return figure
 
 
@@ -176,7 +177,7 @@ def points() -> Figure:
         panel.add_patch(Circle((0, 0), 1.0, facecolor=BOTTOM, edgecolor="black"))
         for radius, count in rings:
             angle = 2.0 * np.pi * np.arange(count) / count
-            size = 40.0 if radius == 1.0 or len(rings) == 1 else 80.0
+            size = 40.0 if radius > 0.9 or len(rings) == 1 else 80.0
             panel.scatter(radius * np.cos(angle), radius * np.sin(angle), size, RED, zorder=3)
         panel.set(xlim=(-1.15, 1.15), ylim=(-1.15, 1.15), aspect="equal", title=title)
         panel.set_axis_off()

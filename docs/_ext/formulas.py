@@ -16,13 +16,37 @@ if TYPE_CHECKING:
     from sphinx.application import Sphinx
     from sphinx.writers.html5 import HTML5Translator
 
+GREEK = re.compile(r"\\boldsymbol\{\\([A-Za-z]+)\}")
+BOLD = {
+    "delta": "𝜹",
+    "eta": "𝜼",
+    "theta": "𝜽",
+    "tau": "𝝉",
+    "phi": "𝝓",
+    "psi": "𝝍",
+    "omega": "𝝎",
+    "Phi": "𝜱",
+    "Psi": "𝜳",
+}
+"""Bold Greek letters: docutils would set all that follows one in bold."""
+
+BAR = re.compile(r"(?<!\\left)(?<!\\right)\|")
 CITED = re.compile(r"\((\d+\.\d+)\)")
 PAGES = "docs/theory"
 
 
+def mathml(text: str, *, block: bool) -> str:
+    """Return a formula as MathML."""
+    text = GREEK.sub(lambda found: BOLD[found[1]], text)
+    first, *others = BAR.split(text)  # bars open and close in turn, without space around them
+    for k, other in enumerate(others):
+        first += (r"\right|" if k % 2 else r"\left|") + other
+    return str(tex2mathml(first, as_block=block)).strip()
+
+
 def write_inline(writer: HTML5Translator, node: nodes.math) -> None:
     """Write a formula within a line."""
-    writer.body.append(tex2mathml(node.astext(), as_block=False))
+    writer.body.append(mathml(node.astext(), block=False))
     raise nodes.SkipNode
 
 
@@ -31,7 +55,7 @@ def write_block(writer: HTML5Translator, node: nodes.math_block) -> None:
     name = node.get("label") or ""
     number = f'<span class="eqno">({name})</span>' if CITED.fullmatch(f"({name})") else ""
     identity = "".join(f' id="{name}"' for name in node["ids"][:1])
-    formula = tex2mathml(node.astext(), as_block=True)
+    formula = mathml(node.astext(), block=True)
     writer.body.append(f'<div class="formula"{identity}><div>{formula}</div>{number}</div>\n')
     raise nodes.SkipNode
 

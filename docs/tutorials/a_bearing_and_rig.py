@@ -8,8 +8,9 @@ What the device is, and what a test of it shows. You need ``lir_element`` alone.
 # %%
 # The bearing
 # -----------
-# Two concave plates, a slider in two pieces between them, and restraining rims at the edges of the plates. The surfaces have a
-# low friction, the interface between both pieces of the slider a high one.
+# Two concave plates, a slider in two pieces between them, and restraining rims at the edges of the
+# plates. The surfaces have a low friction, the interface between both pieces of the slider a high
+# one.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -35,8 +36,8 @@ bearing.describe()
 # %%
 # A cycle within the rims
 # -----------------------
-# The loop of a friction pendulum: characteristic strength ratio Q/W, then the post-elastic stiffness W / L of a pendulum with
-# the effective radius L.
+# The loop of a friction pendulum: characteristic strength ratio Q/W, then the post-elastic
+# stiffness W / L of a pendulum with the effective radius L.
 
 load = 150e3  # N
 path = 0.17 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401))  # m
@@ -61,7 +62,8 @@ assert abs(edc / (4 * bearing.effective_friction * load * 0.17) - 1.0) < 0.02
 # %%
 # Beyond the rims
 # ---------------
-# At 175 mm the slider meets the rims. Its interface slips: the force stays below a limit, whatever the speed.
+# At 175 mm the slider meets the rims. Its interface slips: the force stays below a limit, whatever
+# the speed.
 
 test = cyclic_test(bearing, [0.185, -0.185, 0.185, 0.0], load, velocity=0.02)
 test = test.sel(axis="x").squeeze()

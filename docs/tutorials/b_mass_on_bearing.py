@@ -2,13 +2,15 @@
 2. A mass on a bearing
 ======================
 
-A time history of 204 t on one bearing under a pulse of the ground, on the LIR-DCFP and on a plain DCFP.
+A time history of 204 t on one bearing under a pulse of the ground, on the LIR-DCFP and on a plain
+DCFP.
 """
 
 # %%
 # Ground motion and model
 # -----------------------
-# A motion is an acceleration along x, y, z in m/s². Files are read by ``GroundMotion.from_at2`` and ``from_columns``.
+# A motion is an acceleration along x, y, z in m/s². Files are read by ``GroundMotion.from_at2``
+# and ``from_columns``.
 
 import numpy as np
 

@@ -8,8 +8,8 @@ A steel frame of two storeys on four bearings: model, gravity, modes, time histo
 # %%
 # Model
 # -----
-# ``moment_frame`` makes a regular frame with a bearing under every column; other structures are built node by node as a
-# ``Frame``.
+# ``moment_frame`` makes a regular frame with a bearing under every column; other structures are
+# built node by node as a ``Frame``.
 
 import numpy as np
 
@@ -41,8 +41,9 @@ plots.mode_shapes(building, 3)
 # %%
 # Time history
 # ------------
-# The building rocks on its bearings when the rims are met, so that sliders may open on one side: the level "contact" has
-# sliders as bodies. (The default, "pendulum", is faster; its check of modelling assumptions tells when it is not enough.)
+# The building rocks on its bearings when the rims are met, so that sliders may open on one side:
+# the level "contact" has sliders as bodies. (The default, "pendulum", is faster; its check of
+# modelling assumptions tells when it is not enough.)
 
 t = np.arange(0.0, 6.0, 0.01)  # s
 x, y = (a * np.sin(w * t) * (t < 3.14) for a, w in ((2.0, 4.0), (0.8, 5.0)))  # m/s2

@@ -2,13 +2,15 @@
 4. A building that yields
 =========================
 
-A stick of three storeys whose strength is limited, on both devices: what an impact on the rims costs in ductility.
+A stick of three storeys whose strength is limited, on both devices: what an impact on the rims
+costs in ductility.
 """
 
 # %%
 # Storeys with a law
 # ------------------
-# ``storey_law`` gives each storey a hysteretic model; here bilinear, with a strength of 30 % of the weight above the base.
+# ``storey_law`` gives each storey a hysteretic model; here bilinear, with a strength of 30 % of
+# the weight above the base.
 
 import numpy as np
 

@@ -2,14 +2,15 @@
 5. The bearing in OpenSeesPy
 ============================
 
-A mass on one bearing, once by OpenSees and once by ``time_history``. You need ``pip install "lir-dcfp[opensees]"``.
+A mass on one bearing, once by OpenSees and once by ``time_history``. You need ``pip install
+"lir-dcfp[opensees]"``.
 """
 
 # %%
 # The model
 # ---------
-# ``bearing_element`` puts the bearing between two nodes of the current model; it returns the route taken: "fast" is
-# in-process, "portable" out-of-process.
+# ``bearing_element`` puts the bearing between two nodes of the current model; it returns the route
+# taken: "fast" is in-process, "portable" out-of-process.
 
 import numpy as np
 
@@ -34,8 +35,9 @@ print(bearing_element(10, 1, 2, bearing))
 # %%
 # Weight first
 # ------------
-# Friction is in proportion to the axial force. The tangent of a bearing that slides is unsymmetric: take UmfPack, and
-# KrylovNewton, which passes an impact on the rims where plain Newton may stop.
+# Friction is in proportion to the axial force. The tangent of a bearing that slides is
+# unsymmetric: take UmfPack, and KrylovNewton, which passes an impact on the rims where plain
+# Newton may stop.
 
 
 def analysis(kind, *integrator):

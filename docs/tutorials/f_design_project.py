@@ -2,8 +2,9 @@
 6. A design
 ===========
 
-From a spectrum to checked bearings: proposal by equivalent-linear analysis, scaled motions, time histories at lower and upper
-bound friction, checks. On the command line ``lir new``, ``lir design`` and ``lir run`` do the same from a file.
+From a spectrum to checked bearings: proposal by equivalent-linear analysis, scaled motions, time
+histories at lower and upper bound friction, checks. On the command line ``lir new``, ``lir
+design`` and ``lir run`` do the same from a file.
 """
 
 # %%
@@ -39,7 +40,8 @@ design_spectra(spectrum)
 # %%
 # Bearings proposed
 # -----------------
-# Each radius and friction of the target is tried; of what keeps all checks, the one with the least base shear is taken.
+# Each radius and friction of the target is tried; of what keeps all checks, the one with the least
+# base shear is taken.
 
 target = DesignTarget(
     radii=(1.5, 2.0),
@@ -63,8 +65,9 @@ motion_spectra(scaled, spectrum)
 # %%
 # Time histories at the bounds of friction
 # ----------------------------------------
-# The frame on the proposed bearings, seven motions at lower bound, nominal and upper bound friction. Each run checks its
-# modelling assumptions; those that warn want a second look, at the level "contact".
+# The frame on the proposed bearings, seven motions at lower bound, nominal and upper bound
+# friction. Each run checks its modelling assumptions; those that warn want a second look, at the
+# level "contact".
 
 isolated = proposal.isolated(frame)
 with warnings.catch_warnings(action="ignore", category=AuditWarning):  # they are counted below

@@ -2,8 +2,8 @@
 Three loops: no rims, rims, LIR-DCFP
 ====================================
 
-The static test of the paper, 150 kN and cycles of ±185 mm: beyond the restraining rims the force of a plain DCFP has no bound,
-that of the LIR-DCFP ends where its interface slips.
+The static test of the paper, 150 kN and cycles of ±185 mm: beyond the restraining rims the force
+of a plain DCFP has no bound, that of the LIR-DCFP ends where its interface slips.
 """
 
 import matplotlib.pyplot as plt

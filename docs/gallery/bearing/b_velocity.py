@@ -2,8 +2,8 @@
 Friction and speed
 ==================
 
-Loops of a bearing whose friction grows with the sliding speed, at 1 mm/s and at 0.5 m/s, and the energy dissipated per
-cycle (EDC).
+Loops of a bearing whose friction grows with the sliding speed, at 1 mm/s and at 0.5 m/s, and the
+energy dissipated per cycle (EDC).
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 Heat of cycles
 ==============
 
-Sliding heats the plates, and friction falls with their temperature: five cycles of ±150 mm at 0.4 m/s.
+Sliding heats the plates, and friction falls with their temperature: five cycles of ±150 mm at 0.4
+m/s.
 """
 
 import matplotlib.pyplot as plt

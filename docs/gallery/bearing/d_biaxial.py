@@ -2,7 +2,8 @@
 A path in two directions
 ========================
 
-The top plate goes around a figure of eight: the friction force follows the direction of sliding, the restoring force the place.
+The top plate goes around a figure of eight: the friction force follows the direction of sliding,
+the restoring force the place.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 An impact in sections
 =====================
 
-A mass on one bearing under a pulse: sections before the impact, at rim contact, at the largest displacement and after it. The
-interface between both pieces of the slider slips.
+A mass on one bearing under a pulse: sections before the impact, at rim contact, at the largest
+displacement and after it. The interface between both pieces of the slider slips.
 """
 
 import numpy as np

@@ -2,8 +2,8 @@
 Orbits of two devices
 =====================
 
-A mass under two components: the plain DCFP stays within its rims and strikes them, the LIR-DCFP passes them by the slip of its
-interface.
+A mass under two components: the plain DCFP stays within its rims and strikes them, the LIR-DCFP
+passes them by the slip of its interface.
 """
 
 import numpy as np
@@ -21,6 +21,6 @@ runs = {
 }
 
 slip = {name: float(run["interface_slip_size"].max()) for name, run in runs.items()}
-assert slip["plain DCFP"] == 0.0 < slip["LIR-DCFP"]
+assert slip["LIR-DCFP"] > slip["plain DCFP"] + 1e-3  # m
 
 plots.orbits(runs)

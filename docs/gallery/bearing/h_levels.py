@@ -2,8 +2,9 @@
 Three levels of fidelity
 ========================
 
-A cycle beyond the restraining rims with the bearing as a condensed element ("pendulum"), with its sliders as bodies ("contact"),
-and as rigid bodies in time ("rigid_body"): the levels are verified against one another.
+A push beyond the restraining rims with the bearing as a condensed element ("pendulum"), with its
+sliders as bodies ("contact"), and as rigid bodies in time ("rigid_body"): the levels are verified
+against one another.
 """
 
 import matplotlib.pyplot as plt
@@ -13,7 +14,7 @@ from frames.demo import bearing_for
 from lir_element import cyclic_test
 
 load, largest = 1000e3, {}  # N
-path = 0.28 * np.sin(np.linspace(0.0, 2.5 * np.pi, 301))  # m
+path = 0.28 * np.sin(np.linspace(0.0, 1.5 * np.pi, 151))  # m
 styles = {"pendulum": "-", "contact": "--", "rigid_body": ":"}
 for level, style in styles.items():
     test = cyclic_test(bearing_for(load), path, load, velocity=0.2, level=level)

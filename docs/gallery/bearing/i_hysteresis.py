@@ -2,8 +2,8 @@
 Loops of a time history
 =======================
 
-Force over displacement in a time history. The spike of the plain DCFP at its rims would flatten the loops: the axis ends
-earlier, and arrows name the peaks.
+Force over displacement in a time history. The spike of the plain DCFP at its rims would flatten
+the loops: the axis ends earlier, and arrows name the peaks.
 """
 
 import numpy as np

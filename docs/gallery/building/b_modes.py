@@ -2,7 +2,8 @@
 Modes with the bearings sliding
 ===============================
 
-Natural modes of the structure on its bearings, whose stiffness is that of the pendulum: translation along both axes and torsion.
+Natural modes of the structure on its bearings, whose stiffness is that of the pendulum:
+translation along both axes and torsion.
 """
 
 from frames import modes, moment_frame, plots

@@ -2,7 +2,8 @@
 Storey profiles
 ===============
 
-Maximum drift and acceleration of each storey: an impact on the rims shakes the frame of the plain DCFP.
+Maximum drift and acceleration of each storey: an impact on the rims shakes the frame of the plain
+DCFP.
 """
 
 import numpy as np

@@ -2,7 +2,8 @@
 A slender building lifts
 ========================
 
-Axial forces of the four bearings under a slender building: two of them are nearly unloaded in turn.
+Axial forces of the four bearings under a slender building: two of them are nearly unloaded in
+turn.
 """
 
 import numpy as np

@@ -2,7 +2,8 @@
 Design spectra of three codes
 =============================
 
-Spectra of one site by ASCE 7-22, EN 1998 and NCh2745, at 5 % and at the damping of isolated structures.
+Spectra of one site by ASCE 7-22, EN 1998 and NCh2745, at 5 % and at the damping of isolated
+structures.
 """
 
 from frames.design import Spectrum
@@ -15,6 +16,6 @@ spectra = {
 }
 
 at_2_5 = [float(spectrum.acceleration([2.5])[0]) for spectrum in spectra.values()]
-assert min(at_2_5) > 1.0 and max(at_2_5) < 2.5  # m/s2
+assert max(at_2_5) / min(at_2_5) < 2.0
 
 design_spectra(spectra, dampings=(0.05, 0.2))

@@ -2,7 +2,8 @@
 A set of motions scaled to a spectrum
 =====================================
 
-Seven synthetic near-fault motions, scaled so that their mean does not fall below the target over the range of periods.
+Seven synthetic near-fault motions, scaled so that their mean does not fall below the target over
+the range of periods.
 """
 
 from frames.design import Spectrum, synthetic_near_fault

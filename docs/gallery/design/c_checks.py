@@ -2,7 +2,8 @@
 Checks of a bearing
 ===================
 
-Demand over capacity of the checks that geometry and friction alone decide, with lower and upper bound friction.
+Demand over capacity of the checks that geometry and friction alone decide, with lower and upper
+bound friction.
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 Lower and upper bound loops
 ===========================
 
-Codes ask for analyses at the lower and the upper bound of friction: the loops of both, and of the nominal bearing.
+Codes ask for analyses at the lower and the upper bound of friction: the loops of both, and of the
+nominal bearing.
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 Radius, friction and displacement
 =================================
 
-Maximum displacement by the equivalent-linear procedure of ASCE 7-22, over the friction of bearings of three radii.
+Maximum displacement by the equivalent-linear procedure of ASCE 7-22, over the friction of bearings
+of three radii.
 """
 
 import matplotlib.pyplot as plt

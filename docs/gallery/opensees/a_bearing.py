@@ -2,7 +2,8 @@
 A bearing in OpenSeesPy
 =======================
 
-A mass on one bearing under a sine, analysed by OpenSees; the bearing's recording is drawn as that of a time history.
+A mass on one bearing under a sine, analysed by OpenSees; the bearing's recording is drawn as that
+of a time history.
 """
 
 from frames import plots
@@ -23,8 +24,6 @@ ops.timeSeries("Linear", 1)
 ops.pattern("Plain", 1, 1)
 ops.load(2, 0.0, 0.0, -mass * 9.80665, 0.0, 0.0, 0.0)
 for integrator in (("LoadControl", 0.1), ("Newmark", 0.5, 0.25)):
-    ops.constraints("Transformation")
-    ops.numberer("RCM")
     ops.system("UmfPack")  # the tangent is unsymmetric
     ops.test("NormDispIncr", 1e-9, 25)
     ops.algorithm("KrylovNewton")

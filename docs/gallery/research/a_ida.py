@@ -2,7 +2,8 @@
 Incremental dynamic analysis
 ============================
 
-Storey drift of a stiff building over the intensity of four motions: it jumps where the rims are met.
+Storey drift of a stiff building over the intensity of four motions: it jumps where the rims are
+met.
 """
 
 from frames import shear_building

@@ -2,7 +2,8 @@
 Which intensities make the risk
 ===============================
 
-A fragility curve and the hazard of the site give the mean annual frequency of exceedance, and what intensities contribute.
+A fragility curve and the hazard of the site give the mean annual frequency of exceedance, and what
+intensities contribute.
 """
 
 from frames.risk import HazardCurve, lognormal_fragility, mean_annual_frequency

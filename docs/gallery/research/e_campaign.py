@@ -2,8 +2,8 @@
 A campaign over friction
 ========================
 
-Twelve Latin hypercube samples of friction and radius, each a time history: a campaign keeps them on disk, and goes on where it
-was stopped.
+Twelve Latin hypercube samples of friction and radius, each a time history: a campaign keeps them
+on disk, and goes on where it was stopped.
 """
 
 from tempfile import mkdtemp

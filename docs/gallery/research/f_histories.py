@@ -2,7 +2,8 @@
 Many time histories at once
 ===========================
 
-Two devices under one motion at eight intensities, in one call: displacement and base shear of each run.
+Two devices under one motion at eight intensities, in one call: displacement and base shear of each
+run.
 """
 
 import warnings
