@@ -374,11 +374,11 @@ def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
     turned = largest(data, "hinge_rotation")
     k = int(np.argmax(turned.values))
     most = float(turned.values[k])
-    text = f"hinges turned by up to {1e3 * most:.3g} mrad"
+    text = f"plastic rotation of hinges up to {1e3 * most:.3g} mrad"
     if most > TURNED:
         text = (
-            f"hinge {data['hinge'].to_numpy()[k]} turned by {1e3 * most:.3g} mrad at t = "
-            f"{float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
+            f"plastic rotation of hinge {data['hinge'].to_numpy()[k]}: {1e3 * most:.3g} mrad at "
+            f"t = {float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
             "mrad on, which is not modelled; take it as the beginning of a failure"
         )
     finding = _finding("yielding", False, most > 0.0, most, text)
