@@ -135,7 +135,7 @@ TERMS = {
     "sliders": "taken up by the sliders' own mass: motion, weight (levels with contact points)",
     "yielding": "taken up by yielding of the structure, what hardening stores included",
     "dampers": "dissipated by the dampers of the structure",
-    "stops": "work done on walls and ties: strain, damping, yielding",
+    "stops": "work done on walls and tension-only elements: strain, damping, yielding",
     "numerical": "left over: Newton's tolerance, and what the integrator itself takes out",
 }
 

@@ -1,4 +1,4 @@
-"""Laws of links and plastic hinges: how forces follow deformations."""
+"""Hysteretic models of links and plastic hinges: how forces follow deformations."""
 
 from frames.model.laws import Bilinear as Bilinear
 from frames.model.laws import BoucWen as BoucWen

@@ -270,7 +270,7 @@ def swapped(document: Document, rng: np.random.Generator) -> str:
 
 
 def turned_bounds(document: Document, rng: np.random.Generator) -> str:
-    """Swap the bounds of friction."""
+    """Swap the lower and upper bound friction properties."""
     key = _choice(rng, list(document["bounds"]))
     document["bounds"][key] = document["bounds"][key][::-1]
     return f"bounds.{key}: upper before lower"

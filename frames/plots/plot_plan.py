@@ -24,7 +24,7 @@ _SAME_PLACE = 3  # decimals of a place in m, in plan
 
 
 def bearing_plan(data: xr.Dataset) -> Figure:
-    """Draw the bearings in plan, coloured by how far they use their lateral capacity.
+    """Draw the bearings in plan, coloured by how far they use their displacement capacity.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     panel.set_ylim(spots[:, 1].min() - 0.9 * apart, spots[:, 1].max() + 0.5 * apart)
     ps.caption(panel, x="x [m]", y="y [m]")
     bar = figure.colorbar(colours, ax=panel, shrink=0.8)
-    bar.set_label("largest displacement over lateral capacity", fontsize=ps.LABEL)
+    bar.set_label("largest displacement over displacement capacity", fontsize=ps.LABEL)
     bar.ax.tick_params(labelsize=ps.SMALL)
     label = pick.label_of(str(data.attrs.get("title", "bearings")), data, " ")
     ps.add_legend(figure, [], title=f"Bearings in plan: {label}")

@@ -50,7 +50,10 @@ def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str,
     limits = [getattr(link.law, "yield_deformation", np.nan) for link in found.links]
     return {
         "link_deformation": labelled(
-            history, d, "m, rad", "deformation of the link; of dampers, ties and stops from gravity"
+            history,
+            d,
+            "m, rad",
+            "deformation of the link; of dampers, tension-only elements and stops from gravity",
         ),
         "link_force": labelled(
             history, out.beyond[:count, :n] + found.elastic[:n] * d, "N, N m", "force of the link"

@@ -45,7 +45,7 @@ OVERLAPS = 0.9
 """The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
 
 SPUN = 0.5
-"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the slip that is left
+"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the residual slip
 depends on it (docs/validation/slip.md)."""
 
 EDGE = 0.5
@@ -71,7 +71,7 @@ class Finding:
     ----------
     feature : str
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
-        "slip_stability": whether the slip that is left holds; or "yielding": whether hinges
+        "slip_stability": whether the residual slip holds; or "yielding": whether hinges
         turned further than they keep their strength; or "equilibrium", "accelerations" and
         "time_step": whether the numbers of the run belong together.
     left_out : bool
@@ -220,7 +220,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
     if np.isinf(limit).all():
         return _finding("rims", out, False, 0.0, "the bearings have none")
     if out or not met.values.any():
-        text = f"reached {_share(share)} of capacity"
+        text = f"reached {_share(share)} of the displacement capacity"
         return _finding("rims", out, out and mattered, share, text)
     return _finding("rims", out, True, share, f"met by {_by_whom(met)}")
 
@@ -381,11 +381,11 @@ def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:
     turned = largest(data, "hinge_rotation")
     k = int(np.argmax(turned.values))
     most = float(turned.values[k])
-    text = f"hinges turned by up to {1e3 * most:.3g} mrad"
+    text = f"plastic rotation of hinges up to {1e3 * most:.3g} mrad"
     if most > TURNED:
         text = (
-            f"hinge {data['hinge'].to_numpy()[k]} turned by {1e3 * most:.3g} mrad at t = "
-            f"{float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
+            f"plastic rotation of hinge {data['hinge'].to_numpy()[k]}: {1e3 * most:.3g} mrad at "
+            f"t = {float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
             "mrad on, which is not modelled; take it as the beginning of a failure"
         )
     finding = _finding("yielding", False, most > 0.0, most, text)

@@ -107,7 +107,7 @@ class ModelCheck:
         rows = [
             ("mass", f"{1e-3 * self.mass:.5g} t"),
             ("permanent vertical load", f"{1e-3 * self.weight:.5g} kN"),
-            ("of it loads without mass", f"{-1e-3 * self.loads[2] + 0.0:.5g} kN"),
+            ("of it non-mass loads", f"{-1e-3 * self.loads[2] + 0.0:.5g} kN"),
         ]
         if any(self.loads[:2]):
             across = " and ".join(f"{1e-3 * value:.5g}" for value in self.loads[:2])
@@ -115,7 +115,7 @@ class ModelCheck:
         if not self.failure:
             rows.append(("carried by the bearings", f"{1e-3 * self.carried:.5g} kN"))
             taken = 1e-3 * sum(force for _, force in self.supports) + 0.0
-            rows.append(("supports past the bearings", f"{taken:.5g} kN"))
+            rows.append(("loads carried by other supports", f"{taken:.5g} kN"))
             rows.append(("periods, fixed base", f"{periods} s"))
             rows.append(("period on the bearings", f"{self.isolated_period:.3g} s"))
         return [*rows, *self.motion]

@@ -64,7 +64,7 @@ class LIRBearing(Specification):
         Of a rim in radial direction [N/m, N s/m]. Default: a tenth of the axial stiffness, and
         10 % of critical damping.
     rim_overrun : float, optional
-        Deformation of a rim beyond which the slider has overrun it [m]: the bearing fails.
+        Deformation of a rim beyond which it counts as failed [m]: the bearing fails.
         Default: a tenth of the slider's radius.
     slip_capacity : float, optional
         Interface slip beyond which the sliders' overlap no longer carries [m]: the bearing fails.
@@ -157,7 +157,7 @@ class LIRBearing(Specification):
         rows = [
             ("effective radius", f"{self.effective_radius:.4g}", "m"),
             ("pendulum period", f"{self.period:.3g}", "s"),
-            ("lateral capacity", f"{self.lateral_capacity:.4g}", "m"),
+            ("displacement capacity", f"{self.lateral_capacity:.4g}", "m"),
             ("characteristic strength ratio Q/W", f"{self.effective_friction:.4g}", "-"),
             ("stable limit of interface slip", f"{self.slip_stability:.4g}", "m"),
         ]

@@ -132,7 +132,7 @@ def _device(project, head, rows, tally):
     own = {
         "effective radius": b.L,
         "pendulum period": 2.0 * math.pi * math.sqrt(b.L / GRAVITY),
-        "lateral capacity": b.capacity,
+        "displacement capacity": b.capacity,
         "characteristic strength ratio Q/W": b.share(b.fast),
         "stable limit of interface slip": b.L * b.inner - b.fast * b.R.sum(),
         "slider_height": b.h,

@@ -84,7 +84,7 @@ def test_rims_left_out_that_were_not_needed():
     largest = float(np.abs(free["bearing_displacement"].sel(axis="x")).max())
     finding = found(run(device(capacity=largest / 0.71), features=Features(rims=False)))["rims"]
     assert_allclose(finding.number, 0.71, rtol=1e-4)  # the load stretches the string: 3e-5
-    assert finding.sentence == "rims left out: reached 71 % of capacity"
+    assert finding.sentence == "rims left out: reached 71 % of the displacement capacity"
     assert (finding.left_out, finding.mattered) == (True, False)
     without = found(free)["rims"]
     assert (without.mattered, without.number) == (False, 0.0)

@@ -1,4 +1,4 @@
-"""Bounds of friction: factors by their sources, and what they are put on."""
+"""Lower and upper bound friction properties: factors by their sources, and what they are put on."""
 
 import pytest
 

@@ -48,7 +48,7 @@ def capacity_checks(
     slip_left : float
         Interface slip that an earlier event left in that direction [m].
     bounds : PropertyBounds, optional
-        Bounds of friction, for the stable limit of interface slip.
+        Lower and upper bound friction properties, for the stable limit of interface slip.
     bound : {"lower", "nominal", "upper", ""}
         Bound that the displacement belongs to.
 

@@ -46,9 +46,9 @@ def device_checks(
     slip_left : float
         Interface slip that an earlier event left, in the worse direction [m].
     bounds : PropertyBounds, optional
-        Bounds of friction; nominal friction if None. The low friction is taken at its upper bound
-        and that of the interface at its lower one where the interface must hold, the other way
-        round where it must slip.
+        Lower and upper bound friction properties; nominal friction if None. The low friction is
+        taken at its upper bound and that of the interface at its lower one where the interface must
+        hold, the other way round where it must slip.
     limits : DesignLimits, optional
         What it may be asked for.
 

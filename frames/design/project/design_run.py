@@ -60,7 +60,7 @@ class ProjectRun:
         Of the time histories, the bearing, and what of the equivalent-linear analysis they do
         not replace.
     bounds : PropertyBounds
-        Bounds of friction.
+        Lower and upper bound friction properties.
     model : ModelCheck
         Totals of the structure.
     loads : tuple of float, (n_bearings,)

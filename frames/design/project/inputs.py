@@ -100,7 +100,7 @@ class ProjectInputs:
         return in_section("spectrum", lambda: self.code().spectrum(**keys))
 
     def bounds(self) -> PropertyBounds:
-        """Return the bounds of friction."""
+        """Return the lower and upper bound friction properties."""
         given = self.file.bounds
 
         def made() -> PropertyBounds:

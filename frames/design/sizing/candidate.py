@@ -140,7 +140,7 @@ def fitted(
     target : DesignTarget
         What is asked for.
     bounds : PropertyBounds or None
-        Bounds of friction.
+        Lower and upper bound friction properties.
     analyse : callable
         Equivalent-linear analysis of the system on one bearing.
 

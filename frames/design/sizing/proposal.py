@@ -183,7 +183,7 @@ def design(
     spectrum : Spectrum
         As in `equivalent_linear`.
     bounds : PropertyBounds or None
-        Bounds of friction.
+        Lower and upper bound friction properties.
     target : DesignTarget, optional
         What to choose from, and what is asked.
     superstructure, code
