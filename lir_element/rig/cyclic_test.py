@@ -173,8 +173,8 @@ def _tell_of_small_loads(bearing: LIRBearing, largest: float) -> None:
     if largest >= _TOO_LIGHT * design:
         return
     told = (
-        f"axial_load = {largest:g} N is {largest / design:.2g} times the design load, {design:.3g} N: "
-        f"{meant(largest, 'N', FORCES, 0.01 * design, 10.0 * design)}"
+        f"axial_load = {largest:g} N is {largest / design:.2g} times the design load, "
+        f"{design:.3g} N: {meant(largest, 'N', FORCES, 0.01 * design, 10.0 * design)}"
     )
     warnings.warn(told, DesignWarning, stacklevel=3)
 
