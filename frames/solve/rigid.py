@@ -10,7 +10,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS, Ground, Output, output_arrays
-from frames.recording.dataset import build_dataset, peak_velocity
+from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
 from frames.recording.size import number_of_steps, require_memory
@@ -165,10 +165,10 @@ def _dataset(
 ) -> xr.Dataset:
     # The first `count` outputs; an interrupted run is shorter.
     recorded = RigidOutput(*(part[:count] for part in recorded))
-    out = _output(state, given.times[:count], recorded)
+    ground = Ground(given.motion, given.motion_dt)
+    out = _output(state, ground, given.times[:count], recorded)
     peak = peak_velocity(motion, float(out.time[-1]))
     states, bodies = recorded.states[:, None], recorded.bodies[:, None]
-    ground = Ground(given.motion, given.motion_dt)
     return build_dataset(model, state, ground, peak, out, states, bodies, count)
 
 
@@ -258,13 +258,28 @@ def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -
     return float(explicit)
 
 
-def _output(state: GravityState, times: FloatArray, recorded: RigidOutput) -> Output:
+def _accelerations(
+    state: GravityState, ground: Ground, times: FloatArray, force: FloatArray
+) -> FloatArray:
+    # Of the top plate (n, 3), relative to the ground: of the forces at the same instant. The
+    # scheme's own belong to a place within its step.
+    node = state.system.bearings[0].j
+    load = state.system.node_load[6 * node : 6 * node + 3]
+    mass = state.system.node_mass[node, :3]
+    total = (load - force) / np.where(mass > 0.0, mass, np.inf)
+    return np.asarray(total - ground_at(ground, times))
+
+
+def _output(
+    state: GravityState, ground: Ground, times: FloatArray, recorded: RigidOutput
+) -> Output:
     states, bodies, energy = recorded
     out, _, _ = output_arrays(state.model, None, len(times))
     rows = bearing_rows(state.system).toarray()[6:]
     dofs = [int(np.flatnonzero(rows[:, k])[0]) for k in state.basis.bearing_dofs]
     plate = np.concatenate([bodies["velocity"][:, 2], bodies["spin"][:, 2]], axis=1)
-    rates = np.concatenate([bodies["acceleration"][:, 2], bodies["spin_rate"][:, 2]], axis=1)
+    moves = _accelerations(state, ground, times, states["force"][:, 6:9])
+    rates = np.concatenate([moves, bodies["spin_rate"][:, 2]], axis=1)
     out.time[:] = times
     out.b[:] = states["displacement"][:, 6:][:, dofs]
     out.v_b[:], out.a_b[:] = plate[:, dofs], rates[:, dofs]

@@ -155,6 +155,22 @@ def test_implicit_is_explicit(law: str, pulse: Callable[..., np.ndarray]) -> Non
         assert float(np.abs(one[name] - two[name]).max()) < 5e-3 * scale, name
 
 
+def test_accelerations_belong_to_the_forces_of_their_instant(
+    pulse: Callable[..., np.ndarray],
+) -> None:
+    """They balance these and integrate to the velocities; no assumption is violated."""
+    motion = GroundMotion(x=pulse(2.6, 1.5, cycles=1.0, rest=0.2), dt=0.005)
+    data = rigid(lumped_mass(bearing(), MASS), motion)
+    assert float(data["rim_force"].max()) > 0.0
+    assert float(np.abs(data["imbalance"]).max()) < 1e-9
+    own = data["node_acceleration"].isel(node=-1, dof=0) - data["ground_acceleration"].sel(axis="x")
+    steps = np.diff(data["time"].to_numpy())
+    speed = np.cumsum(0.5 * (own.to_numpy()[1:] + own.to_numpy()[:-1]) * steps)
+    given = data["bearing_velocity"].isel(bearing=0).sel(axis="x").to_numpy()
+    assert_allclose(speed, given[1:], atol=5e-3 * float(np.abs(given).max()))
+    assert "! equilibrium" not in data.attrs["audit"]
+
+
 def test_numerical_share_of_the_ledger(pulse: Callable[..., np.ndarray]) -> None:
     motion = GroundMotion(x=pulse(2.6, 1.5, cycles=1.0, rest=0.2), dt=0.005)
     shares = []
