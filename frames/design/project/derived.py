@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import types
+from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
+from difflib import get_close_matches
 from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
@@ -120,6 +122,11 @@ def _tag(way: Any) -> str:
     return _PAIR if get_origin(way) is tuple else _NUMBER
 
 
+def _likeness(keys: set[str], given: Iterable[Any]) -> int:
+    # How many keys are given, misspelt ones included.
+    return sum(bool(get_close_matches(str(key), keys, n=1)) for key in given)
+
+
 def _chosen(ways: list[Any]) -> Any:
     # Which of several ways a value is given in: by its kind, of tables by their keys.
     tables = {_tag(way): {f.name for f in fields(way)} for way in ways if is_dataclass(way)}
@@ -129,7 +136,7 @@ def _chosen(ways: list[Any]) -> Any:
         if isinstance(value, DerivedTable):
             return f"[{value.made_of.__name__}]"
         if isinstance(value, dict) and tables:
-            return max(tables, key=lambda tag: len(tables[tag] & set(value)))
+            return max(tables, key=lambda tag: _likeness(tables[tag], value))
         if isinstance(value, (list, tuple)) and _PAIR in others:
             return _PAIR
         return _NUMBER if _NUMBER in others else [*others, *tables][0]

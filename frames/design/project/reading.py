@@ -6,7 +6,7 @@ import difflib
 import json
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import ValidationError
 
@@ -182,11 +182,25 @@ def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -
 
 def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> list[str]:
     # Keys of the section in which an unknown one stands.
-    model: Any = whole
+    model, annotation = whole, None
     for part in place[:-1]:
-        field = model.model_fields.get(part) if hasattr(model, "model_fields") else None
-        model = _section(field.annotation, data.get(part, {})) if field is not None else model
+        if str(part).endswith("]"):  # the way in which a value was given
+            model = _named(annotation, str(part).strip("[]")) or model
+            continue
+        field = model.model_fields.get(part)
+        if field is not None:
+            annotation = field.annotation
+            found = _section(annotation, data.get(part, {}))
+            model = found if hasattr(found, "model_fields") else model
     return sorted(model.model_fields)
+
+
+def _named(annotation: Any, name: str) -> Any:
+    # The table of a name among the ways that an annotation has.
+    if getattr(annotation, "__name__", "") == name and hasattr(annotation, "model_fields"):
+        return annotation
+    ways = (_named(part, name) for part in get_args(annotation))
+    return next((way for way in ways if way), None)
 
 
 def _section(annotation: Any, given: Any) -> Any:
