@@ -39,12 +39,72 @@ PLAIN = {
 """Modules of tests/unit that are soon done with the kernels as plain Python, too."""
 
 
+LONG = set(
+    [
+        "test_architecture",
+        "test_audit_warning",
+        "test_bad_input",
+        "test_batch",
+        "test_cache",
+        "test_campaign",
+        "test_campaign_cluster",
+        "test_campaign_file",
+        "test_campaign_stopped",
+        "test_claims",
+        "test_contact_element",
+        "test_demo",
+        "test_element",
+        "test_extending",
+        "test_features",
+        "test_fragility_runs",
+        "test_friction_energy",
+        "test_hard_cases",
+        "test_interrupt",
+        "test_isolate",
+        "test_kept_runs",
+        "test_levels",
+        "test_mutations",
+        "test_opensees_analyses",
+        "test_opensees_builtin",
+        "test_opensees_frame",
+        "test_opensees_macro_model",
+        "test_opensees_plugin",
+        "test_opensees_recording",
+        "test_opensees_safety",
+        "test_opensees_selftest",
+        "test_order",
+        "test_parts",
+        "test_plain",
+        "test_plot_parts",
+        "test_plots",
+        "test_progress",
+        "test_project",
+        "test_random_runs",
+        "test_random_scenes",
+        "test_recording",
+        "test_recovered_forces",
+        "test_reduced",
+        "test_report",
+        "test_sizing",
+        "test_slip_that_holds",
+        "test_start",
+        "test_steps",
+        "test_storage",
+        "test_study",
+        "test_tapered_loads",
+        "test_work",
+        "test_yielding_scenes",
+    ]
+)
+"""Modules that `make quick` leaves out, but for what is marked in them: a second and more each."""
+
+
 DOUBTS = ("lir_element.DesignWarning", "lir_element.AnalysisWarning", "frames.ModelWarning")
 """Warnings of what is strange of a bearing, a model or a run, which a test may mean to be."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what runs with the kernels as plain Python; let pass the doubts that a test means.
+    """Mark what is quick, and what runs as plain Python; let pass the doubts that a test means.
 
     ``pytest.mark.meant("settles by")`` says that a bearing or a model is strange on purpose: the
     warnings whose text these words (a regular expression) are found in are no errors there.
@@ -52,6 +112,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
+        rooms = {"unit", "integration", "properties"}
+        if item.path.parent.name in rooms and item.path.stem not in LONG:
+            item.add_marker("quick")
         words = [each for marker in item.iter_markers("meant") for each in marker.args]
         for each, kind in itertools.product(words, DOUBTS):
             item.add_marker(pytest.mark.filterwarnings(f"ignore:.*{each}:{kind}"))

@@ -63,6 +63,7 @@ def test_static_path_is_that_of_the_element(stand: Any, level: str) -> None:
     assert np.hypot(*bearing_response(1, "slip")) > 1e-3
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("level", LEVELS)
 def test_transient_is_that_of_the_element(stand: Any, level: str) -> None:
     stand.build(level=level)

@@ -93,6 +93,7 @@ def test_what_is_no_sample_is_refused(make: object, words: str) -> None:
         make()  # type: ignore[operator]
 
 
+@pytest.mark.quick
 def test_rows_are_those_of_the_plan() -> None:
     plan = Plan(("A", "B"), ("x", "y", "z"), (1.0, 2.0), SETS, 7)
     assert (plan.runs, plan.batches) == (48, 7)

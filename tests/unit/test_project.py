@@ -279,6 +279,7 @@ def test_a_report_without_figures_says_so_and_lir_report_draws_them(
     assert "Written without figures" not in text
 
 
+@pytest.mark.quick
 def test_a_run_writes_what_its_parts_give(folder: Path) -> None:
     results = folder / "out"
     done = ran(folder / "small.toml", results)
