@@ -22,7 +22,8 @@ runs = {
     for name, model in {"LIR-DCFP": building, "plain DCFP": plain}.items()
 }
 
-drift = {name: peaks(run).loc["storey drift, maximum at any column line", "value"] for name, run in runs.items()}
+quantity = "storey drift, maximum at any column line"
+drift = {name: peaks(run).loc[quantity, "value"] for name, run in runs.items()}
 assert drift["plain DCFP"] > drift["LIR-DCFP"]
 
 plots.storey_profiles(runs)
