@@ -23,13 +23,6 @@ from frames.design.project.level_runs import said_of_runs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
-from frames.design.report.files import (
-    UNFINISHED,
-    read_histories,
-    write_interrupted,
-    write_judgement,
-    write_run,
-)
 from frames.design.report.tables import rows_of
 from frames.design.sizing.proposal import Design, design
 from lir_element.errors import AnalysisInterrupted
@@ -131,6 +124,8 @@ def run(
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
     """Run a project at each level and bound of friction, check it, and write the results."""
+    from frames.design.report.files import UNFINISHED, write_interrupted, write_run  # with figures
+
     with told():
         try:
             parts = _parts(file)
@@ -157,6 +152,8 @@ def report(
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
+    from frames.design.report.files import read_histories, write_judgement
+
     with told():
         parts = _parts(file)
         known = preliminary(parts)

@@ -1,4 +1,7 @@
-"""The commands of campaigns: run one from its file, and see how far one is."""
+"""The commands of campaigns: run one from its file, and see how far one is.
+
+What they need is imported in them: the other commands start without it.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,6 @@ import typer
 
 from frames.command.console import FAILED_ANALYSIS, INTERRUPTED, err, say, told
 from frames.design._errors import ProjectError
-from frames.risk.campaign.file import read_campaign, workers_of
-from frames.risk.campaign.store import open_campaign
 
 
 def campaign(
@@ -22,6 +23,8 @@ def campaign(
     """Run a campaign, or go on with it: models, motions, scales and parameters of a file."""
     with told():
         _require_zarr()
+        from frames.risk.campaign.file import read_campaign, workers_of
+
         found = read_campaign(file, store=store)
         say(str(found))
         try:
@@ -42,6 +45,8 @@ def campaign_status(
     """Tell how far a campaign is, also while it runs."""
     with told():
         _require_zarr()
+        from frames.risk.campaign.store import open_campaign
+
         found = open_campaign(store).status()
         say(str(found))
         for text in found.warnings:
