@@ -140,7 +140,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
                 "## Where each wins",
                 verdict(found, met, every[-1]),
                 wins_table(found, met),
-                f'Completed runs at demands {met[0]:g} to {met[-1]:g}; "same" is within '
+                f'Completed runs at demand to capacity ratios of {met[0]:g} to {met[-1]:g}; "same" is within '
                 f"{100.0 * SAME:g} %, of rotations within {1e3 * LEAST['rotation']:g} mrad, of drifts "
                 f"left within {1e2 * LEAST['residual']:g} %.",
                 "Runs in which rims or a wall do better than the LIR-DCFP by drift, hinge rotation or "
@@ -231,7 +231,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
     return "\n".join(
         [
             "- **While the interface holds, the LIR-DCFP spares what impacts do.** "
-            f"At demand {last:g}, "
+            f"At a demand to capacity ratio of {last:g}, "
             f"medians of the {len(completed(runs))} of {len(runs)} runs that it completes: floor "
             f"acceleration {over('floor', RIMS, g, '.2f')} g with rims and "
             f"{over('floor', MOAT, g, '.2f')} g in the moat; drift {over('drift', RIMS, 1e2, '.2f')} % "
@@ -244,7 +244,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             "plan of the bearing, hardly the gap around the building.",
             "- **When its interface has slipped off its overlap, the LIR-DCFP has "
             "failed, and the others "
-            f"go on.** At demand {last:g} that are {len(runs) - len(completed(runs))} of {len(runs)} "
+            f"go on.** At a demand to capacity ratio of {last:g} that are {len(runs) - len(completed(runs))} of {len(runs)} "
             f"runs. Completed at {highest:g}: {'; '.join(done(system) for system in SYSTEMS)}. With "
             f"walls the hinges then turn by {1e3 * middle(MOAT, 'rotation'):.1f} mrad, "
             f"{1e2 * middle(MOAT, 'residual'):.2f} % of drift are left, and floors feel "
@@ -254,7 +254,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             "hinge rotation or residual drift (second table below): where the impact is slight, as the "
             "corner of a moat is farther than the rims, and in the light frame where the limit of the "
             "LIR-DCFP lets hinges yield, too.",
-            "- **It needs a wider gap than a building that is stopped**: displacement at demand "
+            "- **It needs a wider gap than a building that is stopped**: displacement at a demand to capacity ratio of "
             f"{last:g} {over('displacement', RIMS, 1e3, '.0f')} mm with rims.",
         ]
     )
@@ -289,7 +289,7 @@ def variants(found: Sequence[Row]) -> str:
     return (
         f"Of the runs of the LIR-DCFP alone are completed {stopped}; with walls "
         f"{1e3 * WALLS[BEHIND][0]:.0f} mm away behind it {held}. Where the walls stop it, the "
-        f"frame feels them as with the plain DCFP: at demand {demands[-1]:g} a median of "
+        f"frame feels them as with the plain DCFP: at a demand to capacity ratio of {demands[-1]:g} a median of "
         f"{1e2 * middle(BEHIND, 'drift'):.2f} % of drift and {g * middle(BEHIND, 'floor'):.2f} g. "
         f"A wall of a tenth of the stiffness makes of the moat's {hard} these: {soft} (medians, "
         "both frames): what an impact does depends on what is assumed of the wall, and a soft one "
@@ -330,7 +330,7 @@ def yielding_changes(found: Sequence[Row], demand: float) -> str:
         if ratios:
             spans.append(f"{name} {min(ratios):.3f} to {max(ratios):.3f}")
     return (
-        f"Under the demo's record at demand {demand:g} the plain DCFP with rims has "
+        f"Under the demo's record at a demand to capacity ratio of {demand:g} the plain DCFP with rims has "
         f"{elastic['shear']:.2f} W and {g * elastic['floor']:.1f} g with an elastic frame, "
         f"{yields['shear']:.2f} W and {g * yields['floor']:.1f} g with hinges, of which "
         f"{yields['hinges']} yield. So 2 W and nearly 8 g are no artefact of an "
