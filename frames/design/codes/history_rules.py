@@ -97,6 +97,11 @@ class HistoryRules:
             msg = "levels is empty: give one level of the seismic action at least"
             raise CheckError(msg)
 
+    @property
+    def bearing_level(self) -> str:
+        """The level of the seismic action at which bearings are judged."""
+        return next(level.name for level in self.levels if level.judges_bearings)
+
     def level(self, name: str = "") -> ActionLevel:
         """Return a level by its name, the only one if "".
 

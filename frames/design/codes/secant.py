@@ -128,7 +128,7 @@ def iterate_displacement(
 
 def _alike(one: Check, other: Check) -> bool:
     pairs = ((one.ratio, other.ratio), (one.demand, other.demand), (one.limit, other.limit))
-    return all(math.isclose(a, b, rel_tol=_ALIKE) or a is b for a, b in pairs)
+    return all(math.isclose(a, b, rel_tol=_ALIKE) for a, b in pairs)
 
 
 def _severity(check: Check) -> tuple[float, float]:
@@ -202,7 +202,7 @@ class CheckBuilder:
         ]
         worst = max(found, key=_severity)
         # of those that differ by round-off alone the first: the processor decides no names
-        return next(c for c in found if _alike(c, worst))
+        return next(c for c in found if c is worst or _alike(c, worst))
 
     def _made(
         self,

@@ -99,11 +99,6 @@ class RunToCheck:
     rules: HistoryRules
     asked: BearingDemand
 
-    @property
-    def bearing_level(self) -> str:
-        """The level of the seismic action at which bearings are judged."""
-        return next(level.name for level in self.rules.levels if level.judges_bearings)
-
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]
 """What makes checks of a run."""

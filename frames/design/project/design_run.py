@@ -183,7 +183,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
     demands = demands_at_levels(runs, rules)
-    asked = _asked(parts, known, history_demands(runs[_of_bearings(parts)], rules))
+    asked = _asked(parts, known, history_demands(runs[rules.bearing_level], rules))
     run = RunToCheck(
         code=parts.code(),
         frame=frame,
@@ -263,11 +263,6 @@ def compare_devices(
 
 def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
     return [data for each in runs.values() for data in each.values()]
-
-
-def _of_bearings(parts: ProjectInputs) -> str:
-    # The level of the seismic action at which bearings are judged.
-    return next(level.name for level in parts.rules().levels if level.judges_bearings)
 
 
 def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> BearingDemand:

@@ -12,7 +12,7 @@ from frames.results.peak_response import largest
 from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
 from frames.solve.time_history import time_history
-from lir_element.errors import AnalysisError, AnalysisWarning
+from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,16 +70,13 @@ def governing_run(
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motion, level=given.level, dt=given.dt)
-        try:
-            disturbed = time_history(
-                model,
-                motion.scaled(1.0 + NOISE),
-                level=given.level,
-                dt=given.dt,
-                recording=Recording.peaks(),
-            )
-        except AnalysisError as stop:
-            disturbed = stop.data
+        disturbed = time_history(
+            model,
+            motion.scaled(1.0 + NOISE),
+            level=given.level,
+            dt=given.dt,
+            recording=Recording.peaks(),
+        )
     kept = as_packed(data).assign_attrs(
         {f"{_ATTRIBUTE}{key}": _apart(data, disturbed, key) for key in _WATCHED}
     )

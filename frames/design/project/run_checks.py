@@ -59,4 +59,4 @@ def of_the_bearing(run: RunToCheck) -> list[Check]:
     }
     agreed = limits.rim_engagement
     rims = engagement_checks(bearing, allowed, code=run.code.name, agreed=agreed)
-    return [replace(check, level=run.bearing_level) for check in (*checks, *rims)]
+    return [replace(check, level=run.rules.bearing_level) for check in (*checks, *rims)]
