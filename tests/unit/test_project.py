@@ -524,6 +524,15 @@ def test_a_governing_run_whose_peaks_are_chance_says_so(
     assert f"bearing displacement by {share:.2g} %" in said
 
 
+def test_what_the_disturbed_run_alone_reaches_is_all_of_the_difference(done: Path) -> None:
+    kept = load(done / "out" / "governing.nc")
+    free = kept.assign(rim_force=0.0 * kept["rim_force"])
+    assert float(kept["rim_force"].max()) > 0.0
+    assert governing_run._apart(free, kept, "rim_force") == 1.0
+    assert governing_run._apart(kept, free, "rim_force") == 1.0
+    assert governing_run._apart(free, free, "rim_force") == 0.0
+
+
 @pytest.mark.parametrize(
     ("script", "words"),
     [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from typing import TYPE_CHECKING
 
@@ -123,6 +122,6 @@ def _most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str
 
 
 def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:
-    # Relative difference of the largest values; 0 where there is none.
+    # Difference of the largest values over the larger: a rim that one run alone meets is all of it.
     one, two = (float(largest(each, quantity).values.max()) for each in (data, other))
-    return 0.0 if one == two else abs(two - one) / (abs(one) or math.inf)
+    return 0.0 if one == two else abs(two - one) / max(abs(one), abs(two))
