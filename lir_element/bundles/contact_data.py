@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.device.sliders import initial_bodies, initial_touches, point_records, slider_record
+from lir_element.device.sliders import disc_records, initial_bodies, slider_record
 from lir_element.layout import SCRATCH, Records, Words
 
 if TYPE_CHECKING:
@@ -80,19 +80,11 @@ def contact_arrays(
     row = np.full(len(bearings), -1, dtype=np.int64)
     row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
-    each = [point_records(bearing) for bearing in picked]
-    most = max((points.shape[1] for points in each), default=0)
+    each = [disc_records(bearing) for bearing in picked]
     sliders = np.concatenate([slider_record(bearing, gravity) for bearing in picked])
-    points = np.concatenate([_padded(part, most) for part in each])
-    touches = np.concatenate(
-        [
-            _padded(initial_touches(bearing, part), most)
-            for bearing, part in zip(picked, each, strict=True)
-        ]
-    )
-    for k, part in enumerate(each):  # unused points lie on a real one
-        points["arm"][k, part.shape[1] :] = points["arm"][k, 0]
-        touches["spot"][k, part.shape[1] :] = touches["spot"][k, 0]
+    sliders["grip"] = 1.0
+    points = np.concatenate([discs for discs, _ in each])
+    touches = np.concatenate([start for _, start in each])
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
@@ -115,8 +107,7 @@ def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
     """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
     contacts.bodies_old[:] = initial_bodies(len(bearings))
     for k, bearing in enumerate(bearings):
-        start = initial_touches(bearing, point_records(bearing))[0]
-        contacts.touch_old[k, : len(start)] = start
+        contacts.touch_old[k] = disc_records(bearing)[1][0]
 
 
 def detached(contacts: Contacts) -> Contacts:
@@ -130,9 +121,3 @@ def detached(contacts: Contacts) -> Contacts:
 def as_rows(records: Records) -> Words:
     """Return records (n, ...) as rows of 64-bit words (n, m), sharing their memory."""
     return records.view(np.int64).reshape(len(records), -1)
-
-
-def _padded(records: Records, count: int) -> Records:
-    out = np.zeros((1, count), dtype=records.dtype)
-    out[:, : records.shape[1]] = records
-    return out

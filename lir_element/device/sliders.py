@@ -196,6 +196,23 @@ def point_records(bearing: LIRBearing) -> Records:
     return points
 
 
+def disc_records(bearing: LIRBearing) -> tuple[Records, Records]:
+    """Return the faces of a bearing as discs, and their state undeformed: shapes (1, 3).
+
+    A disc has the friction coefficient of its surface: no correction by (7.7).
+    """
+    sliders = slider_record(bearing)
+    discs = np.zeros((1, INTERFACES), dtype=POINT)
+    discs["pair"][0] = range(INTERFACES)
+    discs["share"], discs["disc"] = 1.0, bearing.slider_radius
+    vertex, plane = sliders["vertex"][0], sliders["plane"][0]
+    discs["arm"][0, :, 2] = vertex[0], plane[1], vertex[1]
+    touches = np.zeros((1, INTERFACES), dtype=TOUCH)
+    touches["spot"][0, :, 2] = -bearing.radii[0], 0.0, bearing.radii[1]
+    touches["axes"][0, :] = np.eye(2, 3)
+    return discs, touches
+
+
 def initial_bodies(count: int) -> Records:
     """Return the state (count,) of undisplaced bodies at rest."""
     bodies = np.zeros(count, dtype=BODIES)

@@ -16,7 +16,8 @@ from scipy.spatial.transform import Rotation
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.bundles.contact_data import BodyStep, contact_arrays
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
-from lir_element.kernels.contact.pairs import locate, matrix_of, press, turn_between, turn_by
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import locate, matrix_of, turn_between, turn_by
 from lir_element.kernels.linear import solve_many
 from lir_element.layout import BODIES, SCRATCH, TOUCH
 

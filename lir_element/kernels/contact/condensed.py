@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.pairs import OWN, place_bodies, press, turn_by
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
-from lir_element.kernels.contact.start import fly_on, follow_string, place_nodes, turn_back
+from lir_element.kernels.contact.start import carry_on, fly_on, follow_string, place_nodes, turn_back
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.heating import left_by_heat, left_by_pressure
 from lir_element.kernels.linear import solve_many
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
-from lir_element.kernels.pendulum.trial import has_no_state, trial
+from lir_element.kernels.pendulum.trial import has_no_state, is_finite, trial
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -235,23 +236,29 @@ def contact_trial(
     """
     p, c, w = s.props, s.sliders, s.scratch
     b_old, b_new = s.old, s.new
-    code = trial(p, old, new, pen, u, v, time)
-    if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
-        return code
-    dt = pen.dt
+    if not (math.isfinite(time) and is_finite(u) and is_finite(v)):
+        return _NOT_FINITE
+    dt = max(time - old.time, 0.0)
+    pen.dt = dt
     set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
-    aloft = old.axial_force == 0.0 and dt > 0.0
-    for attempt in range(2):
-        if count >= 0:
-            break
-        turn_back(b_old, b_new)
-        if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
-            fly_on(b_old, b_new, dt)
-        else:
-            follow_string(p, c, b_new, w, pen)
+    if dt > 0.0 and carry_on(s, old, dt):
         count = balance_sliders(s, dt, pen.static_speed)
+    if count < 0:
+        code = trial(p, old, new, pen, u, v, time)
+        if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
+            return code
+        aloft = old.axial_force == 0.0 and dt > 0.0
+        for attempt in range(2):
+            if count >= 0:
+                break
+            turn_back(b_old, b_new)
+            if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
+                fly_on(b_old, b_new, dt)
+            else:
+                follow_string(p, c, b_new, w, pen)
+            count = balance_sliders(s, dt, pen.static_speed)
     if count < 0 and dt == 0.0:
         turn_back(b_old, b_new)
         count = balance_by_softer_friction(s, pen)

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.pairs import OWN, matrix_of, turn_between
+from lir_element.kernels.contact.places import OWN, matrix_of, turn_between
 from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:

@@ -18,14 +18,8 @@ from lir_element.kernels.contact.condensed import (
     newton_direction,
     small_forces,
 )
-from lir_element.kernels.contact.pairs import (
-    OWN,
-    matrix_of,
-    place_bodies,
-    press,
-    turn_between,
-    turn_by,
-)
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import OWN, matrix_of, place_bodies, turn_between, turn_by
 from lir_element.kernels.contact.slider_motion import momentum
 
 if TYPE_CHECKING:
