@@ -318,6 +318,7 @@ SCRATCH_FIELDS = (
     Field("spare_vector", "", "", "spare", (3,)),
     Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
+    Field("joint", "", "", "matrix of both sliders, right-hand sides", (12, 24)),
     Field("face", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("tilt", "-", "g", "slope of its penetration along them", (2,)),
     Field("bed", "m", "V, e", "its mean penetration, centre of pressure, derivatives", (3, 4)),

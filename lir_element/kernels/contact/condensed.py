@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
+from lir_element.kernels.contact.elimination import solve_all, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
 from lir_element.kernels.contact.start import carry_on, fly_on, follow_string, place_nodes, turn_back
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.heating import left_by_heat, left_by_pressure
-from lir_element.kernels.linear import solve_many
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
 from lir_element.kernels.pendulum.trial import has_no_state, is_finite, trial
 
@@ -91,39 +91,38 @@ def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
 
 @kernel
 def set_system(s: BodyStep, dt: float) -> None:
-    """Set Newton's matrix (12 x 12): minus the derivative of the residual."""
+    """Set Newton's matrix (12 x 12) in ``w.joint``: minus the derivative of the residual."""
     c, w = s.sliders, s.scratch
+    a = w.joint
     for row in range(12):
         for col in range(12):
-            w.system[row, col] = -w.k[6 + row, 6 + col]
+            a[row, col] = -w.k[6 + row, 6 + col]
     if dt == 0.0:  # sliders that nothing holds stay where they are
         for row in range(12):
-            w.system[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
+            a[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
         return
     for k in range(2):
         first = 6 * k
-        for a in range(3):
-            w.system[first + a, first + a] += c.mass[k] / (dt * dt)
+        for e in range(3):
+            a[first + e, first + e] += c.mass[k] / (dt * dt)
         add_gyration(s, dt, k, first + 3)
 
 
 @kernel
-def newton_direction(new: Bodies, w: Scratch, bodies: int) -> float:
-    """Set ``w.step`` of the first `bodies`, keep their turns; return how much of it to try first.
+def newton_direction(new: Bodies, w: Scratch) -> float:
+    """Set ``w.step`` of both sliders, keep their turns; return how much of it to try first.
 
     No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
     """
-    n = 6 * bodies
-    for row in range(n):
-        w.right[row, 0] = w.residual[row]
-    if not solve_many(w.system, w.right, n, 1):
+    for row in range(12):
+        w.joint[row, 12] = w.residual[row]
+    if not solve_one(w, w.step):
         return 0.0
     largest = 0.0
-    for row in range(n):
-        w.step[row] = w.right[row, 0]
+    for row in range(12):
         if row % 6 >= 3:
             largest = max(largest, abs(w.step[row]))
-    for k in range(bodies):
+    for k in range(2):
         for a in range(4):
             w.try_turn[k, a] = new.turn[k, a]
     return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
@@ -161,7 +160,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         if size <= small_forces(p, c, touch_new, dt):
             return count
         set_system(s, dt)
-        factor = newton_direction(new, w, 2)
+        factor = newton_direction(new, w)
         if factor == 0.0:
             return -1
         for k in range(2):
@@ -297,17 +296,20 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
     """
     c, w = s.sliders, s.scratch
     set_system(s, dt)
+    a = w.joint
     for row in range(12):
-        for col in range(12):
-            w.right[row, col] = w.k[6 + row, col if col < 6 else col + 12]
-    solve_many(w.system, w.right, 12, 12)
+        for col in range(6):
+            a[row, 12 + col] = w.k[6 + row, col]
+            a[row, 18 + col] = w.k[6 + row, 18 + col]
+    solve_all(w)
     for row in range(12):
         at = row if row < 6 else row + 12
-        for col in range(12):
-            total = w.k[at, col if col < 6 else col + 12]
-            for e in range(12):
-                total += w.k[at, 6 + e] * w.right[e, col]  # (7.6)
-            k[row, col] = -total
+        for col in range(6):
+            k[row, col], k[row, 6 + col] = -w.k[at, col], -w.k[at, 18 + col]
+        for e in range(12):
+            factor = w.k[at, 6 + e]
+            for col in range(12):
+                k[row, col] -= factor * a[e, 12 + col]  # (7.6)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:

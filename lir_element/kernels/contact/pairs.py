@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.contact.discs import press_disc
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.contact.places import (
@@ -127,6 +127,22 @@ def add_slope(w: Scratch, body: int, carrier: int) -> None:
     add_cross(k, r + 3, r, f[0], f[1], f[2], -1.0)
 
 
+@inlined
+def clear_parts(parts: Floats) -> None:
+    """Set the forces of all origins to zero."""
+    for part in range(ORIGINS):
+        for row in range(24):
+            parts[part, row] = 0.0
+
+
+@inlined
+def clear_square(k: Floats) -> None:
+    """Set the derivative of all forces to zero."""
+    for row in range(24):
+        for col in range(24):
+            k[row, col] = 0.0
+
+
 @kernel
 def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive: bool) -> None:
     """Set the forces ``w.g`` on all bodies at ``w.x``, ``w.q``, and the new state of contacts.
@@ -138,13 +154,9 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
     points, old, new = s.points, s.old, s.new
     new.step = dt
     w.share, w.step_before = step_share(dt, old.step), old.step
-    for row in range(24):
-        w.g[row] = 0.0
-        for part in range(ORIGINS):
-            new.parts[part, row] = 0.0
-        if derive:
-            for col in range(24):
-                w.k[row, col] = 0.0
+    clear_parts(new.parts)
+    if derive:
+        clear_square(w.k)
     for j in range(points.shape[0]):
         if points[j].disc > 0.0:
             press_disc(s, j, dt, speed_bottom, speed_top, derive)
@@ -205,6 +217,9 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
         add_pair(w, new.parts, body, carrier, RIM_BOTTOM + side, RIM_BOTTOM + side)
         if derive:
             add_slope(w, body, carrier)
-    for part in range(ORIGINS):
+    total, parts = w.g, new.parts
+    for row in range(24):
+        total[row] = parts[0, row]
+    for part in range(1, ORIGINS):
         for row in range(24):
-            w.g[row] += new.parts[part, row]
+            total[row] += parts[part, row]

@@ -77,7 +77,7 @@ def add_gyration(s: BodyStep, dt: float, k: int, first: int) -> None:
     h = w.spare_vector
     h[0], h[1], h[2] = 0.0, 0.0, 0.0
     momentum(inertia, q, spin, h, 0, 1.0)
-    m = w.system
+    m = w.joint
     for a in range(3):
         for b in range(3):
             total = 0.0
