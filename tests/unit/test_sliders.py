@@ -204,15 +204,13 @@ def test_points_lie_on_the_surfaces(count: int) -> None:
 
 
 def test_bundle_of_several_bearings() -> None:
-    """Chosen ones in order, padded with points that have no share; words share the memory."""
-    few, many, other = bearing(contact_points=4), bearing(contact_points=12), bearing()
-    bundle = contact_arrays([few, other, many], [True, False, True], 9.81)
+    """Chosen ones in order, three discs each; words share the memory."""
+    one, two, other = bearing(slider_radius=0.05), bearing(slider_radius=0.06), bearing()
+    bundle = contact_arrays([one, other, two], [True, False, True], 9.81)
     assert bundle.row.tolist() == [0, -1, 1]
-    assert bundle.points.shape == (2, 36)
-    assert_allclose(bundle.points["share"][0, 12:], 0.0, rtol=0.0, atol=0.0)
-    assert_allclose(bundle.points["share"].sum(axis=1), [3.0, 3.0], rtol=1e-14, atol=0.0)
-    assert (bundle.points["arm"][0, 12:] == bundle.points["arm"][0, 0]).all()
-    assert (bundle.touch_old["spot"][0, 12:] == bundle.touch_old["spot"][0, 0]).all()
+    assert bundle.points["disc"].tolist() == [[0.05] * 3, [0.06] * 3]
+    assert (bundle.points["share"] == 1.0).all()
+    assert (bundle.sliders["grip"] == 1.0).all()
     assert (bundle.sliders["gravity"] == 9.81).all()
     bundle.bodies_old["displacement"][1, 0, 2] = 0.125
     assert (as_rows(bundle.bodies_old) == bundle.bodies_old_words).all()
