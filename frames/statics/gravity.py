@@ -23,6 +23,7 @@ from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
+from frames.kernel_data import BY_POINTS
 from frames.statics.accelerations import accelerating, has_light_nodes
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium
@@ -208,7 +209,7 @@ def prepare(
         warnings.warn(doubt, ModelWarning, stacklevel=3)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
-    points = [name for name, own in levels.items() if own == "contact"]
+    points = [name for name, own in levels.items() if own != "pendulum"]
     system = assemble(frame, features, points)
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
@@ -305,7 +306,8 @@ def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[st
         msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
         raise ValueError(msg)
     for value in given.values():
-        require_choice("level of a bearing", value, LEVELS)
+        if value != BY_POINTS:
+            require_choice("level of a bearing", value, LEVELS)
     return {name: given.get(name, "pendulum") for name in names}
 
 

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.device.sliders import disc_records, initial_bodies, slider_record
+from lir_element.device.sliders import (
+    disc_records,
+    initial_bodies,
+    initial_touches,
+    point_records,
+    slider_record,
+)
 from lir_element.layout import SCRATCH, Records, Words
 
 if TYPE_CHECKING:
@@ -59,7 +65,11 @@ class BodyStep(NamedTuple):
 
 
 def contact_arrays(
-    bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
+    bearings: Sequence[LIRBearing],
+    chosen: Sequence[bool],
+    gravity: float,
+    *,
+    by_points: bool = False,
 ) -> Contacts:
     """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded.
 
@@ -71,6 +81,9 @@ def contact_arrays(
         Which of them have contact points.
     gravity : float
         Acceleration that gives the sliders their weight [m/s2].
+    by_points : bool
+        Whether the sliders' faces are contact points, as at the level 'rigid_body', instead of
+        discs; all chosen bearings must have the same number.
 
     Returns
     -------
@@ -80,17 +93,22 @@ def contact_arrays(
     row = np.full(len(bearings), -1, dtype=np.int64)
     row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
-    each = [disc_records(bearing) for bearing in picked]
     sliders = np.concatenate([slider_record(bearing, gravity) for bearing in picked])
-    sliders["grip"] = 1.0
-    points = np.concatenate([discs for discs, _ in each])
+    if by_points:
+        points = [point_records(bearing) for bearing in picked]
+        starts = map(initial_touches, picked, points)
+        each = list(zip(points, starts, strict=True))
+    else:
+        each = [disc_records(bearing) for bearing in picked]
+        sliders["grip"] = 1.0
+    faces = np.concatenate([face for face, _ in each])
     touches = np.concatenate([start for _, start in each])
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
         row=row,
         sliders=sliders,
-        points=points,
+        points=faces,
         bodies_old=bodies,
         bodies_new=others,
         touch_old=touches,

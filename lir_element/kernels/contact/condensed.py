@@ -109,10 +109,11 @@ def set_system(s: BodyStep, dt: float) -> None:
 
 
 @kernel
-def newton_direction(new: Bodies, w: Scratch) -> float:
+def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
     """Set ``w.step`` of both sliders, keep their turns; return how much of it to try first.
 
-    No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
+    No body turns by more than `LARGEST_TURN`, or moves by more than that times the slider's radius.
+    Zero where the matrix is singular.
     """
     for row in range(12):
         w.joint[row, 12] = w.residual[row]
@@ -120,8 +121,8 @@ def newton_direction(new: Bodies, w: Scratch) -> float:
         return 0.0
     largest = 0.0
     for row in range(12):
-        if row % 6 >= 3:
-            largest = max(largest, abs(w.step[row]))
+        size = abs(w.step[row])
+        largest = max(largest, size if row % 6 >= 3 else size / c.radius)
     for k in range(2):
         for a in range(4):
             w.try_turn[k, a] = new.turn[k, a]
@@ -160,7 +161,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         if size <= small_forces(p, c, touch_new, dt):
             return count
         set_system(s, dt)
-        factor = newton_direction(new, w)
+        factor = newton_direction(c, new, w)
         if factor == 0.0:
             return -1
         for k in range(2):
@@ -242,7 +243,7 @@ def contact_trial(
     set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
-    if dt > 0.0 and carry_on(s, old, dt):
+    if dt > 0.0 and s.points[0].disc > 0.0 and carry_on(s, old, dt):
         count = balance_sliders(s, dt, pen.static_speed)
     if count < 0:
         code = trial(p, old, new, pen, u, v, time)

@@ -89,7 +89,7 @@ def rubbing(x: float, y: float, s: float) -> tuple[float, float, float, float, f
     v, t = x * x + y * y, s * s
     low = v + _C * t
     if low < 1e-60:
-        return 0.0, 1.0, 0.25, 0.0, 0.0, 0.0
+        return 0.0, 1.0, _B / _C, 0.0, 0.0, 0.0  # of sliding alone, of spinning alone
     inv = 1.0 / low
     q = (v * v + _A * v * t + _B * t * t) * inv
     q_v = (2.0 * v + _A * t - q) * inv
