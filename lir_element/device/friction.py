@@ -7,7 +7,7 @@ import inspect
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from math import exp
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from lir_element.layout import Floats, Records
+
+_SAME = 1e-6  # of the coefficient, within which a law's own limits must be those of `at_speed`
 
 _KNOWN: dict[str, dict[tuple[str, str], type[FrictionLaw]]] = {}
 """Laws by the name of their class, then by where it was written."""
@@ -53,7 +55,8 @@ class FrictionLaw(abc.ABC):
         If a law is no frozen dataclass, or a field cannot be hashed.
     ValueError
         If the coefficient is not finite, outside of 0 to 1, falls with speed, has no limit at high
-        speed, or its table is off by more than 0.1 % of `f_max`.
+        speed, or its table is off by more than 0.1 % of `f_max`; if a field `f_max` or `f_min` is
+        not what `at_speed` gives at high speed or at rest.
 
     Notes
     -----
@@ -80,6 +83,12 @@ class FrictionLaw(abc.ABC):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
+        closed = [base.__name__ for base in cls.__bases__ if getattr(base, "__final__", False)]
+        if closed:
+            msg = (
+                f"{cls.__name__}: kernels know {closed[0]} by its formula: derive from FrictionLaw"
+            )
+            raise TypeError(msg)
         _KNOWN.setdefault(cls.__name__, {})[cls.__module__, cls.__qualname__] = cls
 
     def __post_init__(self) -> None:
@@ -139,7 +148,18 @@ class FrictionLaw(abc.ABC):
         except TypeError as cause:
             msg = f"{name}: {cause}; give its fields numbers, texts or tuples"
             raise TypeError(msg) from cause
-        return _sampled(self)
+        values = _sampled(self)
+        for limit, speed, found in (
+            ("f_max", "high speed", values.most),
+            ("f_min", "rest", values.most - values.drop),
+        ):
+            if abs(getattr(self, limit) - found) > _SAME * values.most:
+                msg = (
+                    f"{name}: {limit} = {getattr(self, limit):g}, but at {speed} the law gives "
+                    f"{found:g}: rename that field, or correct at_speed"
+                )
+                raise ValueError(msg)
+        return values
 
 
 @lru_cache(maxsize=64)
@@ -147,6 +167,7 @@ def _sampled(law: FrictionLaw) -> FrictionValues:
     return sampled(type(law).__name__, law.at_speed)
 
 
+@final
 @dataclass(frozen=True, slots=True)
 class CoulombFriction(FrictionLaw):
     """A friction coefficient that does not depend on speed.
@@ -197,6 +218,7 @@ class CoulombFriction(FrictionLaw):
         return FrictionValues(self.f_max, 0.0, 0.0)
 
 
+@final
 @dataclass(frozen=True, slots=True)
 class VelocityFriction(FrictionLaw):
     r"""A friction coefficient that grows with the sliding speed.

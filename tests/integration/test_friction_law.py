@@ -335,6 +335,25 @@ def test_a_law_that_kernels_cannot_take_is_refused(law: Any, words: str) -> None
         AnyFriction(law)
 
 
+@dataclass(frozen=True)
+class UnlikeFriction(FrictionLaw):
+    """A law whose own limits are not those that it gives."""
+
+    f_max: float
+    f_min: float
+
+    def at_speed(self, speed: float) -> float:
+        return 0.06 - 0.03 / (1.0 + 20.0 * speed)
+
+
+def test_limits_that_a_law_names_must_be_its_own() -> None:
+    assert UnlikeFriction(0.06, 0.03).kernel_values().error < 1e-9
+    with pytest.raises(ValueError, match=r"f_max = 0.05, but at high speed the law gives 0.06: re"):
+        UnlikeFriction(0.05, 0.03)
+    with pytest.raises(ValueError, match=r"f_min = 0.02, but at rest the law gives 0.03"):
+        UnlikeFriction(0.06, 0.02)
+
+
 def test_straight_lines_between_points_are_taken_and_their_error_told() -> None:
     points = [0.0, 0.01, 0.05, 0.1, 0.3, 0.6], [0.03, 0.04, 0.05, 0.055, 0.059, 0.06]
     values = AnyFriction(lambda v: float(np.interp(v, *points))).kernel_values()
@@ -358,6 +377,11 @@ def test_what_is_no_frozen_dataclass_is_refused() -> None:
 
     with pytest.raises(TypeError, match="Listed: unhashable type: 'list'; give its fields"):
         Listed([0.05])
+    with pytest.raises(TypeError, match="know VelocityFriction by its formula: derive from Frict"):
+
+        class Faster(VelocityFriction):  # type: ignore[misc]
+            pass
+
     with pytest.raises(TypeError, match="abstract"):
         FrictionLaw()  # type: ignore[abstract]
 
