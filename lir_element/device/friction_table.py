@@ -6,7 +6,6 @@ from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from lir_element.layout import FRICTION_TABLE
 
@@ -14,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
+    from scipy.interpolate import CubicHermiteSpline
 
     from lir_element.layout import Floats
 
@@ -221,6 +221,8 @@ def _limited(slopes: Floats, secants: Floats) -> Floats:
 
 
 def _curve(shares: Floats, slopes: Floats) -> CubicHermiteSpline:
+    from scipy.interpolate import CubicHermiteSpline  # half a second, which few runs need
+
     return CubicHermiteSpline(np.linspace(0.0, 1.0, len(shares)), shares, slopes)
 
 
