@@ -11,6 +11,7 @@ of the energy is said here; a name that is missing or left over stops the build.
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,6 +41,7 @@ from lir_element import (
     AnalysisWarning,
     CoulombFriction,
     FrictionHeating,
+    FrictionLaw,
     LIRBearing,
     PressureDependence,
     RunStatus,
@@ -140,6 +142,15 @@ TERMS = {
 }
 
 
+@dataclass(frozen=True)
+class Rising(FrictionLaw):
+    """A law that kernels read from a table, for the variable that holds it."""
+
+    def at_speed(self, speed: float) -> float:
+        """Return the friction coefficient [-] at a speed [m/s]."""
+        return 0.05 - 0.01 / (1.0 + speed)
+
+
 def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
     """Return a model with its time history, a cyclic test, and a cyclic test that fails."""
     # attributes of the history are also those of runs whose bearings pass a limit
@@ -148,7 +159,7 @@ def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
         slider_height=0.1,
         slider_radius=0.1,
         capacity=0.1,
-        friction=CoulombFriction(0.05),
+        friction=(CoulombFriction(0.05), Rising()),
         interface_friction=0.12,
         pressure_dependence=PressureDependence(),
         friction_heating=FrictionHeating(),

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import issparse
 
+from lir_element.device.friction import FrictionLaw
+
 if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
@@ -62,9 +64,17 @@ def _pieces(value: Any) -> Iterator[bytes]:
         yield repr(value).encode()
     elif is_dataclass(value):
         yield from _pieces({field.name: getattr(value, field.name) for field in fields(value)})
+        yield from _table(value)
     else:
         yield from _pieces(vars(value))
     yield b"</>"
+
+
+def _table(value: object) -> Iterator[bytes]:
+    # Of a friction law from a table: what its class says its fields do not tell.
+    values = value.kernel_values() if isinstance(value, FrictionLaw) else None
+    if values and values.table:
+        yield from _pieces(values)
 
 
 def motion_digest(motion: GroundMotion) -> str:

@@ -17,7 +17,7 @@ from frames.library.models import lumped_mass, shear_building
 from frames.model.laws import Tie
 from frames.motion.ground_motion import GroundMotion
 from frames.solve.time_history import time_history
-from lir_element import CoulombFriction, Element, LIRBearing, cyclic_test
+from lir_element import Element, LIRBearing, VelocityFriction, cyclic_test
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,7 @@ _BEARING = LIRBearing(
     slider_height=0.1,
     slider_radius=0.1,
     capacity=0.2,
-    friction=CoulombFriction(0.05),
+    friction=VelocityFriction(f_max=0.05, f_min=0.03, rate=20.0),
     interface_friction=0.12,
 )
 _MASS = 1e5  # kg

@@ -4,6 +4,7 @@ from lir_element.device.bearing import LIRBearing as LIRBearing
 from lir_element.device.bearing_checks import DesignWarning as DesignWarning
 from lir_element.device.features import Features as Features
 from lir_element.device.friction import CoulombFriction as CoulombFriction
+from lir_element.device.friction import FrictionLaw as FrictionLaw
 from lir_element.device.friction import VelocityFriction as VelocityFriction
 from lir_element.device.heating import FrictionHeating as FrictionHeating
 from lir_element.device.heating import PressureDependence as PressureDependence
@@ -23,6 +24,7 @@ __all__ = [
     "Element",
     "Features",
     "FrictionHeating",
+    "FrictionLaw",
     "LIRBearing",
     "PressureDependence",
     "RunStatus",

@@ -10,6 +10,7 @@ from lir_element.argument_checks import require_choice
 from lir_element.bundles.contact_data import as_rows, contact_arrays, detached, reset
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.features import Features, apply
+from lir_element.device.friction import least_coefficients
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
 from lir_element.kernels.pendulum.trial import has_no_state, last_slip
@@ -37,7 +38,7 @@ def initial_state(props: Records) -> Records:
     string = props["length"] + props["fixed_load"] / props["axial_stiffness"]
     state["string"] = string
     state["centres"][:, 2] = -string
-    state["friction_coefficient"] = props["friction_max"] - props["friction_drop"]
+    state["friction_coefficient"] = least_coefficients(props)
     state["temperature"] = props["initial_temperature"][:, None]
     return state
 

@@ -28,6 +28,10 @@ class Field(NamedTuple):
 HEAT_PARTS = 14
 """Parts that decay at rates of their own, whose sum is the temperature of a contact."""
 
+FRICTION_TABLE = 259
+"""Entries of a surface's friction over speed: a reference speed, then share and slope at each knot
+(129 of them)."""
+
 PROPS_FIELDS = (
     Field("radius", "m", "R", "radius of the concave surface: bottom, top", (2,)),
     Field("lever", "m", "a", "distance from the node to the sphere's centre: bottom, top", (2,)),
@@ -35,6 +39,13 @@ PROPS_FIELDS = (
     Field("friction_max", "-", "f_max", "friction coefficient at high speed: bottom, top", (2,)),
     Field("friction_drop", "-", "f_max - f_min", "its drop at low speed: bottom, top", (2,)),
     Field("friction_rate", "s/m", "alpha", "rate parameter of Eq. (1): bottom, top", (2,)),
+    Field(
+        "friction_table",
+        "m/s, -",
+        "",
+        "of another law: v_ref, then share of the drop left and slope at knots; zeros: Eq. (1)",
+        (2, FRICTION_TABLE),
+    ),
     Field("pressure_rate", "1/N", "", "share of friction lost per axial force; 0: none"),
     Field("softens", "-", "", "1 where friction follows the temperature", (), "i8"),
     Field("heats", "-", "", "1 where temperatures are computed", (), "i8"),

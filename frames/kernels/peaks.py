@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined, kernel
 from frames.kernel_data import ENERGY_TERMS
 from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
+from lir_element.kernels.friction_law import lowered
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -133,7 +134,7 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
         speed = state.sliding_speed[surface]
         reached.total[0] += load * p.friction_max[surface] * speed
         if p.friction_drop[surface] != 0.0:
-            lower = p.friction_drop[surface] * math.exp(-p.friction_rate[surface] * speed)
+            lower, _ = lowered(p, surface, speed)
             reached.total[1] += load * lower * speed
     lifted = state.axial_force <= 0.0
     if lifted and reached.lifted[k, 1] == 0.0:

@@ -25,6 +25,8 @@ from frames.results.measures import (
     uplift_gap,
 )
 from frames.results.recorded import REACHED, largest_kept
+from lir_element.kernels.friction_law import fill_left
+from lir_element.layout import FRICTION_TABLE
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -455,9 +457,19 @@ def _work(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 def _work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
     speed, load = _slid(data, first, last)
-    drop = data.variables["friction_drop"].to_numpy()
-    lower = drop * np.exp(-data.variables["friction_rate"].to_numpy() * speed)
-    return np.asarray((load * lower * speed).sum())
+    drop, rate = (data.variables[f"friction_{name}"].to_numpy() for name in ("drop", "rate"))
+    tables = np.zeros((*drop.shape, FRICTION_TABLE))
+    if "friction_table" in data:
+        tables = data.variables["friction_table"].transpose("bearing", "surface", ...).to_numpy()
+    lower = np.zeros((len(speed), drop.size))
+    fill_left(
+        drop.ravel(),
+        rate.ravel(),
+        np.ascontiguousarray(tables).reshape(drop.size, -1),
+        np.ascontiguousarray(speed).reshape(lower.shape),
+        lower,
+    )
+    return np.asarray((load * lower.reshape(speed.shape) * speed).sum())
 
 
 def _work_pressed(data: xr.Dataset, first: int, last: int) -> FloatArray:

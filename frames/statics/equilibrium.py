@@ -11,6 +11,7 @@ from frames.assembly.supports import load_path
 from frames.kernel_data import IntegrationState, ReducedModel, contacts_of, model_arrays, run_arrays
 from frames.kernels.stepping import solve_gravity
 from frames.statics.springs import spring_forces
+from lir_element.device.friction import least_coefficients
 from lir_element.element import limit_detail
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.interruptible import ready
@@ -163,7 +164,7 @@ def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> 
     # Elastic sliding before slip with which each contact is 1 / softness times as stiff as the
     # pendulum: mu N / u = N / (softness L), (5.4). The same for all, for where the interface is
     # softer than the pendulum no slider finds its place.
-    low = np.asarray(props["friction_max"] - props["friction_drop"])
+    low = least_coefficients(props)
     slid = softness * props["length"][:, None] * low
     held = np.where(props["fused"] == 0, props["interface_friction"], 0.0)
     twisting = props["torsion_lever"] > 0.0

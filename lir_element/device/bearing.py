@@ -13,7 +13,7 @@ from lir_element.device.bearing_checks import check_bearing
 from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
-from lir_element.layout import PROPS, PROPS_FIELDS, Records
+from lir_element.layout import FRICTION_TABLE, PROPS, PROPS_FIELDS, Records
 from lir_element.tables import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
@@ -46,8 +46,9 @@ class LIRBearing(Specification):
         Height of the whole inner slider on its axis, h [m].
     slider_radius : float
         Radius of the inner slider in plan [m].
-    friction : CoulombFriction, VelocityFriction or float, or a pair of them
-        Low friction of the surfaces, bottom and top; a number is CoulombFriction(number) [-].
+    friction : FrictionLaw or float, or a pair of them
+        Low friction of the surfaces, bottom and top: CoulombFriction, VelocityFriction, or a law of
+        your own; a number is CoulombFriction(number) [-].
     interface_friction : float
         Friction coefficient mu_h of the plane interface [-]; ``math.inf`` fuses the two sliders
         (a plain DCFP).
@@ -227,15 +228,17 @@ class LIRBearing(Specification):
     @cached_property
     def _record(self) -> Records:
         record = np.full(1, np.nan, dtype=[(f.name, "f8", f.shape) for f in PROPS_FIELDS])
-        radii, laws, options = self.radii, self.frictions, self.resolved()
+        radii, options = self.radii, self.resolved()
+        laws = [law.kernel_values() for law in self.frictions]
         thickness = as_pair("plate_thickness", self.plate_thickness)
         values: dict[str, object] = {
             "radius": radii,
             "lever": (radii[0] + thickness[0], radii[1] + thickness[1]),
             "length": self.effective_radius,
-            "friction_max": [law.f_max for law in laws],
-            "friction_drop": [law.f_max - law.f_min for law in laws],
+            "friction_max": [law.most for law in laws],
+            "friction_drop": [law.drop for law in laws],
             "friction_rate": [law.rate for law in laws],
+            "friction_table": [law.table or np.zeros(FRICTION_TABLE) for law in laws],
             "interface_friction": self.interface_friction,
             "fused": self.is_dcfp,
             "bouc_wen": self.friction_law == "bouc-wen",

@@ -16,7 +16,7 @@ from lir_element.argument_checks import (
     require_positive,
     require_type,
 )
-from lir_element.device.friction import Friction
+from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.device.sanity_checks import refuse_forces, refuse_sizes, sanity_warnings
 from lir_element.units import LENGTHS, meant, per_cent
@@ -171,12 +171,14 @@ def _check_geometry(bearing: Specification) -> None:
 def _check_friction(bearing: Specification) -> None:
     pair: tuple[object, object] = as_pair("friction", bearing.friction)
     for law in pair:
-        if not isinstance(law, Friction):
+        if not isinstance(law, FrictionLaw):
             msg = (
                 f"friction = {law!r}: give a number as 0.05, CoulombFriction(mu) or "
-                "VelocityFriction(f_max, f_min, rate), or a pair (bottom, top) of them"
+                "VelocityFriction(f_max, f_min, rate), a FrictionLaw of your own, or a pair "
+                "(bottom, top) of them"
             )
             raise TypeError(msg)
+        law.kernel_values()  # which refuses what kernels cannot take
     mu_h = require_positive("interface_friction", bearing.interface_friction, "-", infinite=True)
     if 1.0 <= mu_h < math.inf:
         msg = (

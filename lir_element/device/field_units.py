@@ -28,7 +28,6 @@ FIELD_UNITS: dict[str, dict[str, str]] = {
         "slider_mass": "kg",
         "slider_inertia": "kg m2",
     },
-    "VelocityFriction": {"rate": "s/m"},
     "PressureDependence": {"reference_pressure": "Pa", "rate": "1/Pa"},
     "FrictionHeating": {
         "conductivity": "W/(m K)",
@@ -38,4 +37,5 @@ FIELD_UNITS: dict[str, dict[str, str]] = {
         "thickness": "m",
     },
 }
-"""By class and field; fields that are not here are numbers without a unit, or no numbers."""
+"""By class and field; fields that are not here are numbers without a unit, or no numbers. Friction
+laws name the units of their fields themselves (`unit_of`)."""

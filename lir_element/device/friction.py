@@ -1,18 +1,175 @@
-"""Friction of a concave surface, as an engineer specifies it."""
+"""Friction of a concave surface, as an engineer specifies it: the laws, and what a law is."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import abc
+import inspect
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import lru_cache
 from math import exp
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
 from lir_element.argument_checks import require_between, require_non_negative
+from lir_element.device.friction_table import FASTEST, FrictionValues, sampled
 from lir_element.units import per_cent
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
+    from lir_element.layout import Floats, Records
+
+_SAME = 1e-6  # of the coefficient, within which a law's own limits must be those of `at_speed`
+
+_KNOWN: dict[str, dict[tuple[str, str], type[FrictionLaw]]] = {}
+"""Laws by the name of their class, then by where it was written."""
+
+
+class _OfSpeed:
+    """A coefficient that a law has of `at_speed`, unless a field of that name gives it.
+
+    Where a class is asked it hides: a dataclass would take it for the default of such a field.
+    """
+
+    def __init__(self, of: Callable[[Any], float]) -> None:
+        self._of, self.__doc__ = of, of.__doc__
+
+    def __get__(self, law: object | None, owner: type | None = None) -> float:
+        if law is None:
+            raise AttributeError(self.__doc__)
+        return self._of(law)
+
+
+class FrictionLaw(abc.ABC):
+    """A friction coefficient over the sliding speed: what every law of a concave surface has.
+
+    A law of your own is a frozen dataclass that derives from this class and gives `at_speed`
+    (docs/extending.md). Kernels then read it from a table, cubic between 129 knots, which is made
+    where the law is made and compared with it. Its fields are the parameters of campaigns and the
+    keys of a project's file; ``field(metadata={"unit": "s/m"})`` names the unit of one, SI.
+
+    Raises
+    ------
+    TypeError
+        If a law is no frozen dataclass, or a field cannot be hashed.
+    ValueError
+        If the coefficient is not finite, outside of 0 to 1, falls with speed, has no limit at high
+        speed, or its table is off by more than 0.1 % of `f_max`; if a field `f_max` or `f_min` is
+        not what `at_speed` gives at high speed or at rest.
+
+    Notes
+    -----
+    A law with a ``__post_init__`` of its own ends it with ``FrictionLaw.__post_init__(self)``.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class HyperbolicFriction(FrictionLaw):
+    ...     f_max: float
+    ...     f_min: float
+    ...     half_speed: float
+    ...
+    ...     def at_speed(self, speed):
+    ...         share = speed / (speed + self.half_speed)
+    ...         return self.f_min + (self.f_max - self.f_min) * share
+    >>> law = HyperbolicFriction(0.06, 0.03, 0.02)
+    >>> round(law.at_speed(0.02), 4), round(law.scaled(1.2).f_max, 4)
+    (0.045, 0.072)
+    """
+
+    __slots__ = ()
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        closed = [base.__name__ for base in cls.__bases__ if getattr(base, "__final__", False)]
+        if closed:
+            msg = (
+                f"{cls.__name__}: kernels know {closed[0]} by its formula: derive from FrictionLaw"
+            )
+            raise TypeError(msg)
+        _KNOWN.setdefault(cls.__name__, {})[cls.__module__, cls.__qualname__] = cls
+
+    def __post_init__(self) -> None:
+        self.kernel_values()
+
+    if TYPE_CHECKING:
+
+        @property
+        def f_min(self) -> float:
+            """Friction coefficient at rest [-], the least."""
+
+        @property
+        def f_max(self) -> float:
+            """Friction coefficient at high speed [-], the largest."""
+    else:
+
+        @_OfSpeed
+        def f_min(self) -> float:
+            """Friction coefficient at rest [-], the least."""
+            return float(self.at_speed(0.0))
+
+        @_OfSpeed
+        def f_max(self) -> float:
+            """Friction coefficient at high speed [-], the largest."""
+            return float(self.at_speed(FASTEST))
+
+    @abc.abstractmethod
+    def at_speed(self, speed: float) -> float:
+        """Return the friction coefficient [-] at sliding speed `speed` [m/s], at least 0."""
+
+    def scaled(self, factor: float) -> FrictionLaw:
+        """Return the law with its coefficients times a factor [-], as at a bound of properties."""
+        return _Scaled(self, float(factor))
+
+    def kernel_values(self) -> FrictionValues:
+        """Return what kernels know of the law: its limits, and the table that they read.
+
+        Returns
+        -------
+        FrictionValues
+            Friction at high speed, its drop at rest [-], rate [s/m], table, error of the table [-].
+
+        Raises
+        ------
+        TypeError
+            If the law is no frozen dataclass, or a field cannot be hashed.
+        ValueError
+            As the class does.
+        """
+        name = type(self).__name__
+        parameters: Any = getattr(self, "__dataclass_params__", None)
+        if parameters is None or not parameters.frozen:
+            msg = f"{name} is no frozen dataclass: write @dataclass(frozen=True) above its class"
+            raise TypeError(msg)
+        try:
+            hash(self)
+        except TypeError as cause:
+            msg = f"{name}: {cause}; give its fields numbers, texts or tuples"
+            raise TypeError(msg) from cause
+        values = _sampled(self)
+        for limit, speed, found in (
+            ("f_max", "high speed", values.most),
+            ("f_min", "rest", values.most - values.drop),
+        ):
+            if abs(getattr(self, limit) - found) > _SAME * values.most:
+                msg = (
+                    f"{name}: {limit} = {getattr(self, limit):g}, but at {speed} the law gives "
+                    f"{found:g}: rename that field, or correct at_speed"
+                )
+                raise ValueError(msg)
+        return values
+
+
+@lru_cache(maxsize=64)
+def _sampled(law: FrictionLaw) -> FrictionValues:
+    return sampled(type(law).__name__, law.at_speed)
+
+
+@final
 @dataclass(frozen=True, slots=True)
-class CoulombFriction:
+class CoulombFriction(FrictionLaw):
     """A friction coefficient that does not depend on speed.
 
     Parameters
@@ -56,9 +213,14 @@ class CoulombFriction:
         """Return the law with its coefficient times a factor [-], as at a bound of properties."""
         return CoulombFriction(factor * self.coefficient)
 
+    def kernel_values(self) -> FrictionValues:
+        """Return what kernels know of the law: one coefficient, no table."""
+        return FrictionValues(self.f_max, 0.0, 0.0)
 
+
+@final
 @dataclass(frozen=True, slots=True)
-class VelocityFriction:
+class VelocityFriction(FrictionLaw):
     r"""A friction coefficient that grows with the sliding speed.
 
     .. math:: \mu_d = f_{max} - (f_{max} - f_{min}) e^{-\alpha |v|}
@@ -82,7 +244,7 @@ class VelocityFriction:
 
     f_max: float
     f_min: float
-    rate: float
+    rate: float = field(metadata={"unit": "s/m"})
 
     def __post_init__(self) -> None:
         require_between("f_max", self.f_max, 0.0, 1.0, "-", remedy=per_cent(self.f_max))
@@ -103,9 +265,96 @@ class VelocityFriction:
         """Return the law with its coefficients times a factor [-], as at a bound of properties."""
         return VelocityFriction(factor * self.f_max, factor * self.f_min, self.rate)
 
+    def kernel_values(self) -> FrictionValues:
+        """Return what kernels know of the law: the constants of Eq. (1), no table."""
+        return FrictionValues(self.f_max, self.f_max - self.f_min, self.rate)
 
-Friction = CoulombFriction | VelocityFriction
-"""All laws; what they share is what a bearing asks of them: f_max, f_min, rate, scaled."""
+
+@dataclass(frozen=True, repr=False)
+class _Scaled(FrictionLaw):
+    """Another law times a factor [-]."""
+
+    law: FrictionLaw
+    factor: float
+
+    def __post_init__(self) -> None:
+        require_between("f_max", self.f_max, 0.0, 1.0, "-", remedy="a smaller factor")
+
+    def __repr__(self) -> str:
+        return f"{self.factor:g} * {self.law!r}"
+
+    def at_speed(self, speed: float) -> float:
+        return self.factor * self.law.at_speed(speed)
+
+    def scaled(self, factor: float) -> FrictionLaw:
+        return _Scaled(self.law, factor * self.factor)
+
+    def kernel_values(self) -> FrictionValues:
+        return self.law.kernel_values().times(self.factor)
+
+
+@dataclass(frozen=True)
+class _Tabulated(FrictionLaw):
+    """A law known by its table alone, as another process has it where its class is unknown."""
+
+    values: FrictionValues
+
+    def at_speed(self, speed: float) -> float:
+        most, drop, *_ = self.values
+        return most - drop * float(self.values.left(speed)) if self.values.table else most
+
+    def kernel_values(self) -> FrictionValues:
+        return self.values
+
+
+def without_class(law: FrictionLaw) -> FrictionLaw:
+    """Return a law that any process of this package can read: its table, if it is another's.
+
+    Parameters
+    ----------
+    law : FrictionLaw
+        The law.
+
+    Returns
+    -------
+    FrictionLaw
+        With the same values for kernels.
+    """
+    own = isinstance(law, (CoulombFriction, VelocityFriction))
+    return law if own else _Tabulated(law.kernel_values())
+
+
+def known_laws() -> tuple[type[FrictionLaw], ...]:
+    """Return the classes of all laws, those of this module first.
+
+    Returns
+    -------
+    tuple of type
+        Dataclasses that give `at_speed`, whose name has no underscore before it. Two may have one
+        name, of different modules.
+    """
+    public = [places for name, places in _KNOWN.items() if not name.startswith("_")]
+    return tuple(law for places in public for law in places.values() if _is_complete(law))
+
+
+def _is_complete(law: type) -> bool:
+    return is_dataclass(law) and not inspect.isabstract(law)
+
+
+def unit_of(law: type[FrictionLaw], name: str) -> str:
+    """Return the unit of a field of a law, SI; "" of a pure number."""
+    return next((str(f.metadata.get("unit", "")) for f in fields(law) if f.name == name), "")  # type: ignore[arg-type]
+
+
+def least_coefficients(props: Records) -> Floats:
+    """Return the friction coefficients at rest of bearings with properties `props` (n,).
+
+    Returns
+    -------
+    ndarray, (n, 2)
+        Of the bottom and the top surface [-].
+    """
+    return np.asarray(props["friction_max"] - props["friction_drop"])
 
 
 def as_laws(given: object) -> object:

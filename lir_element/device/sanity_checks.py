@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element.argument_checks import as_pair
+from lir_element.device.friction import VelocityFriction
 from lir_element.units import (
     DENSITIES,
     FORCES,
@@ -23,6 +24,7 @@ from lir_element.units import (
 )
 
 if TYPE_CHECKING:
+    from lir_element.device.friction import FrictionLaw
     from lir_element.device.specification import Specification
 
 LARGEST_SLIDER = 3.0
@@ -227,12 +229,18 @@ def _of_friction(bearing: Specification) -> list[str]:
                 f"friction of {law.f_max:g} is far above that of sliding materials, 0.01 to 0.2: "
                 "give a pure number, 0.06 for six per cent"
             )
-        if law.f_max > law.f_min and SLOWEST_RATES[0] < law.rate < SLOWEST_RATES[1]:
+        rate = law.kernel_values().rate
+        if law.f_max > law.f_min and SLOWEST_RATES[0] < rate < SLOWEST_RATES[1]:
             found.append(
-                f"rate = {law.rate:g} s/m leaves friction at f_min = {law.f_min:g} at all speeds "
-                f"of an earthquake: {meant(law.rate, 's/m', RATES, 5.0, 500.0)}"
+                f"{_rate_of(law)} = {rate:g} s/m leaves friction at f_min = {law.f_min:g} at all "
+                f"speeds of an earthquake: {meant(rate, 's/m', RATES, 5.0, 500.0)}"
             )
     return found
+
+
+def _rate_of(law: FrictionLaw) -> str:
+    own = isinstance(law, VelocityFriction)
+    return "rate" if own else f"steepest growth of {type(law).__name__} over its range"
 
 
 def _of_rims(bearing: Specification) -> list[str]:

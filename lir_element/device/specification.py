@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, cast
 
 from lir_element.argument_checks import as_number, as_pair
-from lir_element.device.friction import Friction
+from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.units import STANDARD_GRAVITY
 
@@ -24,7 +24,7 @@ class Specification:
     radius: float | tuple[float, float]
     slider_height: float
     slider_radius: float
-    friction: Friction | float | tuple[Friction | float, Friction | float]
+    friction: FrictionLaw | float | tuple[FrictionLaw | float, FrictionLaw | float]
     interface_friction: float
     capacity: float | None = None
     rims: float | tuple[float, float] | None = None
@@ -56,9 +56,9 @@ class Specification:
         return as_number("radius", first, "m"), as_number("radius", second, "m")
 
     @property
-    def frictions(self) -> tuple[Friction, Friction]:
+    def frictions(self) -> tuple[FrictionLaw, FrictionLaw]:
         """Friction of the bottom and of the top surface."""
-        return cast("tuple[Friction, Friction]", as_pair("friction", self.friction))
+        return cast("tuple[FrictionLaw, FrictionLaw]", as_pair("friction", self.friction))
 
     @property
     def effective_radius(self) -> float:

@@ -1,4 +1,4 @@
-"""Kernels of friction and contact laws: one return map, one friction law, one contact law.
+"""Kernels of friction and contact laws: one return map, one contact law.
 
 Friction is ``F = mu N z``. Both regularisations share one form. With the trial value
 ``b = z_old + dw / u`` the new hysteretic variable is ``z = rho(|b|, kappa) b / |b|``,
@@ -351,17 +351,6 @@ def speed_at_end(
     if ahead > 0.0:
         return ahead, (1.0 + share) * rate
     return 0.0, 0.0
-
-
-@kernel
-def friction_coefficient(
-    f_max: float, drop: float, rate: float, speed: float
-) -> tuple[float, float]:
-    """Return mu and d(mu)/d(speed) of Eq. (1) of the paper (Mokha et al. 1990)."""
-    if drop == 0.0:
-        return f_max, 0.0
-    decay = drop * math.exp(-rate * speed)  # (3.1)
-    return f_max - decay, rate * decay
 
 
 @kernel

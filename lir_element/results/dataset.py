@@ -44,9 +44,10 @@ DEVICE = (
 )
 """Properties of the bearings that a Dataset keeps, whatever the run left out."""
 
+TABLE = ("friction_table",)
 PRESSURE = ("pressure_rate", "pressure_load")
 SOFTENING = ("softening_scale", "softening_rate", "softening_rest")
-"""The same of bearings whose friction depends on pressure, on temperature."""
+"""The same of bearings whose friction is read from a table, depends on pressure, on temperature."""
 
 CONTACTS = (*SURFACES, "interface")
 BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
@@ -273,11 +274,12 @@ def device_variables(records: Records) -> dict[str, xr.Variable]:
     """Return what a Dataset keeps of the bearings' properties `records` (n_bearings,)."""
     variables = {}
     names = [*DEVICE]
+    names += TABLE if records["friction_table"].any() else ()
     names += PRESSURE if records["pressure_rate"].any() else ()
     names += SOFTENING if records["softens"].any() else ()
     for name in names:
         field = PROPS_BY_NAME[name]
-        dims = ("bearing", "surface") if field.shape else ("bearing",)
+        dims = ("bearing", "surface", "knot")[: 1 + len(field.shape)]
         unit = "1" if field.unit == "-" else field.unit
         variables[name] = labelled(dims, records[name].copy(), unit, field.meaning)
     return variables

@@ -21,7 +21,7 @@ from lir_element import (
     VelocityFriction,
 )
 from lir_element.device.sliders import point_records, slider_record
-from lir_element.layout import PROPS_FIELDS
+from lir_element.layout import FRICTION_TABLE, PROPS_FIELDS
 
 PAPER: dict[str, Any] = {  # static cyclic test, section 2.2 of the paper
     "radius": 0.75,
@@ -522,6 +522,7 @@ def test_record_is_complete() -> None:
         "friction_max": (0.07, 0.05),
         "friction_drop": (0.04, 0.0),
         "friction_rate": (12.0, 0.0),
+        "friction_table": np.zeros((2, FRICTION_TABLE)),
         "interface_friction": 0.126,
         "fused": 0,
         "bouc_wen": 1,

@@ -23,6 +23,7 @@ from lir_element import (
     VelocityFriction,
 )
 from lir_element.device.field_units import FIELD_UNITS
+from lir_element.device.friction import unit_of
 
 pytestmark = pytest.mark.plain
 REQUIRED: dict[str, tuple[str, Any]] = {
@@ -192,9 +193,10 @@ def test_the_section_of_the_page_is_a_bearing(tmp_path: Path) -> None:
 
 
 def test_units_are_those_of_fields() -> None:
-    kinds = (LIRBearing, VelocityFriction, PressureDependence, FrictionHeating)
+    kinds = (LIRBearing, PressureDependence, FrictionHeating)
     assert set(FIELD_UNITS) == {kind.__name__ for kind in kinds}
     for kind in kinds:
         assert set(FIELD_UNITS[kind.__name__]) <= {f.name for f in fields(kind)}
+    assert unit_of(VelocityFriction, "rate") == "s/m"
     assert "friction_heating" in schema()
     assert si("68 F", "C", "20 C") == pytest.approx(20.0)

@@ -34,6 +34,7 @@ from frames.design.hazard.code_rules import remove_rules, scaling_named
 from frames.design.project import check_register, extensions
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project, schema
+from lir_element import FrictionLaw
 
 PAGE = Path(__file__).parents[2] / "docs" / "extending.md"
 SOURCE = "\n".join(re.findall(r"^```python\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
@@ -201,3 +202,22 @@ def test_an_extension_that_fails_is_named(folder: Path, source: str | None, word
         script.write_text(source)
     with pytest.raises(ProjectError, match=words):
         read_project(folder / "office.toml")
+
+
+def test_friction_laws_of_the_page_are_those_of_a_project(folder: Path) -> None:
+    def law(text: str) -> FrictionLaw:
+        file = folder / "office.toml"
+        file.write_text(PROJECT.replace("friction = 0.06", text, 1))
+        return ProjectInputs(read_project(file), folder).bearing().frictions[0]
+
+    found = law(re.findall(r"^    (friction = \{ law.*\})$", PAGE.read_text(), re.MULTILINE)[0])
+    assert [found.at_speed(v) for v in (0.0, 0.02, 0.06)] == pytest.approx([0.03, 0.045, 0.0525])
+    assert found.kernel_values().error < 1e-9
+    measured = law(
+        'friction = { law = "MeasuredFriction", speeds = ["0 m/s", "20 mm/s", "0.1 m/s", "1 m/s"], '
+        'coefficients = [0.03, 0.045, "5 %", 0.06] }'
+    )
+    assert [measured.at_speed(v) for v in (0.0, 0.02, 0.1, 5.0)] == pytest.approx(
+        [0.03, 0.045, 0.05, 0.06]
+    )
+    assert 1e-8 < measured.kernel_values().error < 1e-4 * 0.06

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
+from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
+from lir_element.kernels.friction_law import coefficient
 from lir_element.kernels.slip import (
-    friction_coefficient,
     friction_map,
     kelvin_voigt,
     kept_share,
@@ -20,6 +21,7 @@ from lir_element.kernels.slip import (
     speed_at_end,
     stored,
 )
+from lir_element.layout import Props
 
 U_Y = 0.25e-3
 KEPT = (1.0, 0.0)  # share of z that a constant axial force leaves, and its derivative
@@ -198,20 +200,35 @@ def test_bouc_wen_along_a_line(sign: float) -> None:
 # ------------------------------------------------------------------------------- friction
 
 
+def rubbed(law: FrictionLaw) -> Props:
+    """Return the properties of a bearing whose surfaces have a law."""
+    bearing = LIRBearing(
+        radius=1.0,
+        slider_height=0.1,
+        slider_radius=0.1,
+        capacity=0.2,
+        friction=law,
+        interface_friction=0.2,
+    )
+    return bearing.to_record()[0]
+
+
 @pytest.mark.parametrize("speed", [0.0, 1e-4, 0.02, 0.1, 0.5, 3.0])
 def test_friction_is_equation_one(speed: float) -> None:
     """mu = f_max - (f_max - f_min) exp(-alpha v), the numerical example's parameters."""
-    mu, slope = friction_coefficient(0.065, 0.0325, 15.0, speed)
+    p = rubbed(VelocityFriction(0.065, 0.0325, 15.0))
+    mu, slope = coefficient(p, 1, speed)
     assert_allclose(mu, 0.065 - 0.0325 * math.exp(-15.0 * speed), rtol=1e-15, atol=0.0)
     h = 1e-5
-    at = [friction_coefficient(0.065, 0.0325, 15.0, speed + k * h)[0] for k in (-1, 1)]
+    at = [coefficient(p, 1, speed + k * h)[0] for k in (-1, 1)]
     # second order in 15 h = 1.5e-4
     assert_allclose(slope, (at[1] - at[0]) / (2.0 * h), rtol=1e-7, atol=1e-11)
 
 
 def test_friction_of_coulomb() -> None:
-    assert_allclose(friction_coefficient(0.066, 0.0, 15.0, 0.3), (0.066, 0.0), rtol=0.0, atol=0.0)
-    assert_allclose(friction_coefficient(0.066, 0.02, 0.0, 0.3)[1], 0.0, rtol=0.0, atol=0.0)
+    coulomb, level = rubbed(CoulombFriction(0.066)), rubbed(VelocityFriction(0.066, 0.046, 0.0))
+    assert_allclose(coefficient(coulomb, 0, 0.3), (0.066, 0.0), rtol=0.0, atol=0.0)
+    assert_allclose(coefficient(level, 0, 0.3)[1], 0.0, rtol=0.0, atol=0.0)
 
 
 # ------------------------------------------------------------------------------- contact

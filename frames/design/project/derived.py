@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import types
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
 from difflib import get_close_matches
@@ -21,8 +22,25 @@ from pydantic import (
 
 from frames.design.project.quantities import number_or_infinity
 from lir_element.device.field_units import FIELD_UNITS
+from lir_element.device.friction import (
+    CoulombFriction,
+    FrictionLaw,
+    VelocityFriction,
+    known_laws,
+    unit_of,
+)
 
 _NUMBER, _PAIR = "[number]", "[pair]"
+
+LAW = "law"
+"""Key that names the class of a friction law."""
+
+_BY_KEYS = CoulombFriction, VelocityFriction
+"""Laws that are known by their keys alone, where none is named."""
+
+
+class _NoKeyError(TypeError):
+    """A field that no key of a file can stand for."""
 
 
 class Table(BaseModel):
@@ -59,13 +77,14 @@ class DerivedTable(Table):
         ValueError, TypeError
             As the class does.
         """
-        given = {name: getattr(self, name) for name in self.model_fields_set}
+        given = {name: getattr(self, name) for name in self.model_fields_set - {LAW}}
         return self.made_of(**{name: _made(value) for name, value in given.items()})
 
 
-@cache
 def table_of(kind: type) -> type[DerivedTable]:
-    """Return the table of a dataclass: a key a field, numbers with the units of `FIELD_UNITS`.
+    """Return the table of a dataclass: a key a field, numbers with the units of its fields.
+
+    A friction law may be any that is known now (`known_laws`): ``law = "..."`` names its class.
 
     Parameters
     ----------
@@ -77,11 +96,32 @@ def table_of(kind: type) -> type[DerivedTable]:
     type
         Its table; `DerivedTable.made` returns the dataclass.
     """
+    return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)))
+
+
+def _fits_a_file(law: type[FrictionLaw]) -> bool:
+    # Whether all fields of a law can be written in a file.
+    try:
+        _table_of(law, ())
+    except (_NoKeyError, NameError):
+        return False
+    return True
+
+
+@cache
+def _table_of(kind: type, laws: tuple[type[FrictionLaw], ...]) -> type[DerivedTable]:
     units, hints = FIELD_UNITS.get(kind.__name__, {}), get_type_hints(kind)
     keys: dict[str, Any] = {}
     for each in fields(kind):
         default = ... if each.default is MISSING else each.default
-        keys[each.name] = (_kind(hints[each.name], units.get(each.name, "")), Field(default))
+        unit = unit_of(kind, each.name) or units.get(each.name, "")
+        keys[each.name] = (_kind(hints[each.name], unit, laws), Field(default))
+    if issubclass(kind, FrictionLaw):
+        if LAW in keys:
+            msg = f'{kind.__name__}: its field "{LAW}" is the key that names a law: rename it'
+            raise _NoKeyError(msg)
+        known = kind in _BY_KEYS
+        keys[LAW] = (Literal[kind.__name__], Field(kind.__name__ if known else ...))
     said = f"Arguments of `{kind.__name__}`."
     table = create_model(kind.__name__, __base__=DerivedTable, __doc__=said, **keys)
     table.made_of = kind
@@ -94,25 +134,31 @@ def _made(value: object) -> object:
     return tuple(map(_made, value)) if isinstance(value, tuple) else value
 
 
-def _kind(annotation: Any, unit: str) -> Any:
+def _kind(annotation: Any, unit: str, laws: tuple[type[FrictionLaw], ...]) -> Any:
     # The type of a key: that of a field, its numbers with units.
     if annotation is float:
         return number_or_infinity(unit)
     if is_dataclass(annotation) and isinstance(annotation, type):
-        return table_of(annotation)
+        return _table_of(annotation, laws)
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin is tuple:
-        return tuple[tuple(_kind(part, unit) for part in parts)]  # type: ignore[misc]
+        if parts[1:] == (...,):
+            return tuple[_kind(parts[0], unit, laws), ...]  # type: ignore[misc]
+        return tuple[tuple(_kind(part, unit, laws) for part in parts)]  # type: ignore[misc]
     if origin in {Union, types.UnionType}:
         ways = [part for part in parts if part is not type(None)]
+        if FrictionLaw in ways:
+            twice = _given_twice(laws)
+            one_of_its_name = [law for law in laws if law.__name__ not in twice]
+            ways = [*one_of_its_name, *(way for way in ways if way is not FrictionLaw)]
         if len(ways) == 1:
-            return _kind(ways[0], unit)
-        tagged = tuple(Annotated[_kind(way, unit), Tag(_tag(way))] for way in ways)
-        return Annotated[Union[tagged], Discriminator(_chosen(ways))]  # noqa: UP007
+            return _kind(ways[0], unit, laws)
+        tagged = tuple(Annotated[_kind(way, unit, laws), Tag(_tag(way))] for way in ways)
+        return Annotated[Union[tagged], _discriminator(ways, laws)]  # noqa: UP007
     if origin is Literal or annotation in {bool, int, str}:
         return annotation
     msg = f"no key of a file can be of the type {annotation}"
-    raise AssertionError(msg)
+    raise _NoKeyError(msg)
 
 
 def _tag(way: Any) -> str:
@@ -127,14 +173,41 @@ def _likeness(keys: set[str], given: Iterable[Any]) -> int:
     return sum(bool(get_close_matches(str(key), keys, n=1)) for key in given)
 
 
+def _given_twice(laws: tuple[type[FrictionLaw], ...]) -> list[str]:
+    counts = Counter(law.__name__ for law in laws)
+    return [name for name, count in counts.items() if count > 1]
+
+
+def _is_law(way: Any) -> bool:
+    return isinstance(way, type) and issubclass(way, FrictionLaw)
+
+
+def _discriminator(ways: list[Any], laws: tuple[type[FrictionLaw], ...]) -> Discriminator:
+    named = [f'"{way.__name__}"' for way in ways if _is_law(way)]
+    if not named:
+        return Discriminator(_chosen(ways))
+    said = f"its law is not known: choose one of {', '.join(named)}, or name its Python file under "
+    said += "extensions"
+    for name in _given_twice(laws):
+        places = [law.__module__ for law in laws if law.__name__ == name]
+        said += f"; {name} is written in {' and in '.join(places)}: rename one of them"
+    return Discriminator(_chosen(ways), custom_error_type="unknown_law", custom_error_message=said)
+
+
 def _chosen(ways: list[Any]) -> Any:
     # Which of several ways a value is given in: by its kind, of tables by their keys.
-    tables = {_tag(way): {f.name for f in fields(way)} for way in ways if is_dataclass(way)}
+    tables = {
+        _tag(way): {f.name for f in fields(way)}
+        for way in ways
+        if is_dataclass(way) and (way in _BY_KEYS or not _is_law(way))
+    }
     others = [_tag(way) for way in ways if not is_dataclass(way)]
 
     def choose(value: object) -> str:
         if isinstance(value, DerivedTable):
             return f"[{value.made_of.__name__}]"
+        if isinstance(value, dict) and LAW in value:
+            return f"[{value[LAW]}]"
         if isinstance(value, dict) and tables:
             return max(tables, key=lambda tag: _likeness(tables[tag], value))
         if isinstance(value, (list, tuple)) and _PAIR in others:

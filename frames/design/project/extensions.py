@@ -1,4 +1,4 @@
-"""Python files that a project names: codes and checks of its own, and models."""
+"""Python files that a project names: codes, checks and friction laws of its own, and models."""
 
 from __future__ import annotations
 
@@ -56,13 +56,15 @@ class RunningScript:
         raise ProjectError(msg) from cause
 
 
-def load_extensions(path: Path) -> None:
-    """Run the Python files that a project names: they register codes and checks of its own.
+def load_extensions(path: Path, section: str = "project") -> None:
+    """Run the Python files that a file names: their codes, checks and friction laws are known then.
 
     Parameters
     ----------
     path : Path
-        The project's file; what is wrong with it is left to its reading.
+        The project's file, or a campaign's; what is wrong with it is left to its reading.
+    section : str
+        The one that names them.
 
     Raises
     ------
@@ -70,24 +72,27 @@ def load_extensions(path: Path) -> None:
         If a file is not there, or fails.
     """
     try:
-        about = tomllib.loads(path.read_text(encoding="utf-8")).get("project")
+        about = tomllib.loads(path.read_text(encoding="utf-8")).get(section)
     except (OSError, ValueError):
         return
     named = about.get("extensions", ()) if isinstance(about, dict) else ()
     for name in named if isinstance(named, list) else ():
-        _load((path.parent / str(name)).resolve())
+        _load((path.parent / str(name)).resolve(), section)
 
 
-def _load(script: Path) -> None:
+def _load(script: Path, section: str) -> None:
     if script in _LOADED:
         return
     if not script.is_file():
-        msg = f"[project] extensions: {script} is no file: name a Python file beside the project's"
+        msg = (
+            f"[{section}] extensions: {script} is no file: name a Python file beside the "
+            f"{section}'s"
+        )
         raise ProjectError(msg)
     name = f"lir_extension_{len(_LOADED)}_{script.stem}"
     found = importlib.util.spec_from_file_location(name, script)
     if found is None or found.loader is None:
-        msg = f"[project] extensions: {script.name} is no Python file: its name must end in .py"
+        msg = f"[{section}] extensions: {script.name} is no Python file: its name must end in .py"
         raise ProjectError(msg)
     module = importlib.util.module_from_spec(found)
     sys.modules[name] = module  # as dataclasses of it need

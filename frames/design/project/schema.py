@@ -11,7 +11,7 @@ from pydantic import Field, create_model, field_validator, model_validator
 
 from frames.design.codes.registry import MOST_IMPORTANT, DesignCode, known_codes
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.derived import Table, table_of
+from frames.design.project.derived import DerivedTable, Table, table_of
 from frames.design.project.quantities import (
     Acceleration,
     AreaMass,
@@ -218,11 +218,24 @@ def project_file() -> type[ProjectFile]:
     type
         A `ProjectFile` that knows the codes that are registered.
     """
-    return _file_of(known_codes())
+    bearing: Any = bearing_table()
+    return _file_of(known_codes(), bearing)
+
+
+def bearing_table() -> type[Bearing]:
+    """Return the class of ``[bearing]``: its friction is of any law that is known now."""
+    return _bearing_of(table_of(LIRBearing))
 
 
 @cache
-def _file_of(codes: tuple[DesignCode, ...]) -> type[ProjectFile]:
+def _bearing_of(table: type[DerivedTable]) -> type[Bearing]:
+    key = table.model_fields["friction"]
+    kind: Any = key.annotation
+    return create_model("Bearing", __base__=Bearing, __doc__=Bearing.__doc__, friction=(kind, key))
+
+
+@cache
+def _file_of(codes: tuple[DesignCode, ...], bearing: Any) -> type[ProjectFile]:
     names = tuple(code.name for code in codes)
     literal: Any = Literal[names]
     about = create_model("ProjectTable", __base__=ProjectTable, code=(literal, ...))
@@ -231,7 +244,11 @@ def _file_of(codes: tuple[DesignCode, ...]) -> type[ProjectFile]:
     if len(tables) > 1:
         spectra = Annotated[Union[tables], Field(discriminator="code")]  # noqa: UP007
     return create_model(
-        "ProjectFile", __base__=ProjectFile, project=(about, ...), spectrum=(spectra, ...)
+        "ProjectFile",
+        __base__=ProjectFile,
+        project=(about, ...),
+        bearing=(bearing | None, None),
+        spectrum=(spectra, ...),
     )
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.sizing.target import DesignTarget
-    from lir_element.device.friction import Friction
+    from lir_element.device.friction import FrictionLaw
 
     Analyse = Callable[[LIRBearing], EquivalentLinear]
 
@@ -53,7 +53,7 @@ class Candidate:
     ----------
     radius : float
         Of both concave surfaces [m].
-    friction : CoulombFriction or VelocityFriction
+    friction : FrictionLaw
         Nominal, of both surfaces.
     bearings : tuple of LIRBearing
         A bearing for each size of slider; none where their plates would be too deep.
@@ -68,7 +68,7 @@ class Candidate:
     """
 
     radius: float
-    friction: Friction
+    friction: FrictionLaw
     bearings: tuple[LIRBearing, ...]
     analysis: EquivalentLinear
     checks: Checks
@@ -115,7 +115,7 @@ class Candidate:
 
 def fitted(
     radius: float,
-    friction: Friction,
+    friction: FrictionLaw,
     system: IsolationSystem,
     sizes: Sequence[Size],
     target: DesignTarget,
@@ -131,7 +131,7 @@ def fitted(
     ----------
     radius : float
         Of both concave surfaces [m].
-    friction : CoulombFriction or VelocityFriction
+    friction : FrictionLaw
         Nominal friction.
     system : IsolationSystem
         Places and loads of the bearings.
@@ -203,7 +203,7 @@ def fitted(
 
 
 def _impossible(
-    radius: float, friction: Friction, analysis: EquivalentLinear, t: Trace
+    radius: float, friction: FrictionLaw, analysis: EquivalentLinear, t: Trace
 ) -> Candidate:
     edge = t["e_plate"].result
     return Candidate(

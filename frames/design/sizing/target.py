@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from frames.design._errors import CheckError
 from frames.design.devices.limits import LANDING_PRESSURE, DesignLimits
 from lir_element.argument_checks import require_between, require_positive, require_type
-from lir_element.device.friction import CoulombFriction, Friction
+from lir_element.device.friction import CoulombFriction, FrictionLaw
 
 INTERFACE_PRESSURE = LANDING_PRESSURE
 """Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
@@ -25,7 +25,7 @@ class DesignTarget:
     ----------
     radii : sequence of float
         Radii of the concave surfaces to choose from, both alike [m].
-    frictions : sequence of float or CoulombFriction or VelocityFriction
+    frictions : sequence of float or FrictionLaw
         Nominal frictions of the concave surfaces to choose from.
     rim_share : float
         Displacement at which the rims are met, over the largest that a bearing without rims must
@@ -60,7 +60,7 @@ class DesignTarget:
     """
 
     radii: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0)
-    frictions: Sequence[float | Friction] = (0.04, 0.05, 0.06, 0.08)
+    frictions: Sequence[float | FrictionLaw] = (0.04, 0.05, 0.06, 0.08)
     rim_share: float = 0.75
     pressure: float = 30e6
     largest_pressure: float = 60e6
@@ -104,8 +104,8 @@ class DesignTarget:
         require_type("limits", self.limits, DesignLimits, "DesignLimits(...)")
 
     @property
-    def laws(self) -> tuple[Friction, ...]:
-        """Friction laws to choose from."""
+    def laws(self) -> tuple[FrictionLaw, ...]:
+        """FrictionLaw laws to choose from."""
         return tuple(
             CoulombFriction(float(each)) if isinstance(each, (int, float)) else each
             for each in self.frictions

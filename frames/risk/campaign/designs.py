@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 from frames.risk._errors import CampaignError
-from lir_element.device.friction import CoulombFriction, VelocityFriction
+from lir_element.device.friction import CoulombFriction, known_laws
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
     from frames.frame import Frame
-    from lir_element import LIRBearing
+    from lir_element import FrictionLaw, LIRBearing
 
 FIELDS = (
     "radius",
@@ -30,9 +30,6 @@ FIELDS = (
 )
 """Fields of `LIRBearing` that a sample may name: one number for both surfaces, SI."""
 
-LAW = "f_max", "f_min", "rate"
-"""Fields of `VelocityFriction` that a sample may name, for both surfaces."""
-
 
 def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
     """Return a structure whose bearings all have the given parameters.
@@ -42,8 +39,9 @@ def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
     frame : Frame
         The structure.
     parameters : mapping of str to float
-        `FIELDS` of its bearings; "friction", Coulomb's coefficient; of bearings with
-        `VelocityFriction` also `LAW`. Rigid sliders (a plain DCFP) stay in one piece.
+        `FIELDS` of its bearings; "friction", Coulomb's coefficient; fields of the friction law
+        that both surfaces have, as f_max, f_min and rate of `VelocityFriction`. Rigid sliders (a
+        plain DCFP) stay in one piece.
 
     Returns
     -------
@@ -63,11 +61,7 @@ def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
 
 def _device(bearing: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
     changes: dict[str, Any] = {name: parameters[name] for name in FIELDS if name in parameters}
-    law = {name: parameters[name] for name in LAW if name in parameters}
-    unknown = parameters.keys() - changes.keys() - law.keys() - {"friction"}
-    if unknown:
-        msg = f'"{min(unknown)}" is no parameter: there are friction, {", ".join(FIELDS + LAW)}'
-        raise CampaignError(msg)
+    law = {name: parameters[name] for name in parameters.keys() - changes.keys() - {"friction"}}
     if bearing.is_dcfp:
         changes.pop("interface_friction", None)
     if "capacity" in changes:
@@ -78,9 +72,29 @@ def _device(bearing: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
             msg = f"friction and {', '.join(law)} are given: one is Coulomb's, the others are not"
             raise CampaignError(msg)
     elif law:
-        given = [each for each in bearing.frictions if isinstance(each, VelocityFriction)]
-        if len(given) < len(bearing.frictions):
-            msg = f"{', '.join(law)}: the bearing has Coulomb's friction; give it VelocityFriction"
-            raise CampaignError(msg)
-        changes["friction"] = tuple(replace(each, **law) for each in given)
+        changes["friction"] = _laws(bearing, law)
     return replace(bearing, **changes)
+
+
+def _laws(bearing: LIRBearing, changes: Mapping[str, float]) -> tuple[FrictionLaw, ...]:
+    # The friction of both surfaces with other values of its fields.
+    kinds = list(dict.fromkeys(type(each) for each in bearing.frictions))
+    for name in sorted(changes):
+        lacking = [kind for kind in kinds if name not in names_of(kind)]
+        if not lacking:
+            continue
+        others = [kind.__name__ for kind in known_laws() if name in names_of(kind)]
+        if others:
+            has = "Coulomb's friction" if CoulombFriction in lacking else lacking[0].__name__
+            msg = f"{name}: the bearing has {has}; give it {' or '.join(others)}"
+            raise CampaignError(msg)
+        of_law = [each for each in names_of(kinds[0]) if len(kinds) == 1]
+        there = ", ".join(["friction", *FIELDS, *of_law])
+        msg = f'"{name}" is no parameter: there are {there}'
+        raise CampaignError(msg)
+    return tuple(replace(each, **changes) for each in bearing.frictions)  # type: ignore[type-var]
+
+
+def names_of(law: type[FrictionLaw]) -> list[str]:
+    """Return the names of a law's fields that are parameters: those of the bearing are its own."""
+    return [f.name for f in fields(law) if f.name not in {*FIELDS, "friction"}]  # type: ignore[arg-type]

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar, get_type_hints
 
-from pydantic import Field, model_validator
+from pydantic import Field, create_model, model_validator
 from scipy import stats
 
-from frames.design.project.derived import Table
+from frames.design.project.derived import DerivedTable, Table
+from frames.design.project.extensions import load_extensions
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
-from frames.design.project.quantities import Length, Ratio, SpeedRate, Time
+from frames.design.project.quantities import Length, Ratio, SpeedRate, Time, quantity
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, MotionSource, Structure
+from frames.design.project.schema import Bearing, MotionSource, Structure, bearing_table
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
+from frames.risk.campaign.designs import names_of
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
+from lir_element.device.friction import CoulombFriction, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frames.frame import Frame
     from frames.risk.campaign.sampling import ParameterSample
+    from lir_element import FrictionLaw
 
 T = TypeVar("T")
 
@@ -30,10 +35,11 @@ STORE = "results"
 
 
 class CampaignTable(Table):
-    """``[campaign]``: its name, and whether plain bearings are run beside."""
+    """``[campaign]``: its name, plain bearings beside, Python files with friction laws."""
 
     name: str = Field(min_length=1)
     devices: tuple[Literal["LIR-DCFP", "DCFP"], ...] = Field(default=("LIR-DCFP",), min_length=1)
+    extensions: tuple[str, ...] = ()
     batch: int | None = Field(default=None, ge=1)
 
 
@@ -84,7 +90,7 @@ class Range(Table, Generic[T]):
 
 
 class Parameters(Table):
-    """``[parameters]``: what of the bearings is varied."""
+    """``[parameters]``: what of the bearings is varied; fields of their law by `parameters_of`."""
 
     radius: Range[Length] | None = None
     slider_height: Range[Length] | None = None
@@ -125,6 +131,53 @@ class CampaignFile(Table):
         return self
 
 
+def parameters_of(law: type[FrictionLaw]) -> type[Parameters]:
+    """Return the keys of ``[parameters]`` for bearings with a friction law.
+
+    Parameters
+    ----------
+    law : type
+        The class of the law; its fields that are numbers are keys, with their units.
+
+    Returns
+    -------
+    type
+        `Parameters` and these keys.
+    """
+    hints = get_type_hints(law)
+    keys: dict[str, Any] = {
+        name: (Range[quantity(unit_of(law, name))] | None, None)  # type: ignore[misc]
+        for name in names_of(law)
+        if hints[name] is float
+    }
+    return create_model("Parameters", __base__=Parameters, __doc__=Parameters.__doc__, **keys)
+
+
+def _read(path: Path) -> CampaignFile:
+    # The file; the law of its bearings, one of its extensions too, says what is a parameter.
+    load_extensions(path, "campaign")
+    bearing: Any = bearing_table()
+    keys: Any = parameters_of(_law_of(path, bearing))
+    kind = create_model(
+        "CampaignFile",
+        __base__=CampaignFile,
+        bearing=(bearing, ...),
+        parameters=(keys | None, None),
+    )
+    return read_file(path, kind, "docs/campaigns.md shows one")
+
+
+def _law_of(path: Path, table: type[Bearing]) -> type[FrictionLaw]:
+    # The friction law of the bottom surface; what is wrong with the file is left to its reading.
+    try:
+        given = tomllib.loads(path.read_text(encoding="utf-8"))["bearing"]
+        friction = table.model_validate(given).friction
+    except (OSError, ValueError, KeyError):
+        return CoulombFriction
+    first = friction[0] if isinstance(friction, tuple) else friction
+    return first.made_of if isinstance(first, DerivedTable) else CoulombFriction
+
+
 def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campaign:
     """Return the campaign of a file.
 
@@ -146,7 +199,7 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
         If the file, or something that it names, cannot be used: a line for each thing.
     """
     whole = Path(path)
-    file = read_file(whole, CampaignFile, "docs/campaigns.md shows one")
+    file = _read(whole)
     folder = whole.resolve().parent
     bearing, name = bearing_of(file.bearing), file.campaign.name
     frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder))
@@ -169,7 +222,7 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
 
 def workers_of(path: str | Path) -> int | None:
     """Return how many runs at a time a campaign's file asks for."""
-    return read_file(path, CampaignFile).analysis.workers
+    return _read(Path(path)).analysis.workers
 
 
 def _devices(frame: Frame, devices: tuple[str, ...]) -> dict[str, Frame]:

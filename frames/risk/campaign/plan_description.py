@@ -131,5 +131,8 @@ def bearing_properties(model: str, frame: Frame) -> dict[str, Any]:
 def _properties(bearing: LIRBearing) -> dict[str, Any]:
     # Defaults filled in, then what the kernels read.
     record = np.asarray(bearing.to_record()).reshape(-1)[0]
-    kernels = {name: record[name].tolist() for name in record.dtype.names or ()}
+    names = [name for name in record.dtype.names or () if name != "friction_table"]
+    kernels = {name: record[name].tolist() for name in names}
+    if record["friction_table"].any():
+        kernels["friction_table"] = fingerprint(record["friction_table"])
     return {name: float(value) for name, value in bearing.resolved().items()} | kernels

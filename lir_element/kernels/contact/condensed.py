@@ -19,6 +19,7 @@ from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
 from lir_element.kernels.contact.start import carry_on, fly_on, follow_string, place_nodes, turn_back
 from lir_element.kernels.contact.state import bodies_status, fill_state
+from lir_element.kernels.friction_law import least
 from lir_element.kernels.heating import left_by_heat, left_by_pressure
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
 from lir_element.kernels.pendulum.trial import has_no_state, is_finite, trial
@@ -189,7 +190,7 @@ def soften(p: Props, w: Scratch, softness: float) -> bool:
     way = softness * p.length
     is_softer = False
     for side in range(2):
-        w.soft_low[side] = way * (p.friction_max[side] - p.friction_drop[side])
+        w.soft_low[side] = way * least(p, side)
         is_softer = is_softer or w.soft_low[side] > p.yield_displacement[side]
     w.soft_high = 0.0 if p.fused else way * p.interface_friction
     return is_softer or w.soft_high > p.interface_yield

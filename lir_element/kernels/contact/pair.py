@@ -12,8 +12,8 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
+from lir_element.kernels.friction_law import coefficient
 from lir_element.kernels.slip import (
-    friction_coefficient,
     friction_map,
     kelvin_voigt,
     kept_share,
@@ -92,9 +92,7 @@ def sphere(
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
         speed, by_slip = speed_at_end(slid, dt, old.slid, w.step_before, w.share)
-    mu, slope = friction_coefficient(
-        p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
-    )
+    mu, slope = coefficient(p, side, speed)
     grip *= 1.0 - w.lost[side]
     mu, slope = grip * mu, grip * slope
     new.spot[0], new.spot[1], new.spot[2] = m_0, m_1, m_2

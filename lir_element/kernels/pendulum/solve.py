@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
+from lir_element.kernels.friction_law import steepest
 from lir_element.kernels.heating import left_by_heat
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
@@ -53,7 +54,7 @@ def start_search(p: Props, old: State, w: Work) -> None:
             math.sqrt(z[0] ** 2 + z[1] ** 2),
             1.0 / p.yield_displacement[k],
         )
-        by_speed = p.friction_drop[k] * p.friction_rate[k] / w.dt if w.dt > 0.0 else 0.0
+        by_speed = steepest(p, k) / w.dt if w.dt > 0.0 else 0.0
         stiff += p.radius[k] * (p.friction_max[k] * w.per_yield[k] + by_speed)
     z = old.interface_hysteresis
     w.z_size[2], w.per_yield[2] = math.sqrt(z[0] ** 2 + z[1] ** 2), 1.0 / p.interface_yield

@@ -24,6 +24,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import inlined, kernel
+from lir_element.kernels.friction_law import lowered_near
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rotation import turn_matrix
@@ -36,7 +37,6 @@ from lir_element.kernels.slip import (
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
 
-_NEAR = 1e-3  # of an exponent: the next term of the series lies below round-off
 _FAR = 0.99  # of the square of the way to a rim: short of it there is none, round-off or not
 _UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
@@ -185,20 +185,6 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
     w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
-@kernel
-def falling(w: Work, k: int, drop: float, rate: float) -> float:
-    """Return what the speed of surface `k` leaves of the friction's drop (3.1).
-
-    The exponential is taken where a trial looks first; nearby a few terms of its series do.
-    """
-    x = rate * (w.first_speed[k] - w.speed[k])
-    if w.first_decay[k] != 0.0 and abs(x) < _NEAR:
-        return w.first_decay[k] * (1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0)))))
-    w.first_speed[k] = w.speed[k]
-    w.first_decay[k] = drop * math.exp(-rate * w.speed[k])
-    return w.first_decay[k]
-
-
 @inlined
 def surface(p: Props, old: State, w: Work, k: int) -> None:
     """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
@@ -235,8 +221,8 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
         w.speed[k], by_slip = speed_at_end(slid, w.dt, old.slid[k], old.step, w.share)
     mu, slope = p.friction_max[k], 0.0
     if p.friction_drop[k] != 0.0:
-        decay = falling(w, k, p.friction_drop[k], p.friction_rate[k])
-        mu, slope = mu - decay, p.friction_rate[k] * decay
+        lower, slope = lowered_near(p, w, k)
+        mu -= lower
     if w.varies != 0.0:
         share = w.warm[k] * w.pressed
         mu, slope = share * mu, share * slope

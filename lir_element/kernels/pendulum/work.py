@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
+from lir_element.kernels.friction_law import least
 from lir_element.kernels.pendulum.spin import spin_work
 from lir_element.kernels.slip import open_work, stored, surplus
 
@@ -90,7 +91,7 @@ def store_law(p: Props, side: int) -> tuple[float, float]:
     """
     if side == 2:
         return p.interface_friction, p.interface_yield
-    return p.friction_max[side] - p.friction_drop[side], p.yield_displacement[side]
+    return least(p, side), p.yield_displacement[side]
 
 
 @kernel

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from lir_element.argument_checks import require_positive
 from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
+from lir_element.device.friction import CoulombFriction, VelocityFriction
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
@@ -76,8 +77,8 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     Raises
     ------
     ValueError
-        If the slider is in two pieces, or friction cannot be written as one law, or depends on
-        pressure or temperature.
+        If the slider is in two pieces, or friction is of another law than those two, cannot be
+        written as one law, or depends on pressure or temperature.
 
     Examples
     --------
@@ -103,7 +104,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
         )
         raise ValueError(msg)
     require_constant_friction(bearing, TO_OPENSEES)
-    radii, laws, length = bearing.radii, bearing.frictions, bearing.effective_radius
+    radii, laws, length = bearing.radii, laws_of_opensees(bearing), bearing.effective_radius
     least = min(law.f_min for law in laws)
     if least <= 0.0:
         msg = (
@@ -134,9 +135,39 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     )
 
 
+def laws_of_opensees(bearing: LIRBearing) -> list[CoulombFriction | VelocityFriction]:
+    """Return the friction of both surfaces, of laws that OpenSees' friction models follow.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    list of CoulombFriction or VelocityFriction
+        Of the bottom and the top surface.
+
+    Raises
+    ------
+    ValueError
+        If one is of another law.
+    """
+    known = (CoulombFriction, VelocityFriction)
+    for law in bearing.frictions:
+        if not isinstance(law, known):
+            msg = (
+                f"friction = {law!r}: the friction models of OpenSees follow Coulomb's law "
+                "(CoulombFriction) and the exponential one (VelocityFriction); give one of them, "
+                "or take bearing_element, which follows any law"
+            )
+            raise ValueError(msg)
+    return [law for law in bearing.frictions if isinstance(law, known)]
+
+
 def _rate(bearing: LIRBearing) -> float:
     # Of one law for both surfaces, over the velocity of the bearing; 0 where speed has no part.
-    laws, radii = bearing.frictions, bearing.radii
+    laws, radii = laws_of_opensees(bearing), bearing.radii
     rates = [
         law.rate * r / bearing.effective_radius
         for law, r in zip(laws, radii, strict=True)

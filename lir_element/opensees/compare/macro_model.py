@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from lir_element.argument_checks import require_choice, require_non_negative, require_positive
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
+from lir_element.opensees.compare.builtin_mapping import laws_of_opensees
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
@@ -208,7 +209,7 @@ class _Builder:
 
     def surface_friction(self) -> int:
         """Make the friction model of both surfaces, force over load at speed of the bearing."""
-        laws, radii = self.bearing.frictions, self.bearing.radii
+        laws, radii = laws_of_opensees(self.bearing), self.bearing.radii
         length = self.bearing.effective_radius
         shares = [radius / length for radius in radii]  # of speed, and of force
         fast = self.bearing.effective_friction
@@ -323,6 +324,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
         raise ValueError(msg)
     require_choice("restoring", restoring, ("series", "across"))
     require_constant_friction(bearing, TO_OPENSEES)
+    laws_of_opensees(bearing)
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (
             f"interface_friction = {bearing.interface_friction:g} does not exceed the surfaces' "

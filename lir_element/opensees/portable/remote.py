@@ -7,11 +7,14 @@ import socket
 import subprocess  # noqa: S404  # our own server, by our own interpreter
 import sys
 import threading
+import warnings
+from dataclasses import replace
 from multiprocessing import Pipe, reduction
 from typing import TYPE_CHECKING, Any
 
 import psutil
 
+from lir_element.device.friction import without_class
 from lir_element.opensees.block.protocol import vector_length
 from lir_element.opensees.library import child_environment
 from lir_element.opensees.portable.guard import Guard
@@ -26,6 +29,17 @@ if TYPE_CHECKING:
 
 class ServerError(RuntimeError):
     """The process that determines the states of bearings is gone."""
+
+
+def _without_classes(bearing: LIRBearing) -> LIRBearing:
+    # A bearing that the server can read: it does not know the classes of laws from elsewhere.
+    bottom, top = bearing.frictions
+    laws = without_class(bottom), without_class(top)
+    if laws == bearing.frictions:
+        return bearing
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # said when the bearing was made
+        return replace(bearing, friction=laws)
 
 
 class Remote:
@@ -69,7 +83,8 @@ class Remote:
         self._outcome = (0, False, 0.0)
         self._recording = False
         self._manners: Manners | None = None
-        server.ask("prepare", self._key, tag, bearing, level, placement, symmetric)
+        sent = _without_classes(bearing)
+        server.ask("prepare", self._key, tag, sent, level, placement, symmetric)
 
     def connect(self, sock: socket.socket) -> None:
         """Hand the host element's connection over, and guard it."""
