@@ -21,9 +21,9 @@ from frames.assembly.assemble import (
 from frames.assembly.basis import Basis, build_basis
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
+from frames.kernel_data import BY_POINTS
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
-from frames.kernel_data import BY_POINTS
 from frames.statics.accelerations import accelerating, has_light_nodes
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium

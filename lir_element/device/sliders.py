@@ -200,6 +200,16 @@ def disc_records(bearing: LIRBearing) -> tuple[Records, Records]:
     """Return the faces of a bearing as discs, and their state undeformed: shapes (1, 3).
 
     A disc has the friction coefficient of its surface: no correction by (7.7).
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    tuple of records
+        The discs (POINT) and their state (TOUCH): bottom surface, interface, top surface.
     """
     sliders = slider_record(bearing)
     discs = np.zeros((1, INTERFACES), dtype=POINT)

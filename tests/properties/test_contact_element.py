@@ -20,7 +20,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, RunStatus
-from lir_element.device.sliders import ring_points, slider_record
+from lir_element.device.sliders import slider_record
 from lir_element.layout import STATE_BY_NAME
 
 STILL = np.zeros(12)

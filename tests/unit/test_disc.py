@@ -9,8 +9,9 @@ from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
 from lir_element.kernels.contact.disc import disc_load, rub, rubbing, segment, size_of
+from lir_element.kernels.contact.discs import torsion_radius
 from lir_element.kernels.slip import friction_map, kept_share
-from lir_element.layout import SCRATCH
+from lir_element.layout import SCRATCH, TOUCH
 
 RADIUS = 0.08
 
@@ -144,16 +145,18 @@ def test_derivatives_of_friction_with_spin(law: int, exponent: float, size: floa
     """By the sliding, by the spin and by the axial force, against differences."""
     rng = np.random.default_rng(7)
     for _ in range(20):
-        u_y, share, n_old, n = 2.5e-4, 0.4, 1e6, 1.2e6
+        u_y, n = 2.5e-4, 1.2e6
         old = 0.5 * rng.uniform(-1.0, 1.0, 3)
         d = size * u_y * rng.normal(size=3)
         before = d[:2] + 0.2 * size * u_y * rng.normal(size=2)
 
-        def friction(x: np.ndarray, push: float) -> np.ndarray:
+        def friction(
+            x: np.ndarray, push: float, old: Any = old, before: Any = before, u_y: float = u_y
+        ) -> np.ndarray:
             w = scratch()
-            kept, by_push = kept_share(n_old, push, 0.0)
+            kept, by_push = kept_share(1e6, push, 0.0)
             z = np.zeros(3)
-            slid = rub(w, law, exponent, old, x, u_y, kept, by_push, before, share, z)  # noqa: B023
+            slid = rub(w, law, exponent, old, x, u_y, kept, by_push, before, 0.4, z)
             return np.concatenate([np.array(w.rub).ravel(), [slid], np.array(w.slid_by)])
 
         at = friction(d, n)
@@ -185,8 +188,6 @@ def test_friction_with_spin_never_exceeds_the_disc() -> None:
 
 def test_eccentric_pressure_twists_less() -> None:
     """The radius that resists spin falls with the eccentricity as its radius of gyration does."""
-    from lir_element.kernels.contact.discs import torsion_radius  # noqa: PLC0415
-    from lir_element.layout import TOUCH  # noqa: PLC0415
 
     touch = np.zeros(1, dtype=TOUCH)[0]
     assert torsion_radius(touch, RADIUS) == RADIUS

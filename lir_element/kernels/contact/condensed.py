@@ -17,7 +17,13 @@ from lir_element.kernels.contact.elimination import solve_all, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
-from lir_element.kernels.contact.start import carry_on, fly_on, follow_string, place_nodes, turn_back
+from lir_element.kernels.contact.start import (
+    carry_on,
+    fly_on,
+    follow_string,
+    place_nodes,
+    turn_back,
+)
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.friction_law import least
 from lir_element.kernels.heating import left_by_heat, left_by_pressure

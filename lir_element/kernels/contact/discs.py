@@ -14,8 +14,9 @@ from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.disc import disc_load, rub
 from lir_element.kernels.contact.pair import clear_pair, set_tangents
 from lir_element.kernels.contact.places import HIGH, LOW_BOTTOM, LOW_TOP, NORMAL, locate
+from lir_element.kernels.friction_law import coefficient, least
 from lir_element.kernels.rotation import add_cross
-from lir_element.kernels.slip import friction_coefficient, kept_share, speed_at_end
+from lir_element.kernels.slip import kept_share, speed_at_end
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -184,7 +185,7 @@ def sphere_disc(
         new.memory[k] = old.memory[k]
     new.hysteresis[0], new.hysteresis[1] = 0.0, 0.0
     new.increment[0], new.increment[1] = 0.0, 0.0
-    new.friction, new.slid, new.speed = p.friction_max[side] - p.friction_drop[side], 0.0, 0.0
+    new.friction, new.slid, new.speed = least(p, side), 0.0, 0.0
     if push <= 0.0:
         return 0.0
     d, o = w.d, w.old_place
@@ -223,9 +224,7 @@ def sphere_disc(
     speed, by_slip = static_speed, 0.0
     if dt > 0.0:
         speed, by_slip = speed_at_end(slid, dt, old.slid, w.step_before, w.share)
-    mu, slope = friction_coefficient(
-        p.friction_max[side], p.friction_drop[side], p.friction_rate[side], speed
-    )
+    mu, slope = coefficient(p, side, speed)
     grip = 1.0 - w.lost[side]
     mu, slope = grip * mu, grip * slope
     new.increment[0], new.increment[1] = w.way[0], w.way[1]
@@ -392,9 +391,7 @@ def plane_disc(
 
 
 @kernel
-def bond_disc(
-    w: Scratch, c: Sliders, old: Touch, new: Touch, a: float, dt: float
-) -> None:
+def bond_disc(w: Scratch, c: Sliders, old: Touch, new: Touch, a: float, dt: float) -> None:
     """Set the elastic bond of two sliders that are one piece: that of a disc all over its face."""
     rate = c.damping / dt if dt > 0.0 else 0.0
     square = 0.25 * a * a
@@ -492,15 +489,15 @@ def locate_face(w: Scratch, c: Sliders, p: Props, pair: int, height: float) -> N
 
 
 @kernel
-def add_disc(w: Scratch, parts: Floats, body: int, carrier: int, friction: int, normal: int) -> None:
-    """Add a disc's forces at its centre of pressure to the `parts` of the given origins."""
+def add_disc(w: Scratch, parts: Floats, body: int, carrier: int, origin: int) -> None:
+    """Add a disc's forces to `parts` where the pressure is, its friction to those of `origin`."""
     q = w.q[carrier]
     global_vector(q, w.normal, w.force[0])
     global_vector(q, w.tangential, w.force[1])
     global_vector(q, w.couple, w.couple_global)
     m = w.couple_global
     for which in range(2):
-        f, part = w.force[which], parts[normal if which == 0 else friction]
+        f, part = w.force[which], parts[NORMAL if which == 0 else origin]
         for side in range(2):
             sign = 1.0 if side == 0 else -1.0
             first = 6 * (body if side == 0 else carrier)
@@ -580,6 +577,6 @@ def press_disc(
         return
     if not (pair == 1 and p.fused):
         shift_arms(w, body, new.centre[0], new.centre[1])
-    add_disc(w, s.new.parts, body, carrier, friction, NORMAL)
+    add_disc(w, s.new.parts, body, carrier, friction)
     if derive:
         add_disc_slope(w, body, carrier)

@@ -20,7 +20,6 @@ from lir_element.kernels.contact.places import (
     NORMAL,
     ORIGINS,
     RIM_BOTTOM,
-    RIM_TOP,
     locate,
 )
 from lir_element.kernels.rotation import add_cross
@@ -29,6 +28,7 @@ from lir_element.kernels.slip import step_share
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
     from lir_element.layout import Floats, Scratch
+
 
 @kernel
 def cross_rows(

@@ -180,7 +180,9 @@ def carry_on(s: BodyStep, old: State, dt: float) -> bool:
         w.half[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
     for a in range(3):
         for b in range(3):
-            up[a, b] = low[a, 0] * w.half[0, b] + low[a, 1] * w.half[1, b] + low[a, 2] * w.half[2, b]
+            up[a, b] = (
+                low[a, 0] * w.half[0, b] + low[a, 1] * w.half[1, b] + low[a, 2] * w.half[2, b]
+            )
     for a in range(3):
         w.x[2, a] = (
             w.x[1, a]

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.condensed import (
+    LARGEST_TURN,
     ROUND_OFF,
     SHORTER,
-    LARGEST_TURN,
     small_forces,
 )
 from lir_element.kernels.contact.pairs import press
