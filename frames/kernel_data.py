@@ -379,14 +379,9 @@ def output_arrays(
     return arrays, states, bodies
 
 
-BY_POINTS = "contact points"
-"""Where the level 'rigid_body' starts: 'contact' with contact points instead of discs."""
-
-
 def contacts_of(system: System, levels: Sequence[str]) -> Contacts | None:
-    """Return the sliders of those bearings whose level asks for them; None if none does."""
-    chosen = [level in {"contact", BY_POINTS} for level in levels]
+    """Return the contact points of those bearings whose level asks for them; None if none does."""
+    chosen = [level == "contact" for level in levels]
     if not any(chosen):
         return None
-    bearings = [placed.bearing for placed in system.bearings]
-    return contact_arrays(bearings, chosen, system.gravity, by_points=BY_POINTS in levels)
+    return contact_arrays([placed.bearing for placed in system.bearings], chosen, system.gravity)

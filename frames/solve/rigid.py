@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
-from frames.kernel_data import BY_POINTS, ENERGY_TERMS, Ground, Output, output_arrays
+from frames.kernel_data import ENERGY_TERMS, Ground, Output, output_arrays
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
@@ -110,7 +110,7 @@ def rigid_time_history(
     record_every = 1 if is_thinned or recording.every is None else recording.every
     interval = record_every * (own_step if dt is None or integrator == "explicit" else dt)
     steps = number_of_steps(length, None if integrator == "explicit" else dt, interval)
-    state = gravity(model, level=BY_POINTS)
+    state = gravity(model, level="contact")
     require_memory(state, steps + 1)
     run = _prepare(state)
     explicit = _explicit_step(state, run, dt) if integrator == "explicit" else 0.0

@@ -21,7 +21,6 @@ from frames.assembly.assemble import (
 from frames.assembly.basis import Basis, build_basis
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
-from frames.kernel_data import BY_POINTS
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
 from frames.statics.accelerations import accelerating, has_light_nodes
@@ -209,7 +208,7 @@ def prepare(
         warnings.warn(doubt, ModelWarning, stacklevel=3)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
-    points = [name for name, own in levels.items() if own != "pendulum"]
+    points = [name for name, own in levels.items() if own == "contact"]
     system = assemble(frame, features, points)
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
@@ -306,8 +305,7 @@ def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[st
         msg = f'level names "{unknown[0]}": the model has the bearings {", ".join(names)}'
         raise ValueError(msg)
     for value in given.values():
-        if value != BY_POINTS:
-            require_choice("level of a bearing", value, LEVELS)
+        require_choice("level of a bearing", value, LEVELS)
     return {name: given.get(name, "pendulum") for name in names}
 
 

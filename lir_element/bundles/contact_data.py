@@ -6,13 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.device.sliders import (
-    disc_records,
-    initial_bodies,
-    initial_touches,
-    point_records,
-    slider_record,
-)
+from lir_element.device.sliders import face_records, initial_bodies, slider_record
 from lir_element.layout import SCRATCH, Records, Words
 
 if TYPE_CHECKING:
@@ -65,11 +59,7 @@ class BodyStep(NamedTuple):
 
 
 def contact_arrays(
-    bearings: Sequence[LIRBearing],
-    chosen: Sequence[bool],
-    gravity: float,
-    *,
-    by_points: bool = False,
+    bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
 ) -> Contacts:
     """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded.
 
@@ -81,9 +71,6 @@ def contact_arrays(
         Which of them have contact points.
     gravity : float
         Acceleration that gives the sliders their weight [m/s2].
-    by_points : bool
-        Whether the sliders' faces are contact points, as at the level 'rigid_body', instead of
-        discs; all chosen bearings must have the same number.
 
     Returns
     -------
@@ -93,16 +80,14 @@ def contact_arrays(
     row = np.full(len(bearings), -1, dtype=np.int64)
     row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
+    each = [face_records(bearing) for bearing in picked]
+    most = max((faces.shape[1] for faces, _ in each), default=0)
     sliders = np.concatenate([slider_record(bearing, gravity) for bearing in picked])
-    if by_points:
-        points = [point_records(bearing) for bearing in picked]
-        starts = map(initial_touches, picked, points)
-        each = list(zip(points, starts, strict=True))
-    else:
-        each = [disc_records(bearing) for bearing in picked]
-        sliders["grip"] = 1.0
-    faces = np.concatenate([face for face, _ in each])
-    touches = np.concatenate([start for _, start in each])
+    faces = np.concatenate([_padded(part, most) for part, _ in each])
+    touches = np.concatenate([_padded(start, most) for _, start in each])
+    for k, (part, _) in enumerate(each):  # unused points lie on a real one
+        faces["arm"][k, part.shape[1] :] = faces["arm"][k, 0]
+        touches["spot"][k, part.shape[1] :] = touches["spot"][k, 0]
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
@@ -125,7 +110,8 @@ def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
     """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
     contacts.bodies_old[:] = initial_bodies(len(bearings))
     for k, bearing in enumerate(bearings):
-        contacts.touch_old[k] = disc_records(bearing)[1][0]
+        start = face_records(bearing)[1][0]
+        contacts.touch_old[k, : len(start)] = start
 
 
 def detached(contacts: Contacts) -> Contacts:
@@ -139,3 +125,9 @@ def detached(contacts: Contacts) -> Contacts:
 def as_rows(records: Records) -> Words:
     """Return records (n, ...) as rows of 64-bit words (n, m), sharing their memory."""
     return records.view(np.int64).reshape(len(records), -1)
+
+
+def _padded(records: Records, count: int) -> Records:
+    out = np.zeros((1, count), dtype=records.dtype)
+    out[:, : records.shape[1]] = records
+    return out

@@ -116,9 +116,7 @@ def cyclic_test(
     props = bearing.to_record()
     contacts = None
     if level != "pendulum":
-        contacts = contact_arrays(
-            [bearing], [True], STANDARD_GRAVITY, by_points=level == "rigid_body"
-        )
+        contacts = contact_arrays([bearing], [True], STANDARD_GRAVITY)
     largest = _INCREMENT * bearing.yield_displacement
     run = rig_run(props, initial_state(props), heat_parts(props), path, loads, speed, largest)
     status, time, reached = RunStatus(begin_path(run, contacts)), 0.0, 0

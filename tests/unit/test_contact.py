@@ -4,6 +4,7 @@ The kernels are called one by one, on records made here; nothing is solved.
 """
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,12 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.bundles.contact_data import BodyStep
-from lir_element.device.sliders import (
-    disc_records,
-    initial_touches,
-    point_records,
-    slider_record,
-)
+from lir_element.device.sliders import face_records, slider_record
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import locate, matrix_of, turn_between, turn_by
@@ -362,11 +358,10 @@ class Bodies:
         reach, noise = options.pop("reach", 0.6), options.pop("noise", 2e-4)
         self.bearing = bearing(**options)
         self.p = self.bearing.to_record()[0]
+        if kind == "points" and self.bearing.contact_points is None:
+            self.bearing = replace(self.bearing, contact_points=8)
         self.c = slider_record(self.bearing, 9.81)[0]
-        points, touches = disc_records(self.bearing)
-        if kind == "points":
-            points = point_records(self.bearing)
-            touches = initial_touches(self.bearing, points)
+        points, touches = face_records(self.bearing)
         self.points = points[0]
         self.old, self.new = one(BODIES), one(BODIES)
         self.touch_old, self.touch_new = touches[0], touches[0].copy()
