@@ -11,8 +11,8 @@ from scipy.integrate import dblquad, quad
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from lir_element.bundles.contact_data import as_rows, contact_arrays
 from lir_element.device.sliders import (
-    gripping,
     face_records,
+    gripping,
     half_slider,
     interface_height,
     ring_points,
@@ -272,12 +272,12 @@ def test_mass_has_two_entries(count: int) -> None:
     refused(ValueError, f"slider_mass has {count + 1} entries", slider_mass=value)
 
 
-@pytest.mark.parametrize("count", [3, 0, -8, 9, 11, 4.5, True])
+@pytest.mark.parametrize("count", [3, 0, -8, 9, 11, 66, 100, 4.5, True])
 def test_number_of_points(count: object) -> None:
     refused(ValueError, f"contact_points = {count!r}", "4 to 7", "even", contact_points=count)
 
 
-@pytest.mark.parametrize("count", [math.nan, math.inf, "8", None, (8, 8)])
+@pytest.mark.parametrize("count", [math.nan, math.inf, "8", (8, 8)])
 def test_number_of_points_of_the_wrong_kind_is_named(count: object) -> None:
     with pytest.raises((TypeError, ValueError), match="contact_points"):
         bearing(contact_points=count)
