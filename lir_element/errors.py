@@ -78,7 +78,7 @@ _TEXT = {
         "use a smaller dt; check for a mechanism or a load beyond what the model can carry",
     ),
     RunStatus.STEP_TOO_SMALL: (
-        "the step was halved down to its smallest size without convergence",
+        "adaptive substepping reached the smallest step without convergence",
         "use another dt, add contact damping, soften axial_stiffness or rim_stiffness, or check "
         "the model",
     ),

@@ -222,7 +222,7 @@ def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | No
         Half the width of the surfaces of a bearing without rims [m].
     """
     bodies = outlines(bearing, now, reach)
-    if bearing.is_dcfp:  # one piece: both caps without the plane faces between
+    if bearing.is_dcfp:  # rigid slider: both caps without the plane faces between
         caps = [bodies.pop("bottom slider")[:-2], bodies.pop("top slider")[-3::-1]]
         bodies["bottom slider"] = np.vstack(caps)
     for body, outline in bodies.items():

@@ -81,7 +81,7 @@ def storey_profiles(
     Figure
         Left the drift of each storey [%], right the total horizontal acceleration of each level
         [m/s2]: both the largest size of the vector in plan, as in `peaks`. Lines are those of the
-        mean of a level's nodes, rings those of its worst line or corner. Without a window of
+        mean of a level's nodes, rings the maximum at any column line or corner. Without a window of
         time: of all steps of the run, also of those that its recording leaves out.
 
     Raises
@@ -190,7 +190,7 @@ def _peaks(data: xr.Dataset, name: str, *, whole: bool) -> FloatArray:
 def _corners(
     left: Axes, right: Axes, data: xr.Dataset, place: int, of: Callable[[str], FloatArray]
 ) -> None:
-    # The worst line of nodes in each storey, the worst node of each level.
+    # The largest drift at any column line of each storey, the worst node of each level.
     if "node_position" not in data:
         return  # a file of an earlier version
     z, levels = data["level_height"].to_numpy(), data["level"].to_numpy()

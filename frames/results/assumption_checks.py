@@ -340,7 +340,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
 
 
 def _slip_stability(data: xr.Dataset) -> Finding:
-    # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
+    # docs/theory.md (2.7), with the friction of high speed; a rigid slider holds without end
     friction = data.variables["interface_friction"].to_numpy()
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
     held = data.variables["length"].to_numpy() * friction

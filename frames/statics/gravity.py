@@ -176,7 +176,7 @@ def gravity(
     Warns
     -----
     ModelWarning
-        If supports take weight past the bearings, or numbers look as if given in other units
+        If supports other than bearings carry weight, or numbers look as if given in other units
         (`Frame.check` lists the same).
     """
     require_type("frame", frame, FrameData, "a Frame")

@@ -149,7 +149,7 @@ _HEAD = (
 
 def _held(load: BearingLoad) -> str:
     if math.isinf(load.slip_stability):
-        return "one piece"
+        return "rigid slider"
     overlap = f"{1e3 * load.slip_capacity:.3g} mm"
     if load.slip_stability >= load.slip_capacity:
         return f"all {overlap}"

@@ -118,7 +118,7 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
         ),
         near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), within, "kN"),
         near(
-            "sliding force at zero" + of,
+            "characteristic strength Q" + of,
             "μ (R1 + R2)/L W",
             1e-3 * sliding,
             -1e-3 * zero,

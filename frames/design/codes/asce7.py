@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -371,7 +370,6 @@ CODE = DesignCode(
         "t_l": SpectrumKey(unit="s", default=8.0),
     },
     rims=RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
-    property_factors=PropertyModificationFactors.asce7,
     tests=_tests,
     acceptance="ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Checks
-from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -335,7 +334,6 @@ CODE = DesignCode(
         "implements them, wants end stops that leave this displacement free. Needs the agreement "
         "of the authority, time histories with the rims, and tests of impact and return",
     ),
-    property_factors=PropertyModificationFactors.en1998,
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
     example=ExampleProject(

@@ -14,7 +14,6 @@ from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
-    from frames.design.codes.bounds import PropertyModificationFactors
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
@@ -156,8 +155,6 @@ class DesignCode(HazardRules):
         Keys of ``[spectrum]`` in a project's file.
     rims : RimRule
         What it asks of the displacement at which rims are met.
-    property_factors : callable, optional
-        Returns its factors of property bounds, `PropertyModificationFactors.asce7` for instance.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
@@ -179,7 +176,6 @@ class DesignCode(HazardRules):
     spectrum: Callable[..., Spectrum]
     spectrum_keys: Mapping[str, SpectrumKey]
     rims: RimRule
-    property_factors: Callable[..., PropertyModificationFactors] | None = None
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
     acceptance: str = NO_LIMITS
     example: ExampleProject | None = None

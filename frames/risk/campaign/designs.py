@@ -43,7 +43,7 @@ def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
         The structure.
     parameters : mapping of str to float
         `FIELDS` of its bearings; "friction", Coulomb's coefficient; of bearings with
-        `VelocityFriction` also `LAW`. Rigid sliders (a plain DCFP) stay in one piece.
+        `VelocityFriction` also `LAW`. Rigid sliders (a plain DCFP) stay rigid.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The store of a campaign on disk: whole chunks first, then a mark that they are there."""
+"""The results database of a campaign: whole chunks first, then a mark that they are there."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ class CampaignStore:
         Raises
         ------
         CampaignError
-            If there is no store, or one of another format.
+            If there is no results database, or one of another format.
         """
         try:
             found = json.loads((self.path / _PLAN).read_text(encoding="utf-8"))

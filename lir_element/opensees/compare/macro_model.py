@@ -41,7 +41,7 @@ class MacroModel(NamedTuple):
     Attributes
     ----------
     node : int or None
-        Node m between pendulum and interface; None where the slider is one piece.
+        Node m between pendulum and interface; None where the slider is rigid.
     pendulum : int
         The element that slides with low friction.
     rims : tuple of int
@@ -136,7 +136,7 @@ def macro_model(
         own = require_non_negative("middle_mass", middle_mass, "kg")
     tags = itertools.count(_first_tag(ops, first_tag))
     build = _Builder(ops, bearing, weight, tags, rise=rise)
-    if math.isinf(bearing.force_limit(weight)):  # no rims, or one piece: the interface never slips
+    if math.isinf(bearing.force_limit(weight)):  # no rims, or a rigid slider: no slip
         middle, share = node_j, 1.0
     else:
         middle, share = next(tags), 2.0
