@@ -124,7 +124,7 @@ class GravityState:
         return (
             f"GravityState: {1e-3 * self.axial_forces.sum():.4g} kN on {len(self.axial_forces)} "
             f"bearings, {low:.4g} to {high:.4g} kN each; {len(self.displacement)} degrees of "
-            f"freedom, {len(self.basis.omega2)} modes over held bearings"
+            f"freedom, {len(self.basis.omega2)} fixed-base modes"
         )
 
     def _repr_html_(self) -> str:
