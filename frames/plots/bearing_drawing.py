@@ -147,6 +147,10 @@ def bearing_sections(
     -----
     Surfaces, sliders, tilt, slip, lift and the place of the rims are to scale. The thickness of the
     plates and the height of the rims are for the picture: the model does not depend on them.
+
+    Examples
+    --------
+    In the gallery: "An impact in sections" (docs/gallery/bearing/f_sections.py).
     """
     data = pick.in_window(data, start, end)
     drawn = ("bearing_displacement", "slider_displacement", "rim_force", "interface_slip_size")

@@ -76,6 +76,10 @@ def model_view(
         If the time history is not one of this model.
     ValueError
         If the instant lies outside of it, or the factor is not positive.
+
+    Examples
+    --------
+    In the gallery: "A building on nine bearings" (docs/gallery/building/a_model.py).
     """
     system = assemble(model)
     u, title, scale = np.zeros((len(system.node_names), 6)), model.name, 1.0
@@ -187,6 +191,10 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
         If more than six are asked for.
     ModelError
         As `frames.modes` does.
+
+    Examples
+    --------
+    In the gallery: "Modes with the bearings sliding" (docs/gallery/building/b_modes.py).
     """
     if count > len(ps.COLUMNS) - 1:
         msg = f"count = {count}: at most {len(ps.COLUMNS) - 1} modes go on a page; draw fewer"

@@ -88,6 +88,10 @@ def storey_profiles(
     ------
     ValueError
         If a model has fewer than two levels, or nothing lies in the window.
+
+    Examples
+    --------
+    In the gallery: "Storey profiles" (docs/gallery/building/d_profiles.py).
     """
     found = pick.as_systems(systems, start, end)
     figure = ps.new_figure(3.6)
@@ -152,6 +156,10 @@ def floor_spectra(
     ------
     ValueError
         If there is no such level, or nothing lies in the window.
+
+    Examples
+    --------
+    In the gallery: "Floor spectra" (docs/gallery/building/e_floor_spectra.py).
     """
     found = pick.as_systems(systems, start, end)
     first = next(iter(found.values()))
@@ -231,6 +239,10 @@ def energy(
     ------
     ValueError
         If nothing lies in the window, or the Dataset has no energies.
+
+    Examples
+    --------
+    In the gallery: "Energy balance" (docs/gallery/building/f_energy.py).
     """
     found = pick.as_systems(systems, start, end)
     for data in found.values():

@@ -158,6 +158,16 @@ def time_history(
     lir_element.AnalysisInterrupted
         After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed. A plain
         KeyboardInterrupt before the first step.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> data.attrs["status"], round(float(abs(data["bearing_displacement"]).max()), 2)
+    ('ok', 0.24)
     """
     check_analysis(model, motion)
     check_options(level, method, integrator, on_failure, features)

@@ -71,6 +71,14 @@ class GravityState:
         What the bearings carry of the weight above them, and what supports take past them.
     parts : NonlinearElements or None
         Links and hinged members, at rest.
+
+    Examples
+    --------
+    >>> from frames import gravity, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> state = gravity(lumped_mass(bearing_for(2000e3), mass=204e3))
+    >>> str(state).split(";")[0]
+    'GravityState: 2001 kN on 1 bearings, 2001 to 2001 kN each'
     """
 
     system: System
@@ -178,6 +186,14 @@ def gravity(
     ModelWarning
         If supports other than bearings carry weight, or numbers look as if given in other units
         (`Frame.check` lists the same).
+
+    Examples
+    --------
+    >>> from frames import gravity, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> state = gravity(lumped_mass(bearing_for(2000e3), mass=204e3))
+    >>> (state.axial_forces / 1e3).round(0).tolist()
+    [2001.0]
     """
     require_type("frame", frame, FrameData, "a Frame")
     with blas_threads_for(frame):

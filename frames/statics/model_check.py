@@ -65,6 +65,14 @@ class ModelCheck:
         What is strange, a sentence each.
     failure : str
         Why there is no equilibrium under permanent loads; empty where there is.
+
+    Examples
+    --------
+    >>> from frames import lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> checked = lumped_mass(bearing_for(2000e3), mass=204e3).check()
+    >>> checked.ok, checked.mass, round(checked.weight / 1e3)
+    (True, 204000.0, 2001)
     """
 
     name: str

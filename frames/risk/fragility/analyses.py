@@ -67,6 +67,10 @@ def ida(
     -----
     AnalysisWarning
         If runs failed numerically: they count as neither.
+
+    Examples
+    --------
+    In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
     require_type("intensity", intensity, Intensity, "an Intensity")
     require_type("rules", rules, HuntFill, "a HuntFill")

@@ -57,6 +57,10 @@ def ida_curves(
     ------
     FragilityError
         If the quantity is not known.
+
+    Examples
+    --------
+    In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
     require_type("found", found, IDA, "an IDA")
     runs = found.runs

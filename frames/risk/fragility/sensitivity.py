@@ -35,6 +35,10 @@ class Tornado:
     table : pandas.DataFrame
         A row a parameter, the widest swing first: values "low", "high" of the parameter, results
         "at low", "at high", and "swing", the size of the difference of both results.
+
+    Examples
+    --------
+    In the gallery: "Which property matters" (docs/gallery/research/d_tornado.py).
     """
 
     base: float
