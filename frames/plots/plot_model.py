@@ -134,6 +134,19 @@ def model_film(
         If the time history is not one of this model.
     ValueError
         If nothing lies in the window, or a factor is not positive.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.plots import model_film
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> film = model_film(frame, time_history(frame, pulse), end=0.05)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     film.save(f"{folder}/model.gif", writer="pillow")
     """
     system = assemble(model)
     require_own(model, system, data)

@@ -52,6 +52,12 @@ class RimRule(NamedTuple):
         Share of it below which rims must not be met [-].
     note : str
         What rims that are met below it mean under the code.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("ASCE 7-22").rims.symbol, code_named("ASCE 7-22").rims.least
+    ('D_TM', 0.6)
     """
 
     clause: str
@@ -73,6 +79,12 @@ class SpectrumKey(NamedTuple):
         Its value if it is left out; it must be given if None.
     most : float, optional
         Largest number [SI].
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("ASCE 7-22").spectrum_keys["t_l"]
+    SpectrumKey(kind=<class 'float'>, unit='s', default=8.0, most=None)
     """
 
     kind: object = float
@@ -168,6 +180,13 @@ class DesignCode(HazardRules):
     ------
     CheckError
         If the number of motions whose mean counts is not the same in `scaling` and `histories`.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code = code_named("NCh 2745")
+    >>> code.name, sorted(code.spectrum_keys)
+    ('NCh2745', ['soil', 'zone'])
     """
 
     title: str

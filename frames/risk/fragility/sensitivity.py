@@ -124,6 +124,18 @@ class SobolIndices:
         Of the result.
     runs : int
         Results that were formed.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import sobol_indices
+    >>> def results(sets):
+    ...     return [each["a"] + 0.1 * each["b"] for each in sets]
+    ...
+    >>> inputs = {"a": uniform(), "b": uniform()}
+    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> bool(found.table.loc["a", "total"] > 0.9)
+    True
     """
 
     table: pd.DataFrame
@@ -173,6 +185,18 @@ def sobol_indices(
     Notes
     -----
     Source: Saltelli et al. (2010), Comput. Phys. Commun. 181:259-270.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import sobol_indices
+    >>> def results(sets):
+    ...     return [each["a"] + 0.1 * each["b"] for each in sets]
+    ...
+    >>> inputs = {"a": uniform(), "b": uniform()}
+    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> found.table["first"].idxmax()
+    'a'
     """
     require_type("samples", samples, int, "a whole number")
     if samples < 2 or samples & (samples - 1):

@@ -52,6 +52,23 @@ class MacroModel(NamedTuple):
         The springs of ``restoring="across"``.
     materials, frictions : tuple of int
         Uniaxial materials and friction models.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import macro_model, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> made = macro_model(bearing.as_dcfp(rims=False), 1, 2, load=150e3)
+    >>> made.node, made.interface, made.rims
+    (None, None, ())
+    >>> ops.wipe()
     """
 
     node: int | None
@@ -126,6 +143,23 @@ def macro_model(
     - Node m turns with node i. Its mass holds it where the bearing has lifted off.
     - The interface is as soft before slip as the surfaces, where its own yield displacement is
       smaller: a small one makes Newton's method fail.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import macro_model, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> made = macro_model(bearing, 1, 2, load=150e3)
+    >>> len(made.rims), made.interface is not None
+    (4, True)
+    >>> ops.wipe()
     """
     ops = opensees()
     _check_nodes(ops, node_i, node_j)

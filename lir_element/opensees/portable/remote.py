@@ -25,7 +25,14 @@ if TYPE_CHECKING:
 
 
 class ServerError(RuntimeError):
-    """The process that determines the states of bearings is gone."""
+    """The process that determines the states of bearings is gone.
+
+    Examples
+    --------
+    >>> from lir_element.opensees import ServerError
+    >>> issubclass(ServerError, RuntimeError)  # so that `except RuntimeError` catches it
+    True
+    """
 
 
 class Remote:
