@@ -86,8 +86,8 @@ def _introduction(found: Found) -> str:
     return (
         "Written by `python -m validation.measurements.study` "
         f"({cost['date']}, {cost['machine']}). Auad, Castaldo and Almazan (2022) asked what the "
-        "LIR-DCFP does to the reliability of a building that yields; this is the question with "
-        "the building, the bearings and the time histories of this project, not a repetition of "
+        "LIR-DCFP does to the reliability of a building that yields; this study asks "
+        "the same with the building, the bearings and the time histories of this project, not a repetition of "
         "their models. The light frame of [yielding_comparison.md](yielding_comparison.md) (three "
         "storeys, nine bearings, plastic hinges) stands on the LIR-DCFP, on the DCFP of the same "
         "plates with rims, on a DCFP so large that it meets no rims, and on a LIR-DCFP with the "
@@ -173,8 +173,8 @@ def _larger_sliders(found: Found) -> str:
     ]
     runs = sum(found["statuses"][LIR].values())
     return (
-        "**Larger sliders.** The collapse of the LIR-DCFP is a matter of how far its sliders may "
-        f"slip, which is a choice: with {1e3 * ROOM_RADIUS:g} mm more in radius and an interface "
+        "**Larger sliders.** How far its sliders may slip governs the collapse of the LIR-DCFP, and "
+        f"is a choice of the designer: with {1e3 * ROOM_RADIUS:g} mm more in radius and an interface "
         f"friction of {ROOM_FRICTION:g} its bearings fail in {failed[1]} of {runs} runs in place "
         f"of {failed[0]} (DCFP with rims: {failed[2]}), and the collapse margin is {larger} in "
         f"place of {own} (DCFP with rims: {rims}). At {found['scales'][at]:g} m/s2 medians of "
@@ -197,11 +197,11 @@ def _physics(found: Found) -> str:
     return (
         "The interface slips instead of pushing on the rims, so that the force is bounded by its "
         f"friction: at {found['scales'][at]:g} m/s2 medians of floor acceleration and base shear "
-        f"are {told}. What it gains "
-        "in force it takes in travel: the sliders stand on each other until the slip uses up "
-        f"their overlap ({slip:.0f} mm and more), and it is the same friction at every intensity, "
-        "with nothing to bring the slip to a stop but friction and the restoring force of the "
-        "spheres. Beyond that the bearing has failed, where a DCFP whose rims hold still stands "
+        f"are {told}. The price "
+        "is travel: the sliders carry each other only until the slip uses up "
+        f"their overlap ({slip:.0f} mm and more). The friction is the same at every intensity, "
+        "and only it and the restoring force of the spheres bring the slip to a stop. "
+        " Beyond that the bearing has failed, where a DCFP whose rims hold still stands "
         "and its frame yields. So the LIR-DCFP collapses at lower intensities than the "
         "DCFP **if** rims and plates bear the forces of the table below, and the frame, its "
         "connections and contents a floor acceleration of several g: nothing above breaks by "
