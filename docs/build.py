@@ -85,7 +85,7 @@ ATTRIBUTES = {
     "newton_iterations": "iterations of Newton's method in all",
     "state_determinations": "state determinations of all bearings",
     "tangents": "tangents made",
-    "halvings": "how often a step was halved",
+    "halvings": "steps halved by adaptive substepping",
     "modes": "modes or vectors of the structure over held bearings",
     "reduction_runs": 'runs of `method="reduced"`; only of those',
     "reduction_tolerance": "largest difference of two runs that was asked for [-]",

@@ -32,12 +32,14 @@ extensions = [
     "sphinx.ext.napoleon",
     *(["sphinx.ext.viewcode"] if RUN else []),
     "sphinx_gallery.gen_gallery",
-    "formulas",  # docs/_ext
+    "command",  # docs/_ext
+    "formulas",
     "objects",
 ]
 root_doc = "docs/index"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/**"]
 exclude_patterns = ["docs/_templates/**", "docs/gallery/**", "docs/tutorials/**"]
+exclude_patterns += ["docs/generated/cli.md"]  # part of docs/cli.md
 templates_path = [str(HERE / "_templates")]  # autosummary would look beside the repository
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 4

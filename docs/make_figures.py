@@ -16,6 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import how_figures  # beside this file
 import matplotlib as mpl
 import numpy as np
 import theory_figures  # beside this file
@@ -327,6 +328,8 @@ def main() -> None:
     theory_figures.levels().savefig(DOCS / "figures" / "levels.png", dpi=130)
     for name, draw in THEORY.items():
         draw().savefig(DOCS / "figures" / f"theory-{name}.png", dpi=130)
+    for name, figure in how_figures.pictures(static_test_bearing()).items():
+        figure.savefig(DOCS / "figures" / f"how-{name}.png", dpi=150)
     hysteresis().savefig(DOCS / "figures" / "hysteresis.png", dpi=130)
     example()
     demo_sections().savefig(DOCS / "figures" / "demo-sections.png", dpi=120)

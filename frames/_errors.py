@@ -6,20 +6,80 @@ from lir_element.errors import AnalysisWarning
 
 
 class ModelError(ValueError):
-    """A structural model, or a number of it, that cannot be used; the message names the culprit."""
+    """A structural model, or a number of it, that cannot be used; the message names the culprit.
+
+    Examples
+    --------
+    >>> from frames import Frame
+    >>> try:
+    ...     Frame("empty").check()
+    ... except ModelError as error:
+    ...     print(error)
+    frame "empty" has no nodes: add nodes, supports and members first
+    """
 
 
 class ModelWarning(UserWarning):
-    """A structural model that can be used, with something that its user should know."""
+    """A structural model that can be used, with something that its user should know.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from frames import gravity, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     state = gravity(lumped_mass(bearing_for(2000e3), mass=204e4))
+    >>> told[0].category.__name__
+    'ModelWarning'
+    """
 
 
 class MotionError(ValueError):
-    """A ground motion, a file or a spectrum that cannot be used; the message names the culprit."""
+    """A ground motion, a file or a spectrum that cannot be used; the message names the culprit.
+
+    Examples
+    --------
+    >>> from frames import GroundMotion
+    >>> try:
+    ...     GroundMotion(x=[0.0, 9810.0], dt=0.01)
+    ... except MotionError as error:
+    ...     print(str(error).split(":")[0])
+    x peaks at 9810 m/s2 = 1000 g, no ground shakes like that
+    """
 
 
 class MotionWarning(UserWarning):
-    """A ground motion that can be used, with something that its user should know."""
+    """A ground motion that can be used, with something that its user should know.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import numpy as np
+    >>> from frames import GroundMotion
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     motion = GroundMotion(x=np.exp(-0.5 * np.arange(0.0, 20.0, 0.02)), dt=0.02)
+    >>> told[0].category.__name__
+    'MotionWarning'
+    """
 
 
 class AuditWarning(AnalysisWarning):
-    """A completed analysis in which something that was left out or is uncertain mattered."""
+    """A completed analysis in which something that was left out or is uncertain mattered.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from lir_element import Features
+    >>> pulse = GroundMotion(x=2.4 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     data = time_history(frame, pulse, features=Features(rims=False))
+    >>> told[0].category.__name__
+    'AuditWarning'
+    """

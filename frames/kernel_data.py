@@ -66,7 +66,7 @@ COUNT_FIELDS = (
     Field("steps", "-", "", "steps accepted", (), "i8"),
     Field("iterations", "-", "", "iterations of Newton's method", (), "i8"),
     Field("tangents", "-", "", "tangents made", (), "i8"),
-    Field("halvings", "-", "", "steps halved", (), "i8"),
+    Field("halvings", "-", "", "steps halved by adaptive substepping", (), "i8"),
     Field("trials", "-", "", "state determinations of all bearings", (), "i8"),
     Field("bearing", "-", "", "bearing whose limit or state was the last to fail", (), "i8"),
     Field("code", "-", "", "status code of the last trial", (), "i8"),

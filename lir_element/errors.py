@@ -7,7 +7,15 @@ from typing import Any
 
 
 class RunStatus(IntEnum):
-    """Outcome of a state determination or of an analysis."""
+    """Outcome of a state determination or of an analysis.
+
+    Examples
+    --------
+    >>> RunStatus.SLIP_EXCEEDED.meaning
+    "the interface slipped further than the sliders' overlap supports: the bearing failed"
+    >>> RunStatus.SLIP_EXCEEDED.is_bearing_failure, RunStatus.STEP_TOO_SMALL.is_bearing_failure
+    (True, False)
+    """
 
     OK = 0
     NOT_FINITE = 1
@@ -78,7 +86,7 @@ _TEXT = {
         "use a smaller dt; check for a mechanism or a load beyond what the model can carry",
     ),
     RunStatus.STEP_TOO_SMALL: (
-        "the step was halved down to its smallest size without convergence",
+        "adaptive substepping reached the smallest step without convergence",
         "use another dt, add contact damping, soften axial_stiffness or rim_stiffness, or check "
         "the model",
     ),
@@ -118,6 +126,17 @@ class AnalysisError(RuntimeError):
         How far, or why; empty where there is nothing to add.
     data : xarray.Dataset or None
         What was computed up to the failure.
+
+    Examples
+    --------
+    >>> from lir_element import CoulombFriction, LIRBearing, cyclic_test
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> try:
+    ...     cyclic_test(bearing, [0.0, 0.4], axial_load=150e3, on_failure="raise")
+    ... except AnalysisError as error:
+    ...     print(error.status.name, error.status.is_bearing_failure, len(error.data["step"]))
+    SLIP_EXCEEDED True 1
     """
 
     def __init__(
@@ -145,6 +164,14 @@ class AnalysisInterrupted(KeyboardInterrupt):
         Time that the analysis had reached [s].
     data : xarray.Dataset
         What was computed until then; its attribute `status` is "interrupted".
+
+    Examples
+    --------
+    >>> try:
+    ...     raise AnalysisInterrupted(2.5, data=None)  # as Ctrl-C does within an analysis
+    ... except AnalysisInterrupted as stop:
+    ...     print(str(stop).split(":")[0])
+    interrupted at t = 2.5 s of the analysis
     """
 
     def __init__(self, time: float, data: Any) -> None:
@@ -167,4 +194,17 @@ def failure_message(status: RunStatus, time: float, where: str, detail: str = ""
 
 
 class AnalysisWarning(UserWarning):
-    """An analysis that stopped early and handed back what it had computed, or is doubtful."""
+    """An analysis that stopped early and handed back what it had computed, or is doubtful.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element import CoulombFriction, LIRBearing, cyclic_test
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     test = cyclic_test(bearing, [0.0, 0.4], axial_load=150e3)
+    >>> told[0].category.__name__, test.attrs["status"]
+    ('AnalysisWarning', 'slip_exceeded')
+    """

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Articulated:
-    """A double concave bearing whose slider is hinged; the load is 1.
+    """A double concave bearing with an articulated slider; the load is 1.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Articulated:
 
 
 def articulated(bearing: LIRBearing, *, moments: bool = False, share: float = 0.5) -> Articulated:
-    """Return the bearing with its slider hinged.
+    """Return the bearing with an articulated slider.
 
     Parameters
     ----------

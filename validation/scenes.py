@@ -1,6 +1,6 @@
 """The test cases in which the levels are compared: bearing, mass and motion, each with what it is for.
 
-Synthetic motion are pulses of a few cycles; recorded ones are read from the folder named by
+Synthetic motions are pulses of a few cycles; recorded ones are read from the folder named by
 LIR_RECORDS. Sources: the paper (COMPDYN 2023), sections 2.2 and 3.1, for the bearings.
 """
 

@@ -127,8 +127,8 @@ def changed(now: Sequence[Entry], before: Sequence[Entry]) -> list[str]:
         "",
         table(("of", "", *SPREAD), rows),
         "",
-        f"Another end than the rigid bodies' had then {len(unlike(past, 'pendulum'))} of "
-        f"{len(past)} test cases, now {len(unlike(now, 'pendulum'))}.",
+        f"Test cases that end otherwise than the rigid bodies: then {len(unlike(past, 'pendulum'))} of "
+        f"{len(past)}, now {len(unlike(now, 'pendulum'))}.",
         "",
     ]
 
@@ -239,12 +239,12 @@ def page(
             f"({share:.1%}) are more than 5 % off in displacement or force, more than 10 % in slip, or "
             "end otherwise." + (" " + _listed(missed) if missed else ""),
             "",
-            "## Another end",
+            "## Runs that end otherwise",
             "",
             table(_ENDS, [_end(entry) for entry in ends]) if ends else "None.",
             "",
             "Beside `slip_stability` ([theory](../theory.md), 2) and beside the overlap a few per cent "
-            "of slip decide; an axial force that rings lets go some per cent earlier. The assumption check marks "
+            "of slip decide; where the axial force oscillates, the interface lets go earlier. The assumption check marks "
             "80 % of the one and 90 % of the other.",
             "",
             *by_step(met),

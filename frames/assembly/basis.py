@@ -192,7 +192,7 @@ def mode_damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArra
     damping : Damping or None
         Damping of the structure.
     omega2 : ndarray, (n_e,)
-        Squared circular frequencies of the modes over held bearings [1/s2].
+        Squared circular frequencies of the fixed-base modes [1/s2].
 
     Returns
     -------

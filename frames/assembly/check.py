@@ -233,8 +233,8 @@ def _remedy(system: System, node: str, dof: str) -> str:
     if dof == "uz":
         advice = (
             "connect the node by a member or a spring, and put its mass where members or bearings "
-            "carry it: a diaphragm ties nothing vertically, and a support would take the weight "
-            "past the bearings"
+            "carry it: a diaphragm ties nothing vertically, and a support would carry the "
+            "weight instead of the bearings"
         )
     ends = {system.node_names[end] for _, i, j, _ in system.bearings for end in (i, j)}
     if node in ends and dof.startswith("r"):

@@ -1,6 +1,6 @@
 """A reduced basis: the bearings' degrees of freedom kept, the linear rest as few Ritz vectors.
 
-As `build_basis`, but instead of all modes over held bearings it takes load-dependent vectors
+As `build_basis`, but instead of all fixed-base modes it takes load-dependent vectors
 (Wilson, Yuan and Dickens 1982): the static displacements under the inertia of rigid motions, and of
 what each bearing moves along its axis (without these the axial forces are off by a fifth), then
 those under the inertia of the vectors before, and so on. So they come in the order in which they

@@ -38,7 +38,7 @@ class LoadPath(NamedTuple):
 
     @property
     def lost(self) -> float:
-        """What the supports take past the bearings [N]."""
+        """Load carried by other supports than bearings [N]."""
         return sum(force for _, force in self.supports)
 
     def sentence(self) -> str:

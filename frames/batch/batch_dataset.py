@@ -24,7 +24,7 @@ NUMBERS = {
     "energy_error": ("1", "largest gap of the energy balance over the largest input"),
     "numerical_share": ("1", "largest work that the time integration leaves over, over the input"),
     "steps": ("1", "steps accepted"),
-    "halvings": ("1", "steps halved"),
+    "halvings": ("1", "steps halved by adaptive substepping"),
     "seconds_loop": ("s", "time of the compiled loop"),
 }
 """Numbers of each run besides what it reached: unit and meaning."""

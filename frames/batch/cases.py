@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.model.frame_data import FrameData
 from frames.motion.ground_motion import GroundMotion
-from lir_element._compile.progress import on_terminal
+from frames.solve.progress_line import ProgressLine
 from lir_element.argument_checks import require_finite, require_type
 
 if TYPE_CHECKING:
@@ -19,11 +18,6 @@ T = TypeVar("T")
 
 NOT_BUILT = "not_built"
 """Status of a campaign's run whose model could not be built or set up."""
-
-_EVERY = 0.5, 30.0
-"""Time between two lines of progress on a terminal, and elsewhere [s]."""
-
-_WIDTH = 78
 
 
 class Case(NamedTuple):
@@ -51,6 +45,18 @@ class BatchProgress(NamedTuple):
         Of those done, runs that stopped before their end.
     taken : int
         Runs besides these that were complete before.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_histories
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> told = []
+    >>> runs = time_histories(frame, {"pulse": pulse}, progress=told.append, workers=1)
+    >>> told[-1].done, told[-1].total, told[-1].failed
+    (1, 1, 0)
     """
 
     done: int
@@ -251,26 +257,9 @@ def tell(progress: object) -> Callable[[BatchProgress], None] | None:
     if progress is None or progress is False:
         return None
     if progress is True:
-        return _Line()
+        line = ProgressLine()
+        return lambda told: line.write(str(told), told.elapsed, ends=told.done == told.total)
     if not callable(progress):
         msg = f"progress = {progress!r} must be True, or a function of one BatchProgress"
         raise TypeError(msg)
     return progress
-
-
-class _Line:
-    # Writes progress to the standard error, now and then.
-
-    def __init__(self) -> None:
-        self._told = 0.0
-
-    def __call__(self, progress: BatchProgress) -> None:
-        ends, terminal = progress.done == progress.total, on_terminal()
-        if sys.stderr is None or not (
-            ends or progress.elapsed - self._told >= _EVERY[0 if terminal else 1]
-        ):
-            return
-        self._told = progress.elapsed
-        text = f"\r{progress!s:{_WIDTH}}" if terminal else str(progress)
-        sys.stderr.write(text + ("\n" if ends or not terminal else ""))
-        sys.stderr.flush()

@@ -113,6 +113,17 @@ def time_histories(
         After Ctrl-C, a KeyboardInterrupt whose `data` holds the runs that were complete.
     KeyboardInterrupt
         After Ctrl-C before the first run was complete.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_histories
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> runs = time_histories(frame, {"pulse": pulse}, scales=[0.5, 1.0], workers=1)
+    >>> runs["status"].values.tolist(), runs["scale"].values.tolist()
+    (['ok', 'ok'], [0.5, 1.0])
     """
     structures, grounds = named_models(models), named_motions(motions)
     runs = grid(structures, grounds, scales, cases)

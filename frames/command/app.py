@@ -181,7 +181,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
 
 @app.command()
 def compare(file: File = FILE) -> None:
-    """Compare the LIR-DCFP with the same bearing whose slider is in one piece."""
+    """Compare the LIR-DCFP with the same bearing and a rigid slider, the plain DCFP."""
     with told():
         _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
 

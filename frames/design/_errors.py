@@ -2,8 +2,28 @@
 
 
 class CheckError(ValueError):
-    """A design check, or a number of it, that cannot be used; the message names the culprit."""
+    """A design check, or a number of it, that cannot be used; the message names the culprit.
+
+    Examples
+    --------
+    >>> from frames.design import PropertyModificationFactors
+    >>> try:
+    ...     PropertyModificationFactors(1.2, 1.5)
+    ... except CheckError as error:
+    ...     print(str(error).split(":")[0])
+    factors 1.2 and 1.5
+    """
 
 
 class ProjectError(ValueError):
-    """A project's file that cannot be used: a line for each thing that is wrong."""
+    """A project's file that cannot be used: a line for each thing that is wrong.
+
+    Examples
+    --------
+    >>> from frames.design.project.reading import read_project
+    >>> try:
+    ...     read_project("nowhere.toml")
+    ... except ProjectError as error:
+    ...     print(error)
+    nowhere.toml: No such file or directory: give a file, `lir new` shows how
+    """

@@ -1,4 +1,4 @@
-"""Kernels of the ledger of energy: what a step puts in, and what takes it up.
+"""Kernels of the energy balance: what a step puts in, and what takes it up.
 
 All works are taken by the trapezoidal rule, with which Newmark's average acceleration conserves
 energy; what another member of the family adds or takes is the term 'numerical'.

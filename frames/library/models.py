@@ -52,6 +52,13 @@ def lumped_mass(
         If the device is no bearing.
     ModelError
         If mass, inertia or gravity is not positive.
+
+    Examples
+    --------
+    >>> from frames import lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> lumped_mass(bearing_for(2000e3), mass=204e3)
+    Frame("lumped mass": 2 nodes, 0 members, 0 springs, 0 diaphragms, 1 bearings)
     """
     require_device("bearing", bearing)
     frame = Frame(name, gravity)

@@ -112,6 +112,13 @@ def moment_frame(
     -----
     Refused with a `ModelError` if both `floor_mass` and `floor_load` are given, or a number is
     out of bounds. The members are rigidly joined; the steel's mass is at the nodes.
+
+    Examples
+    --------
+    >>> from frames import moment_frame
+    >>> from frames.demo import bearing_for
+    >>> moment_frame(bays=(2, 1), storeys=3, bearing=bearing_for(600e3), bay_width=(6.0, 5.0))
+    Frame("moment frame": 30 nodes, 46 members, 0 springs, 4 diaphragms, 6 bearings)
     """
     count = tuple(int(number) for number in pair(bays, "moment_frame: bays", count=True))
     levels = int(pair(storeys, "moment_frame: storeys", count=True)[0])

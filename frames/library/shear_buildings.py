@@ -127,6 +127,15 @@ def shear_building(
     weight, not that of its tributary area; what floors weigh beside the base (P-Delta of the
     storeys) adds no moment. Without a plan one bearing stands for all: nothing is known of their
     axial forces but the sum, and checks that need them are not evaluated.
+
+    Examples
+    --------
+    >>> from frames import shear_building
+    >>> from frames.demo import bearing_for
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> frame
+    Frame("shear building": 4 nodes, 0 members, 2 springs, 0 diaphragms, 1 bearings)
     """
     chains = _storeys(storey_mass, storey_stiffness, axial_stiffness, storeys)
     height = require_positive("shear_building: storey_height [m]", storey_height, error=ModelError)

@@ -44,6 +44,12 @@ class Bilinear:
         Force at first yield [N, N m].
     hardening : float
         Stiffness after yielding over the elastic one [-], in [0, 1).
+
+    Examples
+    --------
+    >>> law = Bilinear(stiffness=60e6, yield_force=300e3, hardening=0.03)
+    >>> 1e3 * law.yield_force / law.stiffness  # mm
+    5.0
     """
 
     stiffness: float
@@ -80,6 +86,13 @@ class Pinching:
         Growth delta_psi of the spread with the energy dissipated.
     severity : float
         lambda, by which the spread follows the depth.
+
+    Examples
+    --------
+    >>> from frames.laws import BoucWen
+    >>> law = BoucWen(stiffness=60e6, yield_force=300e3, pinching=Pinching(severity=0.2))
+    >>> law.pinching.severity
+    0.2
     """
 
     slip: float = 0.9
@@ -124,6 +137,13 @@ class BoucWen:
         Degradation a unit of normalised energy [-], >= 0.
     pinching : Pinching or None
         Slip that pinches the loops.
+
+    Examples
+    --------
+    >>> from frames.laws import Pinching
+    >>> law = BoucWen(stiffness=60e6, yield_force=300e3, strength_loss=0.01, pinching=Pinching())
+    >>> law.pinching.slip
+    0.9
     """
 
     stiffness: float
@@ -168,6 +188,11 @@ class Tie:
         Stiffness after yielding over the elastic one [-], in [0, 1).
     slack : float
         Elongation from the state under permanent loads at which it begins to pull [m], >= 0.
+
+    Examples
+    --------
+    >>> Tie(stiffness=20e6, yield_force=150e3)
+    Tie(stiffness=20000000.0, yield_force=150000.0, hardening=0.0, slack=0.0)
     """
 
     stiffness: float
@@ -203,6 +228,12 @@ class ViscousDamper:
         Of brace, clevis and fluid in series [N/m]; infinity for none.
     linear_below : float
         Speed about which the force turns over smoothly where the exponent is below 1 [m/s].
+
+    Examples
+    --------
+    >>> damper = ViscousDamper(coefficient=400e3, exponent=0.4)
+    >>> round(damper.coefficient * 0.3**damper.exponent / 1e3)  # kN at 0.3 m/s
+    247
     """
 
     coefficient: float
@@ -236,6 +267,14 @@ class Gap:
         c [N s/m], >= 0; `Gap.damping_for` gives it for a coefficient of restitution.
     soft : float
         Penetration over which the damping comes in [m].
+
+    Examples
+    --------
+    >>> from frames import Frame
+    >>> from frames.demo import bearing_for
+    >>> from frames import lumped_mass
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame.add_moat("moat", ["mass"], Gap(gap=0.3, stiffness=500e6))
     """
 
     gap: float
@@ -305,6 +344,13 @@ class HertzGap:
         e, speed after over speed before the impact [-], in [0.05, 1].
     exponent : float
         n [-], in [1, 3]; 1.5 of two spheres.
+
+    Examples
+    --------
+    >>> from frames.demo import bearing_for
+    >>> from frames import lumped_mass
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame.add_moat("moat", ["mass"], HertzGap(gap=0.3, stiffness=2e9, restitution=0.6))
     """
 
     gap: float
@@ -357,6 +403,15 @@ class PlasticHinge:
     hardening : float
         Stiffness of the hinged member in double curvature after yielding over the elastic one [-],
         in [0, 1); steel beams 0.03 (ASCE/SEI 41-17, 9.4.2.2).
+
+    Examples
+    --------
+    >>> from frames import moment_frame
+    >>> from frames.demo import bearing_for
+    >>> beam = PlasticHinge(moment_y=400e3, hardening=0.02)  # N m
+    >>> frame = moment_frame((1, 1), 2, bearing=bearing_for(400e3), hinges={"beam": beam})
+    >>> len(frame.hinges)
+    8
     """
 
     moment_y: float = math.inf

@@ -201,7 +201,7 @@ def refuse_other_supports(
 
 
 def refuse_leaning(system: System, initial: SparseMatrix) -> None:
-    """Refuse a structure that falls over under its loads while its bearings are held.
+    """Refuse a structure that falls over under its loads on a fixed base.
 
     Parameters
     ----------

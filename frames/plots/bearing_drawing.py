@@ -147,6 +147,10 @@ def bearing_sections(
     -----
     Surfaces, sliders, tilt, slip, lift and the place of the rims are to scale. The thickness of the
     plates and the height of the rims are for the picture: the model does not depend on them.
+
+    Examples
+    --------
+    In the gallery: "An impact in sections" (docs/gallery/bearing/f_sections.py).
     """
     data = pick.in_window(data, start, end)
     drawn = ("bearing_displacement", "slider_displacement", "rim_force", "interface_slip_size")
@@ -222,7 +226,7 @@ def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | No
         Half the width of the surfaces of a bearing without rims [m].
     """
     bodies = outlines(bearing, now, reach)
-    if bearing.is_dcfp:  # one piece: both caps without the plane faces between
+    if bearing.is_dcfp:  # rigid slider: both caps without the plane faces between
         caps = [bodies.pop("bottom slider")[:-2], bodies.pop("top slider")[-3::-1]]
         bodies["bottom slider"] = np.vstack(caps)
     for body, outline in bodies.items():

@@ -40,7 +40,7 @@ class Geometry(Protocol):
 
     @property
     def is_dcfp(self) -> bool:
-        """Whether the slider is one piece."""
+        """Whether the slider is rigid."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Device:
     rim_displacement : (float, float)
         Sliding at which each rim is met [m]; infinite without rims.
     is_dcfp : bool
-        Whether the slider is one piece.
+        Whether the slider is rigid.
     """
 
     radii: tuple[float, float]

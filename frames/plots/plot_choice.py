@@ -203,6 +203,17 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     ------
     ValueError
         If there is no such variable.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.plots import worst_bearing
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> worst_bearing(data, "bearing_displacement")
+    'bearing'
     """
     kept = largest_kept(data, _KEPT.get(variable, ""))
     if kept is not None:  # of all steps, whatever was recorded

@@ -73,6 +73,10 @@ def hinge_map(
         If the time history is not one of this model.
     ValueError
         If it has no hinges, the instant lies outside of it, or the limits do not grow from 0.
+
+    Examples
+    --------
+    In the gallery: "Plastic hinges" (docs/gallery/building/g_hinges.py).
     """
     bounds = None if limits is None else _bounds(limits)
     system = assemble(model)

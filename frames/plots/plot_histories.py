@@ -63,6 +63,10 @@ def histories(
     ------
     ValueError
         If a quantity or the bearing is unknown, or nothing lies in the window.
+
+    Examples
+    --------
+    In the gallery: "Histories of a building" (docs/gallery/building/c_histories.py).
     """
     found = pick.as_systems(systems, start, end)
     names = list(USUAL) if quantities is None else pick.several(quantities)

@@ -49,6 +49,10 @@ def link_loops(
     ------
     ValueError
         If there are no links, none of a name, or nothing in the window.
+
+    Examples
+    --------
+    In the gallery: "Storeys that yield" (docs/gallery/building/h_storeys.py).
     """
     found = pick.as_systems(systems, start, end)
     shown = _chosen(found, links)

@@ -71,6 +71,10 @@ def hysteresis(
     ------
     ValueError
         If there is no such bearing, nothing in the window, or no weight to divide by.
+
+    Examples
+    --------
+    In the gallery: "Loops of a time history" (docs/gallery/bearing/i_hysteresis.py).
     """
     if force_limit is not None and not force_limit > 0.0:
         msg = f"force_limit = {force_limit} must be greater than 0 [-]: leave it out for a default"
@@ -137,6 +141,10 @@ def orbits(
     ------
     ValueError
         If there is no such bearing or system, or nothing in the window.
+
+    Examples
+    --------
+    In the gallery: "Orbits of two devices" (docs/gallery/bearing/g_orbits.py).
     """
     found = pick.as_systems(systems, start, end)
     bearing = pick.choose_bearing(found, bearing, "bearing_displacement")

@@ -76,6 +76,10 @@ def model_view(
         If the time history is not one of this model.
     ValueError
         If the instant lies outside of it, or the factor is not positive.
+
+    Examples
+    --------
+    In the gallery: "A building on nine bearings" (docs/gallery/building/a_model.py).
     """
     system = assemble(model)
     u, title, scale = np.zeros((len(system.node_names), 6)), model.name, 1.0
@@ -130,6 +134,19 @@ def model_film(
         If the time history is not one of this model.
     ValueError
         If nothing lies in the window, or a factor is not positive.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.plots import model_film
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> film = model_film(frame, time_history(frame, pulse), end=0.05)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     film.save(f"{folder}/model.gif", writer="pillow")
     """
     system = assemble(model)
     require_own(model, system, data)
@@ -187,6 +204,10 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
         If more than six are asked for.
     ModelError
         As `frames.modes` does.
+
+    Examples
+    --------
+    In the gallery: "Modes with the bearings sliding" (docs/gallery/building/b_modes.py).
     """
     if count > len(ps.COLUMNS) - 1:
         msg = f"count = {count}: at most {len(ps.COLUMNS) - 1} modes go on a page; draw fewer"

@@ -42,6 +42,10 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     ------
     ValueError
         If the Dataset does not tell the places of nodes.
+
+    Examples
+    --------
+    In the gallery: "A slender building lifts" (docs/gallery/building/i_uplift.py).
     """
     pick.need(data, ("node_position", "bearing_node"), "draw a result of time_history")
     lower = data["bearing_node"].sel(end="i").to_numpy()

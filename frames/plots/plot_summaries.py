@@ -81,13 +81,17 @@ def storey_profiles(
     Figure
         Left the drift of each storey [%], right the total horizontal acceleration of each level
         [m/s2]: both the largest size of the vector in plan, as in `peaks`. Lines are those of the
-        mean of a level's nodes, rings those of its worst line or corner. Without a window of
+        mean of a level's nodes, rings the maximum at any column line or corner. Without a window of
         time: of all steps of the run, also of those that its recording leaves out.
 
     Raises
     ------
     ValueError
         If a model has fewer than two levels, or nothing lies in the window.
+
+    Examples
+    --------
+    In the gallery: "Storey profiles" (docs/gallery/building/d_profiles.py).
     """
     found = pick.as_systems(systems, start, end)
     figure = ps.new_figure(3.6)
@@ -152,6 +156,10 @@ def floor_spectra(
     ------
     ValueError
         If there is no such level, or nothing lies in the window.
+
+    Examples
+    --------
+    In the gallery: "Floor spectra" (docs/gallery/building/e_floor_spectra.py).
     """
     found = pick.as_systems(systems, start, end)
     first = next(iter(found.values()))
@@ -190,7 +198,7 @@ def _peaks(data: xr.Dataset, name: str, *, whole: bool) -> FloatArray:
 def _corners(
     left: Axes, right: Axes, data: xr.Dataset, place: int, of: Callable[[str], FloatArray]
 ) -> None:
-    # The worst line of nodes in each storey, the worst node of each level.
+    # The largest drift at any column line of each storey, the worst node of each level.
     if "node_position" not in data:
         return  # a file of an earlier version
     z, levels = data["level_height"].to_numpy(), data["level"].to_numpy()
@@ -231,6 +239,10 @@ def energy(
     ------
     ValueError
         If nothing lies in the window, or the Dataset has no energies.
+
+    Examples
+    --------
+    In the gallery: "Energy balance" (docs/gallery/building/f_energy.py).
     """
     found = pick.as_systems(systems, start, end)
     for data in found.values():

@@ -82,6 +82,17 @@ def member_forces(
     ------
     ModelError
         If the model is not the one that was analysed, or has no such member.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, member_forces, moment_frame, time_history
+    >>> from frames.demo import bearing_for
+    >>> frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3))
+    >>> data = time_history(frame, GroundMotion(x=np.ones(11), dt=0.01))
+    >>> forces = member_forces(frame, data, ["column-1-0-0"])
+    >>> forces.dims, forces["component"].values.tolist()
+    (('time', 'member', 'end', 'component'), ['N', 'Vy', 'Vz', 'T', 'My', 'Mz'])
     """
     found = _structure(model, data)
     names = found.system.members.names
@@ -114,6 +125,19 @@ def support_reactions(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     ------
     ModelError
         If the model is not the one that was analysed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, shear_building, support_reactions, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> reactions = support_reactions(frame, data)
+    >>> reactions.dims
+    ('time', 'support', 'dof')
     """
     return _support_reactions(_structure(model, data))
 
@@ -143,6 +167,19 @@ def storey_forces(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     ------
     ModelError
         If the model has no level, or is not the one that was analysed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, shear_building, storey_forces, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> forces = storey_forces(frame, data)
+    >>> forces["storey"].values.tolist(), forces["component"].values.tolist()
+    (['base', 'floor-1', 'floor-2'], ['Vx', 'Vy', 'Fz', 'Mx', 'My', 'Mz'])
     """
     found = _structure(model, data)
     if not model.levels:
@@ -174,6 +211,18 @@ def force_tables(model: FrameData, data: xr.Dataset) -> dict[str, pd.DataFrame]:
         If the model is not the one that was analysed.
     ValueError
         If the recording has the first and the last step only.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, force_tables, shear_building, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> sorted(force_tables(frame, data))
+    ['storeys', 'supports']
     """
     require_steps(data, "force_tables")
     found = _structure(model, data)

@@ -84,6 +84,17 @@ class Finding:
         For people.
     doubtful : bool
         Whether what came into play asks to be looked at.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, audit, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> found = audit(data)[1]
+    >>> found.feature, found.left_out, found.mattered
+    ('interface', False, False)
     """
 
     feature: str
@@ -134,6 +145,18 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     A recording that leaves steps or variables out (`Recording`) keeps what was reached at all
     steps, so that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the
     recorded steps are seen.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, audit, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> [found.feature for found in audit(data) if found.mattered]
+    ['velocity_dependence']
+    >>> audit(data)[0].sentence
+    'rims: not needed, reached 95 % of the displacement capacity'
     """
     require_type("data", data, xr.Dataset, "a Dataset of time_history")
     out = left_out(data)
@@ -156,6 +179,16 @@ def audit_report(data: xr.Dataset) -> str:
     str
         Lines that begin with "!" tell of something left out that mattered, or of a slip that the
         interface may not hold.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, audit_report, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> audit_report(data).splitlines()[1]
+    '  rims: not needed, reached 95 % of the displacement capacity'
     """
     return report_of(audit(data))
 
@@ -340,7 +373,7 @@ def _full_contact(data: xr.Dataset) -> Finding:
 
 
 def _slip_stability(data: xr.Dataset) -> Finding:
-    # docs/theory.md (2.7), with the friction of high speed; one piece holds without end
+    # docs/theory.md (2.7), with the friction of high speed; a rigid slider holds without end
     friction = data.variables["interface_friction"].to_numpy()
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
     held = data.variables["length"].to_numpy() * friction

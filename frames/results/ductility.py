@@ -62,6 +62,20 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
     ------
     ValueError
         If histories were left out of the recording that kept no extremes of them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, ductility, shear_building, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.laws import Bilinear
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6,
+    ...                        storey_law=lambda k: Bilinear(stiffness=k, yield_force=95e3))
+    >>> data = time_history(frame, pulse, dt=0.004)
+    >>> bool(ductility(data).loc["storey-1-x", "ductility"] > 1.0)
+    True
     """
     rows = []
     if "link_yield_deformation" in data:
@@ -102,6 +116,20 @@ def storey_ductility(data: xr.Dataset) -> pd.DataFrame:
     ------
     ValueError
         If no links are those of storeys: "storey-1-x", "storey-1-y" and so on.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, shear_building, storey_ductility, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.laws import Bilinear
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6,
+    ...                        storey_law=lambda k: Bilinear(stiffness=k, yield_force=95e3))
+    >>> data = time_history(frame, pulse, dt=0.004)
+    >>> storey_ductility(data)["x"].round(1).to_dict()
+    {'storey-1': 6.0, 'storey-2': 0.6}
     """
     table = ductility(data)
     storeys: dict[int, dict[str, float]] = {}

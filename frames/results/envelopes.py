@@ -46,6 +46,17 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
         If the values have no dimension `time`, were not recorded, or only at both ends of the run.
     TypeError
         If a variable is named without a Dataset, or the other way round.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, envelope, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> found = envelope(data, "axial_force").squeeze()
+    >>> 1.0 < float(found["largest"] / data["weight"]) < 1.5
+    True
     """
     if isinstance(values, xr.Dataset):
         return _envelope_of(values, variable)
@@ -106,6 +117,20 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
         If openpyxl is missing.
     TypeError
         If tables are not given by name, or one is no table.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, peaks, time_history, write_tables
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_tables({"peaks": peaks(data)}, folder)
+    ...     print([path.name for path in Path(folder).iterdir()])
+    ['peaks.csv']
     """
     given: object = tables
     if not isinstance(given, Mapping):

@@ -41,6 +41,16 @@ def energy_error(data: xr.Dataset) -> float:
     float
         Largest gap ``|input - (sum of all other terms)|`` over the largest input [-]; in joule
         where there was no input.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, energy_error, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> energy_error(data) < 1e-6
+    True
     """
     kept = [largest_kept(data, name) for name in ("energy_gap", "energy_input")]
     if kept[0] is not None and kept[1] is not None:
@@ -72,6 +82,19 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     ------
     ValueError
         If the model has fewer than two levels, or the nodes were not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, shear_building, storey_drift, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> drift = storey_drift(data)
+    >>> drift.dims, 1e-5 < float(abs(drift).max()) < 1e-2
+    (('time', 'storey', 'axis'), True)
     """
     heights = _level_heights(data)
     means = _level_means(data, "node_displacement", ["ux", "uy"])
@@ -98,6 +121,18 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
     xarray.DataArray
         Means over the level's nodes by their masses: the acceleration of its centre of mass. Nodes
         without mass count only on a level that has none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, floor_acceleration, shear_building, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> floor_acceleration(data).sel(axis="x").dims
+    ('time', 'level')
     """
     require_recorded(data, "means over levels", "node_acceleration")
     require_whole_levels(data, "means over levels")
@@ -162,6 +197,18 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     ------
     ValueError
         If the model has fewer than two levels.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, drift_by_line, shear_building, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> drift_by_line(data).dims
+    ('time', 'line', 'axis')
     """
     require_recorded(data, "drift_by_line", "node_displacement")
     require_whole_levels(data, "drift_by_line")
@@ -221,6 +268,19 @@ def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.
         If a period or the damping is out of its bounds.
     ValueError
         If the records are not equally spaced in time, or are the first and the last step only.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, floor_spectrum, shear_building, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
+    ...                        storey_stiffness=40e6)
+    >>> data = time_history(frame, pulse)
+    >>> spectrum = floor_spectrum(data, periods=[0.1, 0.5, 1.0])
+    >>> spectrum.dims
+    ('level', 'axis', 'period')
     """
     require_steps(data, "floor_spectrum")
     return spectra_of(floor_acceleration(data), periods, damping)
@@ -271,6 +331,16 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
     ------
     ValueError
         If what it is made from was not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history, uplift_gap
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> float(uplift_gap(data).max())
+    0.0
     """
     require_recorded(
         data,

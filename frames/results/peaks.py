@@ -61,6 +61,17 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     ------
     TypeError
         If it is no Dataset.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, peaks, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> row = peaks(data).loc["bearing displacement"]
+    >>> round(float(row["value"]), 2), row["unit"], row["where"]
+    (0.24, 'm', 'bearing')
     """
     remedy = "a Dataset of time_history; for several, summary({name: data, ...})"
     require_type("data", data, xr.Dataset, remedy)
@@ -91,6 +102,17 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     ------
     TypeError
         If results are not given by name.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, summary, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> table = summary({"as it is": data})
+    >>> list(table), table.loc["status"].tolist()
+    (['as it is'], ['ok'])
     """
     given: object = results
     if isinstance(given, xr.Dataset) or not isinstance(given, Mapping):

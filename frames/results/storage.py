@@ -35,6 +35,19 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
         it; nothing is left behind, and `data` can be saved elsewhere.
     TypeError
         If it is no Dataset.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from frames import GroundMotion, load, lumped_mass, save, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(data, f"{folder}/run.nc", compress=True)
+    ...     print(load(f"{folder}/run.nc").attrs["status"])
+    ok
     """
     given: object = data
     if not isinstance(given, xr.Dataset):
@@ -158,6 +171,19 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
         If there is no such file.
     OSError
         If it holds no results.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from frames import GroundMotion, load, lumped_mass, save, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(data, f"{folder}/run.nc")
+    ...     print(load(f"{folder}/run.nc").equals(data))
+    True
     """
     if not Path(path).is_file():
         msg = f"{path} is no file: give one that save, or `lir run`, has written"

@@ -99,7 +99,7 @@ def _next(
     missing = [f for f in findings if is_missing(f) and f.feature in names]
     if missing:
         wider = features.including(*(f.feature for f in missing))
-        if wider.rims and not features.rims:  # one piece would break the rims that are met
+        if wider.rims and not features.rims:  # a rigid slider would break the rims that are met
             wider = wider.including("interface")
         return wider, level, "again, for " + "; ".join(f.sentence for f in missing)
     wanted = needed_level(findings)

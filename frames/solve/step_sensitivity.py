@@ -68,6 +68,16 @@ def step_sensitivity(
     AuditWarning
         If noise changes the displacements by more than 1 %: no step makes their peak exact, and
         several disturbed motions have to be judged; or if the halved step does.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, step_sensitivity
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> found = step_sensitivity(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> bool(found["halved"].max() < 0.02)
+    True
     """
     for name in ("record_every", "recording"):
         if name in options:

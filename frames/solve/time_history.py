@@ -21,6 +21,7 @@ from frames.results.assumption_checks import doubts_of
 from frames.solve.level_escalation import escalate_level, mark_other_end
 from frames.solve.options import Options, check_options, check_reduction, options_of
 from frames.solve.outcome import Outcome, concluded, ended
+from frames.solve.progress_line import share_told
 from frames.solve.rigid import LARGEST_STEP, rigid_time_history
 from frames.statics.basis_refinement import refined
 from frames.statics.blas_threads import blas_threads_for
@@ -78,7 +79,7 @@ def time_history(
     recording: Recording | None = None,
     on_failure: Literal["warn", "raise"] = "warn",
     features: Features | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], None] | bool | None = None,
 ) -> xr.Dataset:
     """Analyse a frame on bearings under a ground motion.
 
@@ -125,7 +126,7 @@ def time_history(
     recording : Recording, optional
         What is recorded: steps, variables, bearings, nodes, windows around impacts, extremes;
         everything if None. Not together with `record_every`. The assumption check, `peaks` and the
-        energy balance of energy see all base steps, whatever is recorded. At the level "rigid_body"
+        energy balance see all base steps, whatever is recorded. At the level "rigid_body"
         memory is taken for all of them while it runs, and with `every` alone only the recorded ones
         are seen.
     on_failure : {"warn", "raise"}
@@ -134,15 +135,16 @@ def time_history(
     features : Features, optional
         What is modelled; everything if None. The assumption check tells whether what was left out
         mattered. Not together with ``level="auto"``, which chooses for itself.
-    progress : callable, optional
-        Called with the share done (0 to 1) some fifty times.
+    progress : callable or bool, optional
+        Called with the share done (0 to 1) some fifty times; True writes a bar to the standard
+        error, in a notebook too.
 
     Returns
     -------
     xarray.Dataset
         See docs/results.md. Attributes hold status, message, versions, options, timings and the
         assumption check: for each feature left out whether it mattered, with a number. A run whose
-        energy balance of energy is open by more than 0.1 % of the input has the status "inaccurate"
+        energy balance is open by more than 0.1 % of the input has the status "inaccurate"
         and warns; what "generalised-alpha" takes out may reach 1 %, and is named by a warning from
         0.1 % on. An AuditWarning tells of a completed run in whose assumption check a line begins
         with "!".
@@ -158,11 +160,21 @@ def time_history(
     lir_element.AnalysisInterrupted
         After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed. A plain
         KeyboardInterrupt before the first step.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> data.attrs["status"], round(float(abs(data["bearing_displacement"]).max()), 2)
+    ('ok', 0.24)
     """
     check_analysis(model, motion)
     check_options(level, method, integrator, on_failure, features)
     check_reduction(method, level, reduction_tolerance)
-    wanted = recording_of(recording, record_every)
+    wanted, told = recording_of(recording, record_every), share_told(progress)
     options = options_of(
         motion,
         duration,
@@ -172,7 +184,7 @@ def time_history(
         spectral_radius=spectral_radius,
         tolerance=tolerance,
         recording=wanted,
-        progress=progress,
+        progress=told,
         reduction=reduction_tolerance,
     )
     if level == "rigid_body":
@@ -184,7 +196,7 @@ def time_history(
             integrator=integrator,
             tolerance=tolerance,
             recording=wanted,
-            progress=progress,
+            progress=told,
         )
         return _told(report(data, *outcome, on_failure=on_failure))
     outcomes: list[Outcome] = []

@@ -71,6 +71,14 @@ class GravityState:
         What the bearings carry of the weight above them, and what supports take past them.
     parts : NonlinearElements or None
         Links and hinged members, at rest.
+
+    Examples
+    --------
+    >>> from frames import gravity, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> state = gravity(lumped_mass(bearing_for(2000e3), mass=204e3))
+    >>> str(state).split(";")[0]
+    'GravityState: 2001 kN on 1 bearings, 2001 to 2001 kN each'
     """
 
     system: System
@@ -124,7 +132,7 @@ class GravityState:
         return (
             f"GravityState: {1e-3 * self.axial_forces.sum():.4g} kN on {len(self.axial_forces)} "
             f"bearings, {low:.4g} to {high:.4g} kN each; {len(self.displacement)} degrees of "
-            f"freedom, {len(self.basis.omega2)} modes over held bearings"
+            f"freedom, {len(self.basis.omega2)} fixed-base modes"
         )
 
     def _repr_html_(self) -> str:
@@ -176,8 +184,16 @@ def gravity(
     Warns
     -----
     ModelWarning
-        If supports take weight past the bearings, or numbers look as if given in other units
+        If supports other than bearings carry weight, or numbers look as if given in other units
         (`Frame.check` lists the same).
+
+    Examples
+    --------
+    >>> from frames import gravity, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> state = gravity(lumped_mass(bearing_for(2000e3), mass=204e3))
+    >>> (state.axial_forces / 1e3).round(0).tolist()
+    [2001.0]
     """
     require_type("frame", frame, FrameData, "a Frame")
     with blas_threads_for(frame):

@@ -65,6 +65,14 @@ class ModelCheck:
         What is strange, a sentence each.
     failure : str
         Why there is no equilibrium under permanent loads; empty where there is.
+
+    Examples
+    --------
+    >>> from frames import lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> checked = lumped_mass(bearing_for(2000e3), mass=204e3).check()
+    >>> checked.ok, checked.mass, round(checked.weight / 1e3)
+    (True, 204000.0, 2001)
     """
 
     name: str
@@ -149,7 +157,7 @@ _HEAD = (
 
 def _held(load: BearingLoad) -> str:
     if math.isinf(load.slip_stability):
-        return "one piece"
+        return "rigid slider"
     overlap = f"{1e3 * load.slip_capacity:.3g} mm"
     if load.slip_stability >= load.slip_capacity:
         return f"all {overlap}"

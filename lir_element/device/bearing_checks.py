@@ -39,7 +39,19 @@ _OPTIONAL = (
 
 
 class DesignWarning(UserWarning):
-    """A bearing that can be computed, but will not work as it is meant to."""
+    """A bearing that can be computed, but will not work as it is meant to.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element import LIRBearing
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08,
+    ...                          capacity=0.175, friction=0.066, interface_friction=0.067)
+    >>> str(told[0].message).split(": ")[1]
+    'the interface slips before the slider meets a rim'
+    """
 
 
 def check_bearing(bearing: Specification) -> None:

@@ -22,7 +22,7 @@ class Features:
     rims : bool
         Rims of the plates. Left out: the slider goes on beyond them.
     interface : bool
-        The plane interface between the two sliders. Left out: the slider is one piece.
+        The plane interface between the two sliders. Left out: the slider is rigid.
     uplift : bool
         The axial contact opens. Left out: it pulls.
     plate_rotation : bool

@@ -83,7 +83,7 @@ class Specification:
 
     @property
     def effective_friction(self) -> float:
-        """Sliding force at zero displacement over weight, at high speed [-].
+        """Characteristic strength ratio Q/W at high speed [-].
 
         (mu1 R1 + mu2 R2) / L, from the moment equilibrium of the slider.
         """
@@ -112,7 +112,7 @@ class Specification:
 
     @property
     def is_dcfp(self) -> bool:
-        """Whether the slider is one piece."""
+        """Whether the slider is rigid, as in a plain DCFP."""
         return math.isinf(self.interface_friction)
 
     def resolved(self) -> dict[str, float]:

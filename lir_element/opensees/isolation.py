@@ -36,7 +36,27 @@ _AXES = {"y": 1, "z": 2}
 
 
 class IsolationWarning(UserWarning):
-    """What should be known of bearings that were put under a model."""
+    """What should be known of bearings that were put under a model.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import isolate, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     isolation = isolate([1], bearing)
+    >>> str(told[0].message).split(":")[0]
+    'the base nodes have no mass'
+    >>> ops.wipe()
+    """
 
 
 @dataclass(frozen=True)
@@ -61,6 +81,23 @@ class Isolation:
         Tangent of the bearings, "consistent" or "symmetric".
     notes : tuple of str
         What should be known; each was a warning, too.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import isolate, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> ops.mass(1, 2e4, 2e4, 2e4, 0.0, 0.0, 0.0)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> isolation = isolate([1], bearing)
+    >>> isolation.elements, isolation.grounds
+    ({1: 1}, {1: 2})
+    >>> ops.wipe()
     """
 
     elements: dict[int, int]

@@ -31,6 +31,14 @@ def opensees() -> Any:
     The build for Python 3.11 (3.7.1) does not find the BLAS library that it brings along unless
     that is loaded before; this is done here, so that call this before a script's own
     ``import openseespy.opensees``.
+
+    Examples
+    --------
+    >>> from lir_element.opensees import opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.getNodeTags()
+    []
     """
     if _NAME in sys.modules:
         return sys.modules[_NAME]

@@ -20,7 +20,28 @@ _NDF = {2: 3, 3: 6}
 
 
 class PlacementWarning(UserWarning):
-    """A bearing that may not stand as it was meant to."""
+    """A bearing that may not stand as it was meant to.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import bearing_element, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(2, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     route = bearing_element(10, 1, 2, bearing)
+    >>> str(told[0].message).split(":")[0]
+    'node 2, the upper one, is held by a support and node 1, the lower one, is not'
+    >>> ops.wipe()
+    """
 
 
 class Placement(NamedTuple):

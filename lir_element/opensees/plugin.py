@@ -31,7 +31,16 @@ _LARGEST_TAG = 2**31 - 1
 
 
 class RouteWarning(UserWarning):
-    """The in-process coupling is not possible; the portable one is taken."""
+    """The in-process coupling is not possible; the portable one is taken.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element.opensees import RouteWarning
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", RouteWarning)  # rather fail than run out of process
+    ...     # ... bearing_element(10, 1, 2, bearing)
+    """
 
 
 class _Session:
@@ -226,13 +235,53 @@ def bearing_response(tag: int, name: str) -> Any:
         If there is no such bearing in the model.
     KeyError
         If the response is not known; the message lists all.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import bearing_element, bearing_response, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> route = bearing_element(10, 1, 2, bearing)
+    >>> float(bearing_response(10, "axial_force"))
+    0.0
+    >>> ops.wipe()
     """
     bearing = bearing_at(tag)
     return bearing.route if name == "route" else bearing.response(name)
 
 
 def bearing_tags() -> tuple[int, ...]:
-    """Return the tags of all bearings in the current model."""
+    """Return the tags of all bearings in the current model.
+
+    Returns
+    -------
+    tuple of int
+        In the order in which they were added.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import bearing_element, bearing_tags, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> route = bearing_element(10, 1, 2, bearing)
+    >>> bearing_tags()
+    (10,)
+    >>> ops.wipe()
+    """
     _SESSION.sweep()
     return tuple(_SESSION.bearings)
 

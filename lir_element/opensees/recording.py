@@ -28,7 +28,12 @@ if TYPE_CHECKING:
 
 
 class BearingRecording:
-    """The committed states of bearings from now on; made by `record_bearings`."""
+    """The committed states of bearings from now on; made by `record_bearings`.
+
+    Examples
+    --------
+    In the gallery: "A bearing in OpenSeesPy" (docs/gallery/opensees/a_bearing.py).
+    """
 
     def __init__(self, tags: tuple[int, ...], every: int) -> None:
         self.tags = tags
@@ -167,6 +172,10 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     ------
     ValueError
         If there is no such bearing, or `every` is below 1.
+
+    Examples
+    --------
+    In the gallery: "A bearing in OpenSeesPy" (docs/gallery/opensees/a_bearing.py).
     """
     _check_every(every)
     chosen = tags or bearing_tags()

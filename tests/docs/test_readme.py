@@ -16,6 +16,9 @@ ROOT = Path(__file__).parents[2]
 PAGES = (
     "README.md",
     "docs/guide.md",
+    "docs/how_it_works.md",
+    "docs/walls.md",
+    "docs/motions.md",
     "docs/opensees.md",
     "docs/own_driver.md",
     "docs/fragility.md",

@@ -10,10 +10,14 @@ import sys
 import time
 import zlib
 from collections.abc import Iterator
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from typer.main import get_group
+
+from frames.command.app import app
 
 pytest.importorskip("sphinx_gallery")
 
@@ -153,6 +157,19 @@ def test_scripts_can_be_downloaded_as_notebooks(site: Path) -> None:
     scripts = [p for kind in ("gallery", "tutorials") for p in (ROOT / "docs" / kind).rglob("*.py")]
     downloads = {path.name for path in (site / "_downloads").rglob("*.ipynb")}
     assert downloads == {f"{path.stem}.ipynb" for path in scripts}
+
+
+def test_every_command_and_option_is_on_its_page(site: Path) -> None:
+    page = unescape((site / "docs" / "cli.html").read_text(encoding="utf-8"))
+    plain = re.sub(r"<[^>]+>", "", page).replace("\u2019", "'")  # quotes are set as in print
+    text = " ".join(plain.split())
+    commands = get_group(app).commands
+    assert len(commands) > 5
+    for name, command in commands.items():
+        assert f"lir {name}" in text, name
+        assert " ".join((command.help or "").split("\n")[0].split()) in text, name
+        for option in (word for one in command.params for word in one.opts if "-" in word):
+            assert option in text, (name, option)
 
 
 def test_search_finds_terms_and_units(site: Path) -> None:

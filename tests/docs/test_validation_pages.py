@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import validation
+from validation.measurements.opensees_cost import BASE, verdict
 from validation.page import CLAIMS, FOLDER, index
 
 MEASUREMENTS = (
@@ -90,3 +91,11 @@ def test_pages_and_figures_belong_to_claims():
 def test_figures_are_small():
     for path in (FOLDER / "figures").iterdir():
         assert path.stat().st_size < (1_500_000 if path.suffix == ".gif" else 200_000), path.name
+
+
+def test_each_coupling_is_held_against_its_goal():
+    times = {BASE: [1.0, 2.0], "LIR-DCFP, in-process coupling": [1.2, 2.8]}
+    times["LIR-DCFP, out-of-process coupling"] = [3.5, 7.5]
+    assert verdict("house", times) == (
+        "house: in-process 1.30 (met), out-of-process 3.62 (**missed**)."
+    )

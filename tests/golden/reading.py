@@ -64,7 +64,7 @@ class Bearing:
         self.low = 0.5 * (self.h + caps[0] - caps[1])  # height of the interface over the vertex
 
     def share(self, friction):
-        """Return the sliding force over the load."""
+        """Return the characteristic strength ratio Q/W."""
         return friction * self.R.sum() / self.L
 
 

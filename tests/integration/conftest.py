@@ -1,4 +1,4 @@
-"""Runs shared by the tests of the driver; each one's energy balance is checked as it is made."""
+"""Runs shared by tests of time histories; each one's energy balance is checked as it is made."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

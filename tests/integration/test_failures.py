@@ -74,7 +74,7 @@ def check_rows(data, base: float, every: int = 1) -> None:
     left = data.attrs["failed_at"] - time[-1]
     assert 0.0 < left <= base * every * (1.0 + 1e-9)
     for name, values in data.items():
-        if name in {"rim_displacement", "interface_friction"}:  # without rims, in one piece
+        if name in {"rim_displacement", "interface_friction"}:  # without rims, rigid slider
             assert not np.isnan(values.to_numpy()).any(), name
             continue
         assert np.isfinite(values.to_numpy()).all(), name

@@ -83,7 +83,7 @@ def test_ledger_closes_with_everything_left_out(run, motion):
     ],
 )
 def test_left_out_is_the_device_without(run, motion, name, other):
-    weak = motion.scaled(0.6)  # one piece would overrun its rims
+    weak = motion.scaled(0.6)  # a rigid slider would overrun its rims
     a = run(building(device()), weak, dt=DT, features=Features().without(name))
     b = run(building(other), weak, dt=DT)
     for variable in ("node_displacement", "bearing_force", "energy"):

@@ -1,4 +1,4 @@
-"""The driver against an independent route: full coordinates, Newmark, plain Python, Element.
+"""Time histories against an independent route: full coordinates, Newmark, plain Python, Element.
 
 Nothing of the change of basis, the assembly of bearings or the compiled loop is used here: the
 matrices of the frame, bearings as `Element` objects, and a damping matrix built from its

@@ -81,7 +81,7 @@ def table(ops, up="z", length=1.0, force=1.0, *, fibres=False, base_mass=5e3, su
 
 
 def shake(ops, nodes, elements, *, length=1.0, up="z", duration=2.5, system="UmfPack"):
-    """Loads, then waves in three directions; displacements in m by x, y, z of a model z up."""
+    """Loads, then a synthetic motion; displacements in m by x, y, z of a model z up."""
     gravity_analysis(ops)
     motion = waves(0.7, duration)
     if up == "y":

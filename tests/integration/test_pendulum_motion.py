@@ -1,4 +1,4 @@
-"""The driver against the exact equations of motion of a frictionless spherical pendulum.
+"""Time histories against the exact equations of motion of a frictionless spherical pendulum.
 
 A mass on a bearing without friction is a point mass held off the bottom sphere's centre by a
 compression spring of length L (the 'string'): c = (ux, uy, uz - L) from centre to centre,

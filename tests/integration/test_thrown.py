@@ -1,4 +1,4 @@
-"""Bearings that a vertical pulse throws up: one piece leaves its rims, or tumbles between them."""
+"""Bearings that a vertical pulse throws up: a rigid slider leaves its rims, or tumbles."""
 
 import math
 

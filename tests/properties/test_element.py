@@ -497,7 +497,7 @@ def test_friction_and_contact_stay_within_bounds(
     assert_array_equal(r.axial_force[lifted], 0.0)
     if math.isfinite(bearing.interface_friction):
         assert_array_equal(r.rim_force[lifted], 0.0)
-    # one piece caught between its rims still passes what they press
+    # a rigid slider caught between its rims still passes what they press
     free = lifted & (r.rim_force.max(axis=1) == 0.0)
     assert free.any()
     assert_array_equal(r.resisting[free], 0.0)

@@ -217,7 +217,7 @@ def test_stiffness_before_slip(lab: SimpleNamespace) -> None:
 def test_force_at_rest_goes_with_the_root_of_the_axial_force(lab: SimpleNamespace) -> None:
     """And comes back with it: no cycle of the axial force moves a bearing that is held.
 
-    One piece in its plates' middle, pushed by a tenth of the yield displacement.
+    A rigid slider in its plates' middle, pushed by a tenth of the yield displacement.
     """
     bearing = device(lab, "fused")
     element, forces = Element(bearing), []

@@ -114,7 +114,7 @@ def test_rims_that_were_met():
 
 
 def test_interface_left_out():
-    """One piece carries mu (R1 + R2) / L of its load while it slides, 0.0526; mu_h is 0.12."""
+    """A rigid slider carries mu (R1 + R2) / L of its load while it slides, 0.0526; mu_h is 0.12."""
     data = run(device(), features=Features(interface=False))
     finding = found(data)["interface"]
     assert_allclose(finding.number, 0.05 * 2.0 / 1.9 / 0.12, rtol=0.01)

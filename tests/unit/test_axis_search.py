@@ -1,7 +1,7 @@
 """The search for the slider's axis where the slider leaves a rim and its slip turns round.
 
 There the laws of friction make the equilibrium unsymmetric, and a search from the axis that keeps
-the slip may run in circles. The committed state is one that a building under waves came to.
+the slip may run in circles. The committed state is one that a shaken building came to.
 """
 
 from typing import Any

@@ -165,7 +165,7 @@ def test_rims_that_engage_early() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"mu_h": math.inf}, "one piece"),
+        ({"mu_h": math.inf}, "slider is rigid"),
         ({"capacity": math.inf}, "no rims"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Claim: as a plain DCFP the element is the rigid slider's theory; the hinged one differs.
+"""Claim: as a plain DCFP the element is the rigid slider's theory; the articulated one differs.
 
     python -m validation.claims.double_pendulum
 
@@ -206,11 +206,11 @@ def text(rows: str, lost: float) -> list[str]:
     """Return the text of the page."""
     return [
         figure(CLAIM, "loops", "Loops of the element and of the articulated slider"),
-        "In the last panel one piece meets a rim at ±190 mm, and its force leaves the picture.",
+        "In the last panel the rigid slider meets a rim at ±190 mm, and its force leaves the picture.",
         "Each entry: element; Fenz and Constantinou; articulated with moment equilibrium. "
         f"Load {1e-3 * LOAD:.0f} kN, slider height {1e3 * HEIGHT:.0f} mm, hinge in the middle.",
         rows,
-        "## One piece",
+        "## The rigid slider",
         "A rigid slider that lies in full contact on both spheres has one axis n. With parallel "
         "plates it leans by one angle θ against both, `sin θ = U/L`, so **both surfaces slide "
         "together**: `d1/R1 = d2/R2`. It cannot slide on the surface of lower friction alone. The "
@@ -219,7 +219,7 @@ def text(rows: str, lost: float) -> list[str]:
         "    (H cos θ − W sin θ) L = N (μ1 R1 + μ2 R2),    N = W cos θ + H sin θ,\n"
         "    H = W tan(θ + atan m) ≈ W U/L + m W,          m = (μ1 R1 + μ2 R2)/L.",
         "The first rim ends it for both surfaces: `U_cap = L min(d1/R1, d2/R2)`.",
-        "## Two pieces and a hinge",
+        "## The articulated slider",
         "Fenz and Constantinou's slider is articulated: each part leans by its own angle. With "
         "`R_eff,i = R_i − h_i`, u_i the displacement of the hinge against plate i:",
         "    F = W u_i/R_eff,i + μ_i W,    u1 + u2 = U,    R_eff,1 + R_eff,2 = L.",
@@ -239,23 +239,23 @@ def text(rows: str, lost: float) -> list[str]:
         "middle of each surface.",
         "## Where they agree, where not",
         "- **Both surfaces sliding**: the stiffness is W/L in all three. With μ̄_i the articulated "
-        "force at zero is `(μ̄1 R_eff,1 + μ̄2 R_eff,2)/L = (μ1 R1 + μ2 R2)/L`, that of one piece, "
-        "whatever the radii, the frictions and the place of the hinge. Without it, it is lower: "
+        "force at zero is `(μ̄1 R_eff,1 + μ̄2 R_eff,2)/L = (μ1 R1 + μ2 R2)/L`, that of the "
+        "rigid slider, whatever the radii, the frictions and the place of the hinge. Without it, it is lower: "
         f"for equal surfaces by h/(R1 + R2), {100.0 * HEIGHT / 2.0:.0f} % here.",
         "- **Equal surfaces**: the same loop, to the second order of the tilt.",
-        "- **Unequal frictions**: one piece starts to slide at m W, the articulated slider at μ̄1 W, "
+        "- **Unequal frictions**: the rigid slider starts to slide at m W, the articulated slider at μ̄1 W, "
         "with a steeper branch until u*. That cuts the corners of its loop: "
         f"{lost:.0f} % less energy in the second case. The hinge is the cause: no choice of μ1 and "
-        "μ2 makes one piece show it.",
-        "- **Unequal rims**: one piece stops at the first rim, the articulated slider goes on with the "
+        "μ2 makes a rigid slider show it.",
+        "- **Unequal rims**: the rigid slider stops at the first rim, the articulated slider goes on with the "
         "other part, to d1 R_eff,1/R1 + d2 R_eff,2/R2.",
         "The paper takes `R_eff = R1 + R2 − h` from Fenz and Constantinou, and says that without "
         "rim contact the LIR-DCFP is identical to the classical frictional isolators. Stiffness "
         "and period are. The force at zero is μ_d W in their formula and μ_d (R1 + R2)/L W here: "
         "6 % more for the bearing of the static test, if its μ_d is that of the surfaces.",
         "## Advice",
-        "- The two sliders of the LIR-DCFP meet in a plane that sticks until the rims are met: it "
-        "is one piece, and its element applies. Unequal frictions do not give it the staged "
+        "- The two sliders of the LIR-DCFP meet in a plane that sticks until the rims are met: they "
+        "act as a rigid slider, whose element applies. Unequal frictions do not give it the staged "
         "response of an articulated DCFP.",
         "- Friction evaluated from a loop as force at zero over load, Q/W, is m. For equal "
         "surfaces enter `μ = (Q/W) L/(R1 + R2)`.",
@@ -281,7 +281,7 @@ def page(_: Path | None = None) -> Page:
     lost = [one.energy(one.moments) / one.energy(one.element) - 1.0 for one in found.values()]
     return Page(
         CLAIM,
-        f"closed form of one piece within {100.0 * worst:.3f} %; a articulated slider: same force where "
+        f"closed form of the rigid slider within {100.0 * worst:.3f} %; articulated slider: same force where "
         f"both surfaces slide, energy {100.0 * lost[0]:+.1f} % with equal and "
         f"{100.0 * lost[1]:+.0f} % with unequal frictions",
         checks(found),

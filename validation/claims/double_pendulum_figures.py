@@ -1,4 +1,4 @@
-"""The figure of the double concave bearings, their rigid sliders and hinged."""
+"""The figure of the double concave bearings, with rigid and with articulated sliders."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from validation.claims.double_pendulum_loops import Loops
 
 LOOKS: tuple[dict[str, Any], ...] = (
-    {"color": PALETTE[0], "linewidth": 2.0, "label": "one piece (element)"},
+    {"color": PALETTE[0], "linewidth": 2.0, "label": "rigid slider (element)"},
     {
         "color": PALETTE[1],
         "linewidth": 1.2,
         "linestyle": "--",
-        "label": "hinged (Fenz and Constantinou)",
+        "label": "articulated (Fenz and Constantinou)",
     },
     {
         "color": PALETTE[2],
         "linewidth": 1.2,
         "linestyle": ":",
-        "label": "hinged, moments in equilibrium",
+        "label": "articulated, moments in equilibrium",
     },
 )
 
@@ -43,5 +43,5 @@ def draw(found: Mapping[str, Loops]) -> Figure:
     for panel in panels:
         panel.set_ylim(-0.24, 0.24)
     handles = [Line2D([], [], **look) for look in LOOKS]
-    add_legend(drawn, handles, title="Double concave bearings, rigid slider and hinged")
+    add_legend(drawn, handles, title="Double concave bearings with rigid and articulated sliders")
     return drawn

@@ -231,7 +231,7 @@ def text(data: xr.Dataset, plain: float, overrun: str, rows: str) -> list[str]:
         "## Forces",
         figure(CLAIM, "forces", "Lateral force, moment and loops, after Fig. 8"),
         "After Fig. 8. In the first contact the force of the LIR-DCFP rises by the ratio of "
-        "`tan(θ + atan μ_h)` to the sliding force at the rim, and no further; that of the plain "
+        "`tan(θ + atan μ_h)` to the friction force at the rim, and no further; that of the plain "
         f"DCFP with the same rims rises to {plain:.1f} times the force before.{overrun} How far "
         "depends on the stiffness of the rims, here the default. The moment that the bearing "
         f"passes to the superstructure reaches {1e-3 * np.abs(moment[:, 1]).max():.0f} kN m (node "

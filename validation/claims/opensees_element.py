@@ -54,6 +54,7 @@ RUNS: tuple[tuple[Level, float, tuple[str, ...]], ...] = (
     ("pendulum", 0.005, ("fast",)),
 )
 """Level, step and routes that are compared with `frames` at the same level and step."""
+COUPLINGS = {"fast": "in-process", "portable": "out-of-process"}
 COARSE = 0.005  # s: a step that does not follow a rim impact
 STEADY = ("displacement", "slip", "work")
 """What does not depend on how the step meets an impact."""
@@ -141,11 +142,13 @@ def page(folder: Path | None) -> Page:
         for route in routes:
             theirs, their_roof = in_opensees(frame, motion, level, dt, route)
             shown.setdefault("OpenSees", theirs)
-            columns[f"OpenSees, {route}"] = peaks(theirs, their_roof)
-            name = f"{level}, {1e3 * dt:g} ms, {route}"
+            columns[f"OpenSees, {COUPLINGS[route]}"] = peaks(theirs, their_roof)
+            name = f"{level}, {1e3 * dt:g} ms, {COUPLINGS[route]}"
             asked = [k for k in ours if dt < COARSE or any(word in k for word in STEADY)]
             what = "a peak" if dt < COARSE else "displacement, slip, work"
-            worst = max(abs(columns[f"OpenSees, {route}"][k] / ours[k] - 1.0) for k in asked)
+            worst = max(
+                abs(columns[f"OpenSees, {COUPLINGS[route]}"][k] / ours[k] - 1.0) for k in asked
+            )
             goal = GOAL if dt < COARSE else GOAL_COARSE
             checks.append(
                 below(

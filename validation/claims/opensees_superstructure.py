@@ -58,7 +58,7 @@ CLAIM = Claim(
 )
 DT, DURATION = 0.005, 8.0  # s
 FINE = 0.001  # s, a step that follows rim impacts
-HARD = 0.65  # times the waves, into the rims
+HARD = 0.65  # times the motion, into the rims
 EQUILIBRIUM = 1e-10  # m and rad, of the last correction in OpenSees
 STOREYS = 3
 AXIAL, AXIAL_DAMPING = 2e9, 1e6  # N/m, N s/m, of a bearing
@@ -118,7 +118,7 @@ def device(friction: float) -> LIRBearing:
 
 
 def resilient() -> LIRBearing:
-    """Return an LIR-DCFP that hard waves drive into its rims."""
+    """Return an LIR-DCFP that strong shaking drives into its rims."""
     return LIRBearing(
         radius=1.0,
         slider_height=0.1,

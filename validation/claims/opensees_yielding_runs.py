@@ -66,7 +66,7 @@ class Both:
     slip : float
         Largest slip in the bearings' interface [m].
     ledger : float
-        Gap of the energy here over the input [-].
+        Error of the energy balance here over the input [-].
     """
 
     time: FloatArray

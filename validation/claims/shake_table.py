@@ -44,7 +44,7 @@ PERIOD = 1.25  # s, of the input: about half that of the sliding pendulum, 2.42 
 CYCLES, RAMP = 10, 2  # of the input, and those in which it grows and fades
 AMPLITUDES = tuple(round(1.6 + 0.2 * k, 1) for k in range(8))  # m/s2, tried
 VERTICAL = 50.0  # Hz, of the structure on its bearings
-STRUCTURE_PERIOD = 0.1  # s, of the structure with its base held
+STRUCTURE_PERIOD = 0.1  # s, of the structure on a fixed base
 LIMIT = 0.60  # of the weight, paper: largest base shear
 NEAR, BEYOND = 0.9, 1.15  # of the capacity: stays below, without impact; exceeds, with impact
 STEP, FINE = 1e-3, 0.5e-3  # s, of the runs; of those with a stiff seat
@@ -301,11 +301,11 @@ def text(runs: str, others: str, amplitudes: tuple[float, float], speed: float) 
         f"peak stays below {100.0 * NEAR:.0f} % of the capacity, {without:g} m/s². With impact: "
         f"the smallest whose peak exceeds it by {100.0 * (BEYOND - 1.0):.0f} %, {impact:g} m/s².",
         "- **Structure**: two storeys, the weight of 26.6 kN in three equal parts on base and "
-        f"floors, period {STRUCTURE_PERIOD:g} s with its base held, floors that do not tilt "
+        f"floors, period {STRUCTURE_PERIOD:g} s on a fixed base, floors that do not tilt "
         "(the heights are not published: no overturning), guided along x. The paper says *stiff* "
         "and *one direction*. Left free to turn about z, this model is unstable from some 50 mm "
-        "on: floors that cannot tilt press the bearing harder that lies further out, the period of "
-        "turning follows the displacement, and turning grows out of nothing.",
+        "on: floors that cannot tilt press harder on the bearing that lies further out, the period of "
+        "torsion follows the displacement, and torsion grows from round-off.",
         "- **Rate** of the friction law: 15 s/m, that of the paper's numerical example; **slider "
         "radius** 50 mm.",
         f"- **Vertical stiffness**: {VERTICAL:g} Hz for the structure on its bearings, sliders, "

@@ -118,7 +118,7 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
         ),
         near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), within, "kN"),
         near(
-            "sliding force at zero" + of,
+            "characteristic strength Q" + of,
             "μ (R1 + R2)/L W",
             1e-3 * sliding,
             -1e-3 * zero,
@@ -179,17 +179,17 @@ def page(_: Path | None = None) -> Page:
     first, left, second = (check.got for check in results[:3])
     parts = [
         figure(CLAIM, "loops", "Normalised loops and slip of the static cyclic test"),
-        "The interface slides first where the slider meets its rims, at 17.5 cm. The centimetre "
-        "that is left to the amplitude remains as slip, so that on the way back the rims are met "
+        "The interface slides first where the slider meets its rims, at 17.5 cm. The last "
+        "centimetre of the amplitude becomes slip and stays, so that on the way back the rims are met "
         "at 16.5 cm. The rims are met at `U - s = ± U_cap` while the restoring force stays centred "
         "on U = 0: the force at which the interface slides is the same each time.",
         "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is "
         "free vertically: the axial force swings by half a per cent where the slider meets a rim, "
         "and the largest force with it.",
         "**Friction from a loop.** The rigid slider's moment equilibrium makes the force at "
-        "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. Whoever reads 0.066 off "
-        "a measured loop as force at zero over load (the paper does not say how its value was "
-        "found) should enter `μ = 0.066 L/(R1 + R2) = 0.0623`; see "
+        "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. The paper does not "
+        "say how its value was found: if 0.066 was read off a measured loop, as force at zero "
+        "displacement over load, enter `μ = 0.066 L/(R1 + R2) = 0.0623`; see "
         "[double_pendulum.md](double_pendulum.md).",
         "Assumed, for the paper does not give it: a slider radius of 80 mm. It sets the default "
         "stiffnesses only.",

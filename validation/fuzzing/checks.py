@@ -36,7 +36,7 @@ BALANCE = 1e-4
 WORKS = 1e-3
 """Largest difference of the work of the forces in the Dataset and in the energy balance [-]."""
 UNLIMITED = {"rim_displacement", "interface_friction"}
-"""Variables that may be infinite: without rims, in one piece."""
+"""Variables that may be infinite: without rims, with a rigid slider."""
 STATUSES = {status.name.lower() for status in RunStatus}
 
 

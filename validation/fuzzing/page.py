@@ -101,7 +101,7 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
                 f"displacement more than {MARGIN:g} times as much as a change of the motion in its ninth "
                 f"digit ({NOISE:g}): what lands often or hangs on an edge amplifies every difference. "
                 "A finer step must end alike: bearings fail in both or in none. Which limit of a bearing "
-                "is passed first is not looked at, if the times differ by no more than "
+                "is passed first is not compared, if the times differ by no more than "
                 f"{100.0 * LATE:g} %; nor a failure that the other run missed by less than the error of "
                 f"the displacement, at most {100.0 * SENSITIVE_ERROR:g} % of its peak.",
                 _checks(scenes, buildings),

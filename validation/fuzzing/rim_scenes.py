@@ -29,7 +29,7 @@ UNEQUAL_RADII, UNEQUAL_RIMS, VERTICAL = 0.3, 0.15, 0.4
 
 
 class RimScene(NamedTuple):
-    """A mass on a bearing, and the waves along x, y and z that shake it."""
+    """A mass on a bearing, and the motion along x, y and z that shakes it."""
 
     number: int
     model: Frame

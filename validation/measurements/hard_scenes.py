@@ -188,7 +188,7 @@ def cases() -> list[Case]:
         pulsed("mu_h = 0.075, mu_d = 0.065", weak(0.075), 2.0),
         pulsed("interface to its limit", example_bearing(), 3.5),
         creeping(),
-        pulsed("one piece, hard rims", example_bearing(rim_overrun=0.1).as_dcfp(), 2.8),
+        pulsed("rigid slider, hard rims", example_bearing(rim_overrun=0.1).as_dcfp(), 2.8),
         pulsed(
             "contacts without dampers, four points",
             example_bearing(axial_damping=0.0, rim_damping=0.0, contact_points=4),

@@ -42,13 +42,17 @@ def scenes() -> dict[str, tuple[Any, GroundMotion]]:
     building = moment_frame(bays=(2, 2), storeys=3, bearing=below)
     plain = moment_frame(bays=(2, 2), storeys=3, bearing=below.as_dcfp())
     found: dict[str, tuple[Any, GroundMotion]] = {
-        f"mass, waves {scale:g}": (mass, near_fault(scale)) for scale in (0.5, 0.8, 1.0)
+        f"mass, synthetic motion × {scale:g}": (mass, near_fault(scale))
+        for scale in (0.5, 0.8, 1.0)
     }
-    found["plain mass, waves 0.5"] = (lumped_mass(device.as_dcfp(), MASS), near_fault(0.5))
+    found["plain mass, synthetic motion × 0.5"] = (
+        lumped_mass(device.as_dcfp(), MASS),
+        near_fault(0.5),
+    )
     for scale in (0.5, 0.9):
-        found[f"building, waves {scale:g}"] = (building, near_fault(scale))
+        found[f"building, synthetic motion × {scale:g}"] = (building, near_fault(scale))
     for scale in (0.7, 0.85):
-        found[f"building on plain DCFP, waves {scale:g}"] = (plain, near_fault(scale))
+        found[f"building on plain DCFP, synthetic motion × {scale:g}"] = (plain, near_fault(scale))
     folder = records()
     if folder:
         newhall = GroundMotion.from_at2(x=folder / EXAMPLE_RECORD)

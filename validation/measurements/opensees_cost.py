@@ -52,7 +52,7 @@ Place: TypeAlias = Callable[[int, int, int, LIRBearing], object]
 
 
 def pulse() -> GroundMotion:
-    """Return the motion: two seconds and a half of waves in three directions, then rest."""
+    """Return the motion: a synthetic one of 2.5 s in three directions, then rest."""
     t = np.arange(0.0, STEPS * STEP, STEP)
     shaking = t < 2.5
     return GroundMotion(
@@ -172,7 +172,7 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
                 "Newton runs in circles in some step, as friction turns round or slips under a rim; "
                 "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "
                 "smaller steps, [opensees_macro_model.md](opensees_macro_model.md)). "
-                "The last row is the driver of this package with the same step.",
+                "The last row is `time_history` of this package with the same step.",
             ]
         )
         + "\n"
@@ -182,9 +182,9 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
 def verdict(name: str, times: Mapping[str, list[float]]) -> str:
     """Say whether the goals are met in a building."""
     parts = []
-    for route, goal in (("fast", FAST_GOAL), ("portable", PORTABLE_GOAL)):
-        worst = max(ratio(times, device) for device in times if f"{route} route" in device)
-        parts.append(f"{route} {worst:.2f} ({'met' if worst <= goal else '**missed**'})")
+    for coupling, goal in (("in-process", FAST_GOAL), ("out-of-process", PORTABLE_GOAL)):
+        worst = max(ratio(times, device) for device in times if f" {coupling} coupling" in device)
+        parts.append(f"{coupling} {worst:.2f} ({'met' if worst <= goal else '**missed**'})")
     return f"{name}: {', '.join(parts)}."
 
 

@@ -306,7 +306,7 @@ def page(found: Sequence[Outcome]) -> str:
         f"mass), its masses' weight, and damping of {100.0 * DAMPING:g} % at its first period, "
         "proportional to the stiffness. In OpenSees `isolate` puts bearings under it; in `frames` "
         "`Frame.from_opensees` does. Both calls are given the same bearing and the model's units. "
-        "Waves in three directions shake both, OpenSees by Newmark's average acceleration.",
+        "A synthetic motion in three directions shakes both, OpenSees by Newmark's average acceleration.",
         "## Periods",
         "The first periods on fixed supports, and how far those of `frames` with its bearings "
         "held differ; the same on bearings that stick at rest.",

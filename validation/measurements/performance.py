@@ -1,4 +1,4 @@
-"""Speed of the element and of the driver, measured: writes docs/performance.md.
+"""Speed of the element and of time histories, measured: writes docs/performance.md.
 
     python -m validation.measurements.performance
 

@@ -156,7 +156,7 @@ def features(scene: Scene, reference: Response) -> list[tuple[str, Errors]]:
     cases: list[tuple[str, LIRBearing, GroundMotion]] = [
         ("nothing left out", bearing, motion),
         ("rims", without(bearing, capacity=float("inf"), rims=None), motion),
-        ("interface (one piece)", without(bearing.as_dcfp()), motion),
+        ("interface (rigid slider)", without(bearing.as_dcfp()), motion),
         ("rims and interface", without(bearing.as_dcfp(rims=False)), motion),
         ("speed of friction (f_max)", without(bearing, friction=top), motion),
         ("vertical component", without(bearing), motion.scaled((1.0, 1.0, 0.0))),

@@ -137,7 +137,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
                     for name in structures()
                     for part in (f"### The {name} frame", medians(found, name, every, SYSTEMS))
                 ),
-                "## Where each wins",
+                "## Which system performs better, and where",
                 verdict(found, met, every[-1]),
                 wins_table(found, met),
                 f'Completed runs at demand to capacity ratios of {met[0]:g} to {met[-1]:g}; "same" is within '
@@ -230,7 +230,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
     all_runs = sum(len(pairs(found, other, met)) for other in (RIMS, MOAT))
     return "\n".join(
         [
-            "- **While the interface holds, the LIR-DCFP spares what impacts do.** "
+            "- **While the interface holds, the LIR-DCFP avoids the effects of impacts.** "
             f"At a demand to capacity ratio of {last:g}, "
             f"medians of the {len(completed(runs))} of {len(runs)} runs that it completes: floor "
             f"acceleration {over('floor', RIMS, g, '.2f')} g with rims and "
@@ -244,7 +244,7 @@ def verdict(found: Sequence[Row], met: Sequence[float], highest: float) -> str:
             "plan of the bearing, hardly the gap around the building.",
             "- **When its interface has slipped off its overlap, the LIR-DCFP has "
             "failed, and the others "
-            f"go on.** At a demand to capacity ratio of {last:g} that are {len(runs) - len(completed(runs))} of {len(runs)} "
+            f"go on.** At a demand to capacity ratio of {last:g} these are {len(runs) - len(completed(runs))} of {len(runs)} "
             f"runs. Completed at {highest:g}: {'; '.join(done(system) for system in SYSTEMS)}. With "
             f"walls the hinges then turn by {1e3 * middle(MOAT, 'rotation'):.1f} mrad, "
             f"{1e2 * middle(MOAT, 'residual'):.2f} % of drift are left, and floors feel "
@@ -287,11 +287,11 @@ def variants(found: Sequence[Row]) -> str:
         for system in (SOFT, MOAT)
     )
     return (
-        f"Of the runs of the LIR-DCFP alone are completed {stopped}; with walls "
+        f"Runs that the LIR-DCFP alone completes: {stopped}; with walls "
         f"{1e3 * WALLS[BEHIND][0]:.0f} mm away behind it {held}. Where the walls stop it, the "
         f"frame feels them as with the plain DCFP: at a demand to capacity ratio of {demands[-1]:g} a median of "
         f"{1e2 * middle(BEHIND, 'drift'):.2f} % of drift and {g * middle(BEHIND, 'floor'):.2f} g. "
-        f"A wall of a tenth of the stiffness makes of the moat's {hard} these: {soft} (medians, "
+        f"With walls of a tenth of the stiffness the moat's {hard} become {soft} (medians, "
         "both frames): what an impact does depends on what is assumed of the wall, and a soft one "
         "comes near to the LIR-DCFP."
     )

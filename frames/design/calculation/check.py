@@ -199,6 +199,15 @@ class Checks(Sequence[Check]):
     ----------
     checks : iterable of Check
         What it is made of.
+
+    Examples
+    --------
+    >>> from frames.design import Check
+    >>> drift = Check(clause="ASCE 7-22 17.5.6", title="storey drift", demand=0.030, limit=0.045,
+    ...               unit="m", shown="mm")
+    >>> checks = Checks([drift])
+    >>> checks.passed, checks.governing.title, len(checks.failed)
+    (True, 'storey drift', 0)
     """
 
     def __init__(self, checks: Iterable[Check] = ()) -> None:

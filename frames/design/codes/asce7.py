@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -94,6 +93,22 @@ class ASCE7:
     The centre of mass is the system's, else that of its loads, unless it has an eccentricity.
     V_s is at least the force that starts sliding, not reduced by weight or R_I, which is on the
     safe side.
+
+    Examples
+    --------
+    >>> from frames.design import ASCE7, IsolationSystem, PropertyBounds
+    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> code = ASCE7(accidental_eccentricity=0.03)
+    >>> linear = equivalent_linear(system, target, bounds=bounds, code=code)
+    >>> round(1e3 * linear["lower"].trace.value("D_TM"))  # mm
+    288
     """
 
     accidental_eccentricity: float = 0.05
@@ -371,7 +386,6 @@ CODE = DesignCode(
         "t_l": SpectrumKey(unit="s", default=8.0),
     },
     rims=RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
-    property_factors=PropertyModificationFactors.asce7,
     tests=_tests,
     acceptance="ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),

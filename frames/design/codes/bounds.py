@@ -192,6 +192,13 @@ class PropertyBounds:
     interface : PropertyModificationFactors, optional
         Of the friction mu_h of the interface between the sliders: its upper bound decides what
         force a rim passes, its lower one when the interface slides. Default: those of `friction`.
+
+    Examples
+    --------
+    >>> from frames.design import PropertyModificationFactors
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.3))
+    >>> bounds.interface_factors.upper  # those of the surfaces, where none are given
+    1.3
     """
 
     friction: PropertyModificationFactors

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Checks
-from frames.design.codes.bounds import PropertyModificationFactors
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -92,6 +91,21 @@ class EN1998:
         Share of the other direction's overturning that acts with it (EN 1998-1 4.3.3.5).
     pressure_limit : float, optional
         Pressure that the sliders stand [Pa].
+
+    Examples
+    --------
+    >>> from frames.design import EN1998, IsolationSystem, PropertyBounds
+    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.en1998(2.4, "C")
+    >>> linear = equivalent_linear(system, target, bounds=bounds, code=EN1998(reliability=1.5))
+    >>> linear.code, round(1e3 * linear["lower"].trace.value("d_bd"))  # mm
+    ('EN 1998', 122)
     """
 
     reliability: float = 1.2
@@ -335,7 +349,6 @@ CODE = DesignCode(
         "implements them, wants end stops that leave this displacement free. Needs the agreement "
         "of the authority, time histories with the rims, and tests of impact and return",
     ),
-    property_factors=PropertyModificationFactors.en1998,
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
     example=ExampleProject(

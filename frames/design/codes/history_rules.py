@@ -56,6 +56,13 @@ class HistoryRules:
         Clauses; `uplift_clause` that of what bearings must keep where they lift off.
     standard : str
         Standard, or part of it, as clauses begin; the code's name if empty.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rules = code_named("EN 1998").histories
+    >>> rules.least, rules.mean_from, rules.uplift_allowed
+    (3, 7, False)
     """
 
     code: str

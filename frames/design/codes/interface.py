@@ -31,7 +31,7 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     Returns
     -------
     Checks
-        One check; none where all sliders are in one piece.
+        One check; none where all sliders are rigid.
     """
     pairs = zip(system.labels, system.bearings, strict=True)
     found = [(name, b) for name, b in pairs if isinstance(b, LIRBearing) and not b.is_dcfp]

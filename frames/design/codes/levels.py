@@ -35,6 +35,12 @@ class ActionLevel:
     ------
     CheckError
         If the factor is out of bounds, or a word is none of those allowed.
+
+    Examples
+    --------
+    >>> from frames.design import HISTORY_RULES
+    >>> [level.name for level in HISTORY_RULES["NCh2745"].levels]
+    ['design', 'maximum']
     """
 
     name: str

@@ -88,6 +88,21 @@ class NCh2745:
     -----
     Combinations of vertical loads for `IsolationSystem` are of the kind 1.2 D + L and 0.8 D (6.2).
     The base shear goes by the largest stiffness at the displacement, that of the upper bound.
+
+    Examples
+    --------
+    >>> from frames.design import IsolationSystem, NCh2745, PropertyBounds
+    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.nch2745(soil="II", zone=3)
+    >>> linear = equivalent_linear(system, target, bounds=bounds, code=NCh2745(drift=0.002))
+    >>> linear.code, round(1e3 * linear["lower"].trace.value("D_TM"))  # mm
+    ('NCh2745', 228)
     """
 
     maximum: float = NCH_MAXIMUM

@@ -179,6 +179,23 @@ class EquivalentLinear:
         Results at "lower" and "upper" bound, or at "nominal" alone.
     general : Checks
         Checks that both bounds enter.
+
+    Examples
+    --------
+    >>> from frames.design import IsolationSystem, PropertyBounds
+    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
+    >>> round(linear["lower"].period, 2), round(linear["upper"].period, 2)
+    (2.63, 2.25)
+    >>> linear.checks.passed
+    True
     """
 
     code: str

@@ -66,6 +66,23 @@ class ProgrammeDemands:
     ------
     CheckError
         If a number is out of bounds.
+
+    Examples
+    --------
+    >>> from frames.design import IsolationSystem, ProgrammeDemands, PropertyBounds, Spectrum
+    >>> from frames.design import PropertyModificationFactors, equivalent_linear, prototype_tests
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
+    >>> demands = ProgrammeDemands(loads=(0.4e6, 2.6e6), slip=0.06, wind=25e3)
+    >>> tests = prototype_tests(linear, system, demands)
+    >>> float(tests.set_index("what").loc["wind", "largest force [N]"])
+    25000.0
     """
 
     loads: tuple[float, float] | None = None

@@ -14,7 +14,6 @@ from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
-    from frames.design.codes.bounds import PropertyModificationFactors
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
@@ -53,6 +52,12 @@ class RimRule(NamedTuple):
         Share of it below which rims must not be met [-].
     note : str
         What rims that are met below it mean under the code.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("ASCE 7-22").rims.symbol, code_named("ASCE 7-22").rims.least
+    ('D_TM', 0.6)
     """
 
     clause: str
@@ -74,6 +79,12 @@ class SpectrumKey(NamedTuple):
         Its value if it is left out; it must be given if None.
     most : float, optional
         Largest number [SI].
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("ASCE 7-22").spectrum_keys["t_l"]
+    SpectrumKey(kind=<class 'float'>, unit='s', default=8.0, most=None)
     """
 
     kind: object = float
@@ -156,8 +167,6 @@ class DesignCode(HazardRules):
         Keys of ``[spectrum]`` in a project's file.
     rims : RimRule
         What it asks of the displacement at which rims are met.
-    property_factors : callable, optional
-        Returns its factors of property bounds, `PropertyModificationFactors.asce7` for instance.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
@@ -171,6 +180,13 @@ class DesignCode(HazardRules):
     ------
     CheckError
         If the number of motions whose mean counts is not the same in `scaling` and `histories`.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code = code_named("NCh 2745")
+    >>> code.name, sorted(code.spectrum_keys)
+    ('NCh2745', ['soil', 'zone'])
     """
 
     title: str
@@ -179,7 +195,6 @@ class DesignCode(HazardRules):
     spectrum: Callable[..., Spectrum]
     spectrum_keys: Mapping[str, SpectrumKey]
     rims: RimRule
-    property_factors: Callable[..., PropertyModificationFactors] | None = None
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
     acceptance: str = NO_LIMITS
     example: ExampleProject | None = None

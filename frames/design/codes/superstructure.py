@@ -45,6 +45,13 @@ class Superstructure:
     ------
     CheckError, ValueError, TypeError
         If numbers are out of bounds or of unlike count.
+
+    Examples
+    --------
+    >>> above = Superstructure(fixed_base_period=0.6, storey_weights=(2e6, 2e6, 1.5e6),
+    ...                        storey_heights=(3.5, 7.0, 10.5), R=8.0)
+    >>> sum(above.storey_weights) / 1e6
+    5.5
     """
 
     fixed_base_period: float

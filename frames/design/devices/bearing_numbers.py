@@ -64,16 +64,16 @@ def enter_bearing(
     Trace
         The calculation: R_1, R_2, h, L, d_rim_1, d_rim_2, U_cap, a; h_1 and h_2, the heights of
         the bottom and the top slider; mu_1, mu_2 and mu_h with _U and _L, upper and lower;
-        mu_e, sliding force over load; s_star, s_cap, and s_lim, the smaller of both.
+        mu_e, characteristic strength ratio Q/W; s_star, s_cap, and s_lim, the smaller of both.
 
     Raises
     ------
     CheckError
-        If it has no rims, or its slider is in one piece.
+        If it has no rims, or its slider is rigid.
     """
     require_rims(bearing)
     if bearing.is_dcfp:
-        msg = "the slider is in one piece: it has no interface to check"
+        msg = "the slider is rigid: it has no interface to check"
         raise CheckError(msg)
     t = enter_geometry(bearing)
     t.given("a", bearing.slider_radius, "m", shown="mm")

@@ -61,7 +61,7 @@ def capacity_checks(
     Raises
     ------
     CheckError
-        If the slider is in one piece or has no rims, or a number is out of bounds.
+        If the slider is rigid or it has no rims, or a number is out of bounds.
 
     Examples
     --------
@@ -128,6 +128,16 @@ def engagement_checks(
     Notes
     -----
     A rim is met at ``U = L d / R``, plates parallel, no residual slip.
+
+    Examples
+    --------
+    >>> from frames.design import engagement_checks
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> checks = engagement_checks(bearing, 0.5)
+    >>> checks.passed, round(checks[0].demand, 2)
+    (True, 0.9)
     """
     require_rims(bearing)
     rule = code_named(code).rims

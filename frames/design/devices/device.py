@@ -62,7 +62,7 @@ def device_checks(
     Raises
     ------
     CheckError
-        If the slider is in one piece or has no rims, or a number is out of bounds.
+        If the slider is rigid or it has no rims, or a number is out of bounds.
 
     Notes
     -----

@@ -96,6 +96,12 @@ class DesignLimits:
     ------
     CheckError
         If a limit is not positive, or none that such a quantity can have.
+
+    Examples
+    --------
+    >>> limits = DesignLimits(margin=1.6, rim_strength=3e6, interface_pressure=90e6)
+    >>> limits.margin, limits.eccentricity
+    (1.6, 0.8)
     """
 
     margin: float = 1.2

@@ -35,6 +35,13 @@ class DampingRule(NamedTuple):
         Damping [-] and factor B [-]; empty where a formula gives them.
     formula : callable, optional
         B [-] of the damping [-], where there is no table.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rule = code_named("EN 1998").damping
+    >>> rule.source, rule.standing
+    ('EN 1998-1:2004, 3.2.2.2(3)', 'to be confirmed against the standard')
     """
 
     source: str
@@ -73,6 +80,13 @@ class ScalingRule(NamedTuple):
         be confirmed.
     fault_axes : bool
         Whether near-fault pairs are to be turned to the axes of the fault.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rule = code_named("ASCE 7-22").scaling[0]
+    >>> rule.measure, rule.part, rule.periods
+    ('RotD100', 1.0, (0.75, 1.25))
     """
 
     name: str

@@ -85,6 +85,14 @@ def motion_measures(acceleration: FloatArray, dt: float) -> dict[str, float]:
     dict of str to float
         Peaks of acceleration, velocity and displacement, Arias intensity, cumulative absolute
         velocity (CAV), significant durations, predominant, mean and pulse period.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames.design import motion_measures
+    >>> found = motion_measures(3.0 * np.sin(np.linspace(0.0, 6.2832, 201)), dt=0.01)
+    >>> round(found["PGA [m/s2]"], 2), round(found["PGV [m/s]"], 2)
+    (3.0, 1.91)
     """
     velocity, displacement = integrated(acceleration, dt)
     size = np.abs(acceleration)

@@ -53,6 +53,10 @@ def design_spectra(
     ------
     MotionError
         If there is none or too many, or a damping is out of its bounds.
+
+    Examples
+    --------
+    In the gallery: "Design spectra of three codes" (docs/gallery/design/a_spectra.py).
     """
     if isinstance(spectra, Spectrum):
         named = {spectra.name: spectra}
@@ -133,6 +137,10 @@ def motion_spectra(
     ------
     MotionError
         If an argument is out of its bounds, or a component is missing.
+
+    Examples
+    --------
+    In the gallery: "A set of motions scaled to a spectrum" (docs/gallery/design/b_motions.py).
     """
     require_type("motions", motions, MotionSet, "a MotionSet")
     done = motions.scaling

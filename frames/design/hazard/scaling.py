@@ -46,6 +46,14 @@ class Scaling:
         Smallest mean over target within the range [-].
     largest_ratio : float
         Largest one [-].
+
+    Examples
+    --------
+    >>> from frames.design import Spectrum, synthetic_near_fault
+    >>> motions = synthetic_near_fault(7, magnitude=6.8, distance=6.0, seed=1)
+    >>> scaled = motions.scaled_to(Spectrum.asce7(s_ms=0.9, s_m1=0.5), periods=(1.5, 4.0))
+    >>> scaled.scaling.rule, round(scaled.scaling.least_ratio, 9)
+    ('ASCE 7-22', 1.0)
     """
 
     target: Spectrum

@@ -86,6 +86,14 @@ class PointSource:
     Notes
     -----
     Defaults are usual values for active regions, from memory: to be confirmed for the site.
+
+    Examples
+    --------
+    >>> from frames.design import synthetic_near_fault
+    >>> source = PointSource(magnitude=6.5, distance=5.0, kappa=0.03)
+    >>> motions = synthetic_near_fault(1, magnitude=6.5, distance=5.0, seed=1, source=source)
+    >>> list(motions)
+    ['near-fault 1']
     """
 
     magnitude: float

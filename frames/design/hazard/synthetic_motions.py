@@ -59,6 +59,14 @@ class PulseScatter:
     ------
     MotionError
         If a value is out of its bounds.
+
+    Examples
+    --------
+    >>> from frames.design import synthetic_near_fault
+    >>> pulses = PulseScatter(velocity=0.6, period=2.0, period_dispersion=0.0)
+    >>> motions = synthetic_near_fault(1, magnitude=6.5, distance=5.0, seed=1, pulses=pulses)
+    >>> motions.facts["near-fault 1"]["pulse"]
+    True
     """
 
     velocity: float = PULSE_VELOCITY

@@ -69,6 +69,20 @@ def bounded_histories(
         If a motion has no scale, or a word is no bound.
     ValueError
         If a bearing cannot be at a bound, or as `time_histories` has it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import PropertyBounds, PropertyModificationFactors, bounded_histories
+    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
+    ...                         interface=PropertyModificationFactors(1.0, 1.1))
+    >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
+    >>> list(runs), runs["lower"]["status"].values.tolist()
+    (['lower', 'nominal', 'upper'], ['ok'])
     """
     suite = named_motions(motions)
     factors = scales if isinstance(scales, Mapping) else dict.fromkeys(suite, scales)
@@ -133,6 +147,22 @@ def history_checks(
     CheckError
         If runs and frame do not belong together, runs are missing, a motion is there at two
         scales, the code has no minima, or the level is not one of the code's.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import PropertyBounds, PropertyModificationFactors
+    >>> from frames.design import bounded_histories, history_checks
+    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
+    ...                         interface=PropertyModificationFactors(1.0, 1.1))
+    >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
+    >>> checks = history_checks(runs, frame, "ASCE 7-22", bounds=bounds)
+    >>> [check.title for check in checks.failed][0]  # one motion is not seven
+    'number of motions'
     """
     rules = _rules(code)
     level = rules.level(action_level)
@@ -181,6 +211,22 @@ def history_demands(
     ------
     CheckError
         If runs are missing, or a motion is there at two scales.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import PropertyBounds, PropertyModificationFactors
+    >>> from frames.design import bounded_histories, history_demands
+    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
+    ...                         interface=PropertyModificationFactors(1.0, 1.1))
+    >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
+    >>> demands = history_demands(runs, "ASCE 7-22")
+    >>> demands.loc["isolator displacement", "unit"]
+    'm'
     """
     return demand_table(_by_bound(runs), _rules(code))
 

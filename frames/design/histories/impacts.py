@@ -40,6 +40,19 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
     ------
     ValueError
         If the variables or the steps between the ends were not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import rim_engagement
+    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_history(frame, pulse)
+    >>> met = rim_engagement(data)
+    >>> met["surface"].tolist(), met["displacement"].round(2).tolist()
+    (['bottom', 'top'], [0.25, 0.25])
     """
     require_recorded(data, "rim_engagement", "rim_force", "bearing_displacement")
     require_steps(data, "rim_engagement")
@@ -83,6 +96,18 @@ def impact_demand(data: xr.Dataset, after: float = 0.3) -> pd.DataFrame:
     ------
     ValueError
         If what it is made from was not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import impact_demand
+    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_history(frame, pulse)
+    >>> bool(impact_demand(data).loc["base shear", "ratio"] > 1.0)
+    True
     """
     require_recorded(data, "impact_demand", "rim_force", "base_shear")
     require_steps(data, "impact_demand")
@@ -120,6 +145,18 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
     ------
     ValueError
         If what it is made from was not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import uplift_events
+    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_history(frame, pulse)
+    >>> len(uplift_events(data))
+    0
     """
     require_recorded(data, "uplift_events", "axial_force", "rim_force")
     require_steps(data, "uplift_events")
@@ -171,6 +208,19 @@ def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
         If the times do not rise.
     ValueError
         If slip and displacement were not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import repeated_motion, slips_of_events
+    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> motion, ends = repeated_motion(pulse, 2, pause=3.0)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_history(frame, motion)
+    >>> len(slips_of_events(data, ends))
+    2
     """
     require_recorded(data, "slips_of_events", "interface_slip_size", "bearing_displacement")
     require_steps(data, "slips_of_events")

@@ -48,6 +48,21 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
     ------
     CheckError
         If the rule is not known.
+
+    Examples
+    --------
+    >>> from frames.design import IsolationSystem, PropertyBounds, PropertyModificationFactors
+    >>> from frames.design import Spectrum, equivalent_linear, period_range
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
+    >>> [round(period, 2) for period in period_range(linear)]
+    [1.69, 3.28]
     """
     low, high = _rule(equivalent, rule).periods
     each = equivalent.bounds.values()

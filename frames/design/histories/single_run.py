@@ -136,6 +136,20 @@ def event_checks(
     ------
     CheckError, ValueError
         If run and frame do not belong together, times do not rise, or slips were not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> from frames.design import event_checks, repeated_motion
+    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> motion, ends = repeated_motion(pulse, 2, pause=3.0)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_history(frame, motion)
+    >>> checks = event_checks(data, frame, ends)
+    >>> checks[0].title, checks[0].passed
+    ('run is complete', True)
     """
     limits = DesignLimits() if limits is None else limits
     void = "" if str(data.attrs["status"]) == "ok" else str(data.attrs["message"])

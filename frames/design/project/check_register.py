@@ -82,6 +82,10 @@ class RunToCheck:
         How time histories count.
     asked : BearingDemand
         What the time histories ask of the bearings.
+
+    Examples
+    --------
+    In the how-to: "Adding a check or a design code" (docs/extending.md).
     """
 
     code: DesignCode
@@ -146,6 +150,15 @@ def unregister_check(make: MakeChecks) -> None:
     ----------
     make : callable
         As it was registered.
+
+    Examples
+    --------
+    >>> from frames.design import register_check, unregister_check
+    >>> @register_check
+    ... def nothing(run):
+    ...     return []
+    ...
+    >>> unregister_check(nothing)
     """
     _REGISTERED.pop(_name(make), None)
 

@@ -223,7 +223,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
 def compare_devices(
     parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
 ) -> pd.DataFrame:
-    """Compare a project's bearings with the same ones whose sliders are in one piece.
+    """Compare a project's bearings with the same ones with rigid sliders.
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ def friction_table(run: ProjectRun) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Rows: both surfaces at high and at low speed, and the interface (infinite: one piece);
+        Rows: both surfaces at high and at low speed, and the interface (infinite: rigid slider);
         columns: bounds [-].
     """
     nominal = next(iter(run.frame.bearings.values())).bearing

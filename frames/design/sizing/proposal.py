@@ -45,6 +45,19 @@ class Design:
         All that were tried.
     sizes : tuple of int
         Which of the chosen bearings stands at each place.
+
+    Examples
+    --------
+    >>> from frames.design import DesignTarget, IsolationSystem, Spectrum, design
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> target = DesignTarget(radii=(1.5, 2.0), frictions=(0.05, 0.06), rim_share=0.8)
+    >>> found = design(system, Spectrum.asce7(s_ms=1.2, s_m1=0.6), bounds=None, target=target)
+    >>> len(found.candidates), found.sizes
+    (4, (0, 0, 0, 0))
     """
 
     system: IsolationSystem
@@ -206,6 +219,20 @@ def design(
     Notes
     -----
     Loads are those of the combinations without overturning; `history_checks` has the others.
+
+    Examples
+    --------
+    >>> from frames.design import DesignTarget, IsolationSystem, Spectrum, design
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> target = DesignTarget(radii=(1.5, 2.0), frictions=(0.05, 0.06), rim_share=0.8)
+    >>> found = design(system, Spectrum.asce7(s_ms=1.2, s_m1=0.6), bounds=None, target=target)
+    >>> device = found.system.bearings[0]
+    >>> device.radii, device.frictions[0].f_max, round(device.slider_radius, 3)
+    ((1.5, 1.5), 0.06, 0.2)
     """
     require_choice("least", least, _PREFERENCES, error=CheckError)
     target = DesignTarget() if target is None else target

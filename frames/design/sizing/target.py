@@ -57,6 +57,12 @@ class DesignTarget:
     ------
     CheckError
         If a number is out of bounds.
+
+    Examples
+    --------
+    >>> target = DesignTarget(radii=(1.5, 2.0), frictions=(0.05, 0.06), rim_share=0.8)
+    >>> target.pressure / 1e6, target.largest_pressure / 1e6  # MPa
+    (30.0, 60.0)
     """
 
     radii: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0)

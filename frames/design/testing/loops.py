@@ -47,6 +47,16 @@ class PrototypeTest:
     CheckError, ValueError
         If the arrays are of unlike length or not finite, a load is not positive, or there is no
         full cycle of enough samples.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> turns = np.linspace(0.0, 3.0, 1501)
+    >>> path = 0.2 * np.sin(2.0 * np.pi * turns)
+    >>> force = 1e6 * (path / 2.7 + 0.06 * np.sign(np.cos(2.0 * np.pi * turns)))
+    >>> test = PrototypeTest(name="1 D_M", displacement=path, force=force, load=1e6)
+    >>> test.name, test.kind, test.displacement.shape
+    ('1 D_M', 'bearing', (1501,))
     """
 
     name: str
@@ -145,6 +155,17 @@ def loop_properties(test: PrototypeTest) -> pd.DataFrame:
     over 0.1 to 0.9 of the half cycle's displacement from zero to its end, so that noise and the
     standstill at the end do not decide; the force at an end is that of a line through the last
     fifth on loading.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames.design import PrototypeTest, loop_properties
+    >>> turns = np.linspace(0.0, 3.0, 1501)
+    >>> path = 0.2 * np.sin(2.0 * np.pi * turns)
+    >>> force = 1e6 * (path / 2.7 + 0.06 * np.sign(np.cos(2.0 * np.pi * turns)))
+    >>> test = PrototypeTest(name="1 D_M", displacement=path, force=force, load=1e6)
+    >>> loop_properties(test)["friction [-]"].round(3).tolist()
+    [0.06, 0.06, 0.06]
     """
     import pandas as pd
 

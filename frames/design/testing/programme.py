@@ -70,6 +70,22 @@ def prototype_tests(
     CheckError
         If the code of the analysis is not known, or least and largest load are not above
         zero.
+
+    Examples
+    --------
+    >>> from frames.design import IsolationSystem, PropertyBounds, PropertyModificationFactors
+    >>> from frames.design import Spectrum, equivalent_linear, prototype_tests
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
+    >>> linear = equivalent_linear(system, target, bounds=bounds)
+    >>> tests = prototype_tests(linear, system, bounds=bounds)
+    >>> len(tests), tests["what"].iloc[0]
+    (26, 'production, each bearing')
     """
     import pandas as pd
 

@@ -1,1 +1,1 @@
-"""Campaigns: models, motions, scales and parameters run in batches into one store on disk."""
+"""Campaigns: models, motions, scales and parameters run in batches into a results database."""

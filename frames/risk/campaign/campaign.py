@@ -162,8 +162,8 @@ class Campaign:
             error.
         accept_other_sources : bool
             Whether a results database that other sources or another version of the package began is
-            gone on with: where a change does not touch the numbers. The store keeps from which run
-            on. Everything else must be as it was planned, properties of the bearings included.
+            gone on with: where a change does not touch the numbers. The database keeps from which
+            run on. Everything else must be as it was planned, properties of the bearings included.
 
         Returns
         -------

@@ -118,7 +118,7 @@ def _result(future: Any, number: int) -> Batch | None:
     except KilledWorker as cause:
         msg = (
             f"batch {number} ended its workers again and again ({cause}): give them more memory, "
-            "or take smaller batches in another store; the batches before are kept"
+            "or take smaller batches in another folder; the batches before are kept"
         )
         raise CampaignError(msg) from cause
     return batch

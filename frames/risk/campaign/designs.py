@@ -41,7 +41,7 @@ def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
     parameters : mapping of str to float
         `FIELDS` of its bearings; "friction", Coulomb's coefficient; fields of the friction law
         that both surfaces have, as f_max, f_min and rate of `VelocityFriction`. Rigid sliders (a
-        plain DCFP) stay in one piece.
+        plain DCFP) stay rigid.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Arrays of a campaign's store: their layout, and a digest of what they hold."""
+"""Arrays of a campaign's results database: their layout, and a digest of what they hold."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def locked(path: Path) -> Generator[None, None, None]:
             file.seek(0)
             msg = (
                 f"{path.parent} is in use by {_holder(file.read())}: wait until it has ended, or "
-                "name another store"
+                "name another folder"
             )
             raise CampaignError(msg) from cause
         file.truncate(0)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 FORMAT, READABLE = 2, (1, 2)
-"""Format of the stores that are written, and those that can be read."""
+"""Format of the results databases that are written, and those that can be read."""
 
 SOURCES = "sources", "program"
 """ProjectInputs of a plan in which a database may differ where other sources are accepted."""

@@ -46,6 +46,13 @@ class ParameterSample:
     ------
     CampaignError
         If a name cannot be one, sizes do not fit, or a value is not a number.
+
+    Examples
+    --------
+    >>> from frames.risk import full_grid
+    >>> sample = full_grid({"radius": [1.5, 2.0], "friction": [0.04, 0.06]})
+    >>> sample.names, sample.values.shape
+    (('radius', 'friction'), (4, 2))
     """
 
     names: tuple[str, ...]
@@ -173,6 +180,14 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
     ------
     CampaignError
         If size, seed or a parameter cannot be.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import sobol_sample
+    >>> sample = sobol_sample({"friction": uniform(0.04, 0.04)}, 4, seed=1)
+    >>> sorted(int((f - 0.04) / 0.01) for f in sample.values[:, 0])
+    [0, 1, 2, 3]
     """
     from scipy.stats import qmc
 

@@ -1,4 +1,4 @@
-"""The store of a campaign on disk: whole chunks first, then a mark that they are there."""
+"""The results database of a campaign: whole chunks first, then a mark that they are there."""
 
 from __future__ import annotations
 
@@ -46,6 +46,10 @@ class CampaignStatus(NamedTuple):
         Runs in which the assumption check marks something.
     warnings : tuple of str
         What was warned of while batches were computed.
+
+    Examples
+    --------
+    In the gallery: "A campaign over friction" (docs/gallery/research/e_campaign.py).
     """
 
     done: int
@@ -70,6 +74,10 @@ class CampaignStore:
     ----------
     path : str or path
         The folder.
+
+    Examples
+    --------
+    In the gallery: "A campaign over friction" (docs/gallery/research/e_campaign.py).
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -95,7 +103,7 @@ class CampaignStore:
         Raises
         ------
         CampaignError
-            If there is no store, or one of another format.
+            If there is no results database, or one of another format.
         """
         try:
             found = json.loads((self.path / _PLAN).read_text(encoding="utf-8"))
@@ -398,6 +406,20 @@ def open_campaign(path: str | Path) -> CampaignStore:
     ------
     CampaignError
         If there is none.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.risk import Campaign, open_campaign
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     data = Campaign(frame, pulse, store=f"{folder}/runs").run(workers=1)
+    ...     print(open_campaign(f"{folder}/runs").status())
+    1 of 1 runs done: 1 ok
     """
     store = CampaignStore(path)
     store.plan()

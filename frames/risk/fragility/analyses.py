@@ -67,6 +67,10 @@ def ida(
     -----
     AnalysisWarning
         If runs failed numerically: they count as neither.
+
+    Examples
+    --------
+    In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
     require_type("intensity", intensity, Intensity, "an Intensity")
     require_type("rules", rules, HuntFill, "a HuntFill")
@@ -139,6 +143,19 @@ def multiple_stripes(
     ------
     FragilityError
         If there is no level, or one is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.risk import Intensity, multiple_stripes
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> intensity = Intensity(kind="PGA", measure="x")
+    >>> runs = multiple_stripes(frame, pulse, [0.5, 1.0], intensity=intensity, workers=1)
+    >>> runs.table["im"].round(6).tolist(), runs.table["outcome"].tolist()
+    ([0.5, 1.0], ['complete', 'complete'])
     """
     require_type("intensity", intensity, Intensity, "an Intensity")
     if not len(levels):
@@ -182,6 +199,19 @@ def cloud_analysis(
     ------
     FragilityError
         If there is no factor, or one is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.risk import Intensity, cloud_analysis
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> intensity = Intensity(kind="PGA", measure="x")
+    >>> runs = cloud_analysis(frame, pulse, intensity=intensity, scales=(1.0, 1.5), workers=1)
+    >>> runs.table["im"].round(6).tolist()
+    [1.0, 1.5]
     """
     require_type("intensity", intensity, Intensity, "an Intensity")
     if not len(scales):

@@ -69,6 +69,16 @@ def fit_cloud(
     -----
     Source: Jalayer, Ebrahimian, Miano, Manfredi and Sezen (2017), Earthquake Eng. Struct. Dyn.
     46:2639-2663: the standard deviation is that of n - 2, collapse a logistic regression.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames.risk import fit_cloud
+    >>> im = np.geomspace(0.5, 4.0, 12)
+    >>> demand = 0.004 * im**1.2 * np.tile([0.9, 1.1], 6)
+    >>> curve = fit_cloud(im, demand, 0.01, [str(k) for k in range(12)], resamples=20)
+    >>> round(curve.median, 2), round((0.01 / 0.004) ** (1.0 / 1.2), 2)
+    (2.14, 2.15)
     """
     at, found = checked_runs(im, demand, records)
     bound = require_positive("limit", limit, error=FragilityError)

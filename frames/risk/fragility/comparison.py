@@ -33,6 +33,15 @@ class Comparison(Shown):
         Mean annual frequencies of both [1/year]; None without a hazard.
     resampled_rates : ndarray, shape (2, resamples), or None
         The same of each resample.
+
+    Examples
+    --------
+    >>> from frames.risk import compare_fragility, fit_capacities
+    >>> first = fit_capacities([1.9, 2.1, 2.6, 2.2], list("abcd"))
+    >>> second = fit_capacities([2.1, 2.3, 3.0, 2.4], list("abcd"))
+    >>> found = compare_fragility(first, second)
+    >>> round(found.medians[1] / found.medians[0], 2)
+    1.11
     """
 
     unit: str
@@ -126,6 +135,15 @@ def compare_fragility(
     -----
     Curves that state no measure are compared by their units alone. Structures of unlike periods are
     compared by rates, each with the hazard of its own measure (`mean_annual_frequency`).
+
+    Examples
+    --------
+    >>> from frames.risk import compare_fragility, fit_capacities
+    >>> first = fit_capacities([1.9, 2.1, 2.6, 2.2], list("abcd"))
+    >>> second = fit_capacities([2.1, 2.3, 3.0, 2.4], list("abcd"))
+    >>> table = compare_fragility(first, second).to_dataframe()
+    >>> round(float(table.loc["median, ratio [-]", "value"]), 2)
+    1.11
     """
     for name, curve in (("first", first), ("second", second)):
         require_type(name, curve, (Fragility, CollapseFragility), "a fragility curve")

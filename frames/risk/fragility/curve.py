@@ -166,6 +166,13 @@ class Fragility(Estimate):
         Of the estimates of ``ln median`` and the dispersion.
     added : float
         Dispersion that was added for what the records do not show [-]; part of `dispersion`.
+
+    Examples
+    --------
+    >>> from frames.risk import fit_capacities
+    >>> curve = fit_capacities([1.9, 2.1, 2.6, 2.2, 1.7], ["a", "b", "c", "d", "e"])
+    >>> round(curve.median, 2), round(float(curve.probability(2.6)), 2)
+    (2.08, 0.92)
     """
 
     median: float
@@ -288,6 +295,17 @@ class CollapseFragility(Estimate):
         ln a, b, dispersion, c0, c1.
     limit : float
         Limit of the demand [SI].
+
+    Examples
+    --------
+    >>> from frames.risk import fit_cloud
+    >>> import numpy as np
+    >>> im = np.geomspace(0.5, 4.0, 12)
+    >>> demand = 0.004 * im**1.2 * np.tile([0.9, 1.1], 6)
+    >>> demand[[7, 9, 11]] = np.inf  # collapse
+    >>> curve = fit_cloud(im, demand, 0.01, [str(k) for k in range(12)], resamples=20)
+    >>> type(curve).__name__, len(curve.values)
+    ('CollapseFragility', 5)
     """
 
     values: tuple[float, float, float, float, float]

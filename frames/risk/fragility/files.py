@@ -90,6 +90,15 @@ def load_fragility(path: str | Path) -> Any:
         If the file holds nothing of the kind.
     OSError
         If there is no such file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from frames.risk import load_fragility, lognormal_fragility, save_fragility
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_fragility(lognormal_fragility(2.0, 0.4), f"{folder}/curve.json")
+    ...     print(load_fragility(f"{folder}/curve.json").median)
+    2.0
     """
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))

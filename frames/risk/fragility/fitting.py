@@ -71,6 +71,15 @@ def fit_stripes(
     Notes
     -----
     Source: Baker (2015), Earthquake Spectra 31:579-599; the same as a regression of probits.
+
+    Examples
+    --------
+    >>> from frames.risk import fit_stripes
+    >>> im = [1.0] * 4 + [2.0] * 4 + [3.0] * 4
+    >>> exceeded = [0, 0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0]
+    >>> curve = fit_stripes(im, exceeded, list("abcd") * 3, resamples=20)
+    >>> 1.0 < curve.median < 3.0
+    True
     """
     at, over = checked_runs(im, exceeded, records)
     known = ~np.isnan(over)

@@ -40,6 +40,10 @@ class IDA(Shown):
     Notes
     -----
     Between runs demands are linear in the intensity, from zero at zero.
+
+    Examples
+    --------
+    In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
 
     runs: IntensityRuns

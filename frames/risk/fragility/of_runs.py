@@ -55,6 +55,22 @@ def fragility_of(
         their outcome is told by the column "plan" of their table.
     ImportError
         If the method needs the package `pyFragility` (extra "fragility") and it is not installed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.risk import Intensity, LimitState, cloud_analysis, fragility_of
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> intensity = Intensity(kind="PGA", measure="x")
+    >>> motions = {f"pulse {k}": pulse.scaled(1.0 + 0.05 * k) for k in range(4)}
+    >>> runs = cloud_analysis(frame, motions, intensity=intensity, scales=(0.8, 1.2), workers=1)
+    >>> limit = LimitState("far", "bearing displacement", 0.05)
+    >>> curve = fragility_of(runs, limit, resamples=20)
+    >>> 0.5 < curve.median < 2.0
+    True
     """
     require_type("runs", runs, (IDA, IntensityRuns), "an IDA or IntensityRuns")
     require_type("limit", limit, LimitState, "a LimitState")

@@ -67,6 +67,10 @@ def fragility_curves(
     ------
     FragilityError
         If there is none or too many, or their measures or units differ.
+
+    Examples
+    --------
+    In the gallery: "Fragility of two devices" (docs/gallery/research/b_fragility.py).
     """
     named = _named("curves", curves, (Fragility, CollapseFragility), "a fragility curve")
     many = [curve for _, curve in named]
@@ -161,6 +165,10 @@ def risk_deaggregation(
     ------
     FragilityError
         If there is none or too many, or their measures or units differ.
+
+    Examples
+    --------
+    In the gallery: "Which intensities make the risk" (docs/gallery/research/c_risk.py).
     """
     named = _named("risks", risks, (Risk,), "a Risk")
     many = [one for _, one in named]
@@ -212,6 +220,10 @@ def tornado_chart(found: Tornado, *, label: str = "result", unit: str = "") -> F
     -------
     Figure
         Bars from the result at the lower to that at the upper value, about the base.
+
+    Examples
+    --------
+    In the gallery: "Which property matters" (docs/gallery/research/d_tornado.py).
     """
     require_type("found", found, Tornado, "a Tornado")
     table = found.table.iloc[::-1]

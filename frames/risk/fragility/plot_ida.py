@@ -57,6 +57,10 @@ def ida_curves(
     ------
     FragilityError
         If the quantity is not known.
+
+    Examples
+    --------
+    In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
     require_type("found", found, IDA, "an IDA")
     runs = found.runs
@@ -126,6 +130,19 @@ def stripes(runs: IntensityRuns, quantity: str, *, limit: LimitState | None = No
     ------
     FragilityError
         If the quantity is not known.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> from frames.risk import Intensity, multiple_stripes
+    >>> from frames.risk.plots import stripes
+    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> intensity = Intensity(kind="PGA", measure="x")
+    >>> runs = multiple_stripes(frame, pulse, [0.5, 1.0], intensity=intensity, workers=1)
+    >>> figure = stripes(runs, "bearing displacement")
     """
     require_type("runs", runs, IntensityRuns, "IntensityRuns")
     require_choice("quantity", quantity, tuple(runs.units), error=FragilityError)

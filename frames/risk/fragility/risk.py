@@ -25,7 +25,19 @@ MISSING = 0.05
 
 
 class RiskWarning(UserWarning):
-    """A rate of which much comes from where the hazard is not known."""
+    """A rate of which much comes from where the hazard is not known.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from frames.risk import HazardCurve, lognormal_fragility, mean_annual_frequency
+    >>> hazard = HazardCurve([1.0, 4.0], [1e-2, 1e-4])
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     risk = mean_annual_frequency(lognormal_fragility(5.0, 0.4), hazard)
+    >>> told[0].category.__name__
+    'RiskWarning'
+    """
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,6 +60,14 @@ class Risk(Shown):
         Most that intensities above the hazard curve could add [1/year]: its rate there.
     im, contribution : ndarray, shape (m,)
         Deaggregation: intensities, and the rate's derivative by the intensity's logarithm.
+
+    Examples
+    --------
+    >>> from frames.risk import HazardCurve, lognormal_fragility, mean_annual_frequency
+    >>> hazard = HazardCurve.power(1e-3, 2.5, 0.05, 500.0)
+    >>> risk = mean_annual_frequency(lognormal_fragility(5.0, 0.4), hazard)
+    >>> round(100.0 * float(risk.probability(50.0)), 2)  # per cent in 50 years
+    0.15
     """
 
     name: str

@@ -35,6 +35,10 @@ class Tornado:
     table : pandas.DataFrame
         A row a parameter, the widest swing first: values "low", "high" of the parameter, results
         "at low", "at high", and "swing", the size of the difference of both results.
+
+    Examples
+    --------
+    In the gallery: "Which property matters" (docs/gallery/research/d_tornado.py).
     """
 
     base: float
@@ -120,6 +124,18 @@ class SobolIndices:
         Of the result.
     runs : int
         Results that were formed.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import sobol_indices
+    >>> def results(sets):
+    ...     return [each["a"] + 0.1 * each["b"] for each in sets]
+    ...
+    >>> inputs = {"a": uniform(), "b": uniform()}
+    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> bool(found.table.loc["a", "total"] > 0.9)
+    True
     """
 
     table: pd.DataFrame
@@ -169,6 +185,18 @@ def sobol_indices(
     Notes
     -----
     Source: Saltelli et al. (2010), Comput. Phys. Commun. 181:259-270.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import sobol_indices
+    >>> def results(sets):
+    ...     return [each["a"] + 0.1 * each["b"] for each in sets]
+    ...
+    >>> inputs = {"a": uniform(), "b": uniform()}
+    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> found.table["first"].idxmax()
+    'a'
     """
     require_type("samples", samples, int, "a whole number")
     if samples < 2 or samples & (samples - 1):

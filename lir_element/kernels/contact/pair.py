@@ -180,7 +180,7 @@ def bond(
     damping: float,
     dt: float,
 ) -> None:
-    """Set force and derivative of a point where both sliders are one piece: an elastic bond."""
+    """Set force and derivative of a point where the slider is rigid: an elastic bond."""
     rate = damping / dt if dt > 0.0 else 0.0
     home = (home_1, home_2, 0.0)
     for a in range(3):

@@ -114,7 +114,7 @@ def held_rate(w: Work, e_1: float, e_2: float, d_s1: float, d_s2: float) -> floa
 
 @kernel
 def held_rate_fused(w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> float:
-    """Return the same for one piece; `r_1`, `r_2`: the residual's derivative at constant N."""
+    """Return the same for a rigid slider; `r_1`, `r_2`: the residual's derivative at constant N."""
     x = w.t[0, 0] * e_1 + w.t[1, 0] * e_2
     y = w.t[0, 1] * e_1 + w.t[1, 1] * e_2
     share = w.n[2] + (w.n[0] * w.drag[0] + w.n[1] * w.drag[1]) / w.l

@@ -286,7 +286,7 @@ def interface(p: Props, old: State, w: Work) -> None:
 def rims(p: Props, old: State, w: Work) -> None:
     """Set the rim forces of both plates; their directions where one of the rims is met.
 
-    One piece that is lifted by more than its height is no longer between the rims.
+    A rigid slider that is lifted by more than its height is no longer between the rims.
     """
     height = p.radius[0] + p.radius[1] - p.length
     away = p.fused and p.length - w.l > height
@@ -328,8 +328,8 @@ def rims(p: Props, old: State, w: Work) -> None:
 def evaluate(p: Props, old: State, w: Work) -> None:
     """Set all forces at the current axis and the residual of the slider's equilibrium.
 
-    Two pieces part where they carry no axial force, and pass nothing; one piece between its rims
-    still passes what the rims press.
+    Two pieces part where they carry no axial force, and pass nothing; a rigid slider between its
+    rims still passes what they press.
     """
     axial(p, old, w)
     surface(p, old, w, 0)

@@ -353,7 +353,7 @@ def slider_jacobian(p: Props, w: Work) -> None:
 def column(p: Props, w: Work, col: int, rates: Rates, d_1: float, d_2: float, d_3: float) -> None:
     """Set column `col` of the condensed stiffness from what a shift `d`, or a spin, changes.
 
-    The axis follows: it stays in equilibrium; that of one piece stays the line of the centres.
+    The axis follows: it stays in equilibrium; that of a rigid slider stays the line of the centres.
     """
     r, inv = w.rates, w.inverse
     e_1 = -(inv[0] * rates[0] + inv[1] * rates[1])  # (4.1)

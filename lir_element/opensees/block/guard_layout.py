@@ -8,7 +8,7 @@ from lir_element.layout import Field, dtype_of
 from lir_element.opensees.block.layout import MOST_DOFS
 
 MOST_CHANNELS = 1024
-"""Bearings that can be served at a time in the portable route."""
+"""Bearings that can be served at a time by out-of-process coupling."""
 
 GUARD_FIELDS = (
     Field("pipe", "-", "", "file descriptor of the pipe to the server; -1: none", (), "i8"),

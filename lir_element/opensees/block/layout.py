@@ -125,7 +125,7 @@ FAST_FIELDS = (
     Field("messages", "", "", "addresses of the messages by number", (MESSAGES,), _ADDRESS),
     Field("message_sizes", "", "", "their lengths", (MESSAGES,), "i8"),
 )
-"""What the callbacks of the fast route use besides."""
+"""What the callbacks of in-process coupling use besides."""
 
 FROM_DISPLACEMENT = -1
 FROM_FORCE = -2

@@ -198,6 +198,10 @@ def builtin_element(
     Notes
     -----
     The model is of three dimensions, in m, N and s. `bearing_element` takes planes and other units.
+
+    Examples
+    --------
+    In the gallery: "Beside an element that OpenSees ships" (docs/gallery/opensees/b_builtin.py).
     """
     ops = opensees()
     for name, value in {"tag": tag, "i": i, "j": j}.items():

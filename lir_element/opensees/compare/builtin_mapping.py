@@ -45,6 +45,16 @@ class BuiltinValues:
         Of the vertical material in compression [N/m, N s/m].
     torque, torsion_yield : float
         Resistance to rotation about the vertical [N m], and where it is reached [rad].
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import builtin_values
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> values = builtin_values(bearing.as_dcfp(), 150e3)
+    >>> round(values.length, 3), round(values.friction_max, 4)
+    (1.415, 0.07)
     """
 
     length: float

@@ -42,7 +42,7 @@ class MacroModel(NamedTuple):
     Attributes
     ----------
     node : int or None
-        Node m between pendulum and interface; None where the slider is one piece.
+        Node m between pendulum and interface; None where the slider is rigid.
     pendulum : int
         The element that slides with low friction.
     rims : tuple of int
@@ -53,6 +53,23 @@ class MacroModel(NamedTuple):
         The springs of ``restoring="across"``.
     materials, frictions : tuple of int
         Uniaxial materials and friction models.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import macro_model, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> made = macro_model(bearing.as_dcfp(rims=False), 1, 2, load=150e3)
+    >>> made.node, made.interface, made.rims
+    (None, None, ())
+    >>> ops.wipe()
     """
 
     node: int | None
@@ -127,6 +144,23 @@ def macro_model(
     - Node m turns with node i. Its mass holds it where the bearing has lifted off.
     - The interface is as soft before slip as the surfaces, where its own yield displacement is
       smaller: a small one makes Newton's method fail.
+
+    Examples
+    --------
+    >>> from lir_element import LIRBearing
+    >>> from lir_element.opensees import macro_model, opensees
+    >>> ops = opensees()
+    >>> ops.wipe()
+    >>> ops.model("basic", "-ndm", 3, "-ndf", 6)
+    >>> ops.node(1, 0.0, 0.0, 0.0)
+    >>> ops.node(2, 0.0, 0.0, 0.0)
+    >>> ops.fix(1, 1, 1, 1, 1, 1, 1)
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=0.066, interface_friction=0.126)
+    >>> made = macro_model(bearing, 1, 2, load=150e3)
+    >>> len(made.rims), made.interface is not None
+    (4, True)
+    >>> ops.wipe()
     """
     ops = opensees()
     _check_nodes(ops, node_i, node_j)
@@ -137,7 +171,7 @@ def macro_model(
         own = require_non_negative("middle_mass", middle_mass, "kg")
     tags = itertools.count(_first_tag(ops, first_tag))
     build = _Builder(ops, bearing, weight, tags, rise=rise)
-    if math.isinf(bearing.force_limit(weight)):  # no rims, or one piece: the interface never slips
+    if math.isinf(bearing.force_limit(weight)):  # no rims, or a rigid slider: no slip
         middle, share = node_j, 1.0
     else:
         middle, share = next(tags), 2.0

@@ -1,7 +1,7 @@
 """What OpenSees calls in place of the host element's own functions, the same at every level.
 
 Every function takes the address of the element first, as C++ methods do; `restart`, which the
-portable route calls, takes that of the block.
+out-of-process coupling calls, takes that of the block.
 """
 
 from __future__ import annotations

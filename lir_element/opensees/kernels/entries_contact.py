@@ -1,7 +1,7 @@
 """What C calls for a bearing at the level 'contact'; compiled (or taken from the cache) on import.
 
 `trial`, `tangent`, `commit` take the address of the bearing's block. `update`, `commit_state`,
-`tangent_stiff` take the host element (fast route).
+`tangent_stiff` take the host element (in-process coupling).
 """
 
 from __future__ import annotations

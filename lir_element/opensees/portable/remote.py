@@ -28,7 +28,14 @@ if TYPE_CHECKING:
 
 
 class ServerError(RuntimeError):
-    """The process that determines the states of bearings is gone."""
+    """The process that determines the states of bearings is gone.
+
+    Examples
+    --------
+    >>> from lir_element.opensees import ServerError
+    >>> issubclass(ServerError, RuntimeError)  # so that `except RuntimeError` catches it
+    True
+    """
 
 
 def _without_classes(bearing: LIRBearing) -> LIRBearing:
