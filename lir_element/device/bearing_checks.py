@@ -146,9 +146,9 @@ def _check_sliders(bearing: Specification) -> None:
     fits = 4 <= count <= 7 or (8 <= count <= 64 and count % 2 == 0)
     if not (fits or (count >= 96 and count % 32 == 0)):
         msg = (
-            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 (one "
-            "ring on the slider's edge), an even number from 8 to 64 (two rings) or a multiple of "
-            "32 from 96 on (rings of 32)"
+            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 "
+            "(one ring on the slider's edge), an even number from 8 to 64 (two rings) or a "
+            "multiple of 32 from 96 on (rings of 32)"
         )
         raise ValueError(msg)
 

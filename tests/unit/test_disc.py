@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
 from lir_element.kernels.contact.disc import disc_load, rub, rubbing, segment, size_of
-from lir_element.kernels.contact.discs import torsion_radius
+from lir_element.kernels.contact.disc_pair import torsion_radius
 from lir_element.kernels.slip import friction_map, kept_share
 from lir_element.layout import SCRATCH, TOUCH
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.slip import bouc_wen_radius, direction_of, small_angle
 
 if TYPE_CHECKING:
@@ -127,6 +127,39 @@ def slid_on(w: Scratch, z: Floats, d_1: float, d_2: float, d_3: float, u_y: floa
 
 
 @kernel
+def bend_of_norm(w: Scratch, q_v: float, q_t: float, q_vv: float, q_vt: float, q_tt: float) -> None:
+    """Set half the second derivative of the norm's square at ``w.rub_b``: ``w.rub_h``."""
+    b, h = w.rub_b, w.rub_h
+    h[0, 0] = q_v + 2.0 * b[0] * b[0] * q_vv
+    h[1, 1] = q_v + 2.0 * b[1] * b[1] * q_vv
+    h[2, 2] = q_t + 2.0 * b[2] * b[2] * q_tt
+    h[0, 1] = 2.0 * b[0] * b[1] * q_vv
+    h[0, 2], h[1, 2] = 2.0 * b[0] * b[2] * q_vt, 2.0 * b[1] * b[2] * q_vt
+    h[1, 0], h[2, 0], h[2, 1] = h[0, 1], h[0, 2], h[1, 2]
+
+
+@inlined
+def returned_by(
+    bouc_wen: int, exponent: float, size: float, kappa: float
+) -> tuple[float, float, float, float]:
+    """Return what is left of b, ``z = c b``, and three factors of its derivative.
+
+    ``dc = c_b g . db + c_d g . dd - c_h (h d) . db`` with g half the gradient of the norm's square,
+    h its derivative and d the sliding over the way to slip.
+    """
+    if bouc_wen and kappa > 0.0 and size < 1.0 + kappa:
+        rho, by_size, power = bouc_wen_radius(size, kappa, exponent)
+        over = 1.0 / size
+        c, square = rho * over, over * over
+        c_h = by_size * power * square
+        return c, square * (by_size * (1.0 + power * kappa * over) - c), -c_h, c_h
+    if size > 1.0:
+        c = 1.0 / size
+        return c, -c * c * c, 0.0, 0.0
+    return 1.0, 0.0, 0.0, 0.0
+
+
+@kernel
 def rub(
     w: Scratch,
     bouc_wen: int,
@@ -148,73 +181,40 @@ def rub(
     takes the place of the length.
     """
     inv = 0.5 * (1.0 + kept) / u_y
-    u = 1.0 / inv
-    d_1, d_2, d_3 = d[0] * inv, d[1] * inv, d[2] * inv
-    b = w.rub_b
-    b[0], b[1], b[2] = kept * old[0] + d_1, kept * old[1] + d_2, kept * old[2] + d_3
+    u, half = 1.0 / inv, 0.5 * by_push / u_y
+    b, g, hd, n, e = w.rub_b, w.rub_g, w.rub_hd, w.rub_n, w.rub_e
+    for k in range(3):
+        hd[k] = d[k] * inv
+        b[k] = kept * old[k] + hd[k]
+        e[k] = half * d[k]
+        n[k] = by_push * old[k] + e[k]
     q, q_v, q_t, q_vv, q_vt, q_tt = rubbing(b[0], b[1], b[2])
     size = math.sqrt(q)
-    g_1, g_2, g_3 = b[0] * q_v, b[1] * q_v, b[2] * q_t  # half the gradient
-    h = w.rub_h
-    h[0, 0], h[0, 1], h[1, 1] = (
-        q_v + 2.0 * b[0] * b[0] * q_vv,
-        2.0 * b[0] * b[1] * q_vv,
-        q_v + 2.0 * b[1] * b[1] * q_vv,
-    )
-    h[0, 2], h[1, 2], h[2, 2] = (
-        2.0 * b[0] * b[2] * q_vt,
-        2.0 * b[1] * b[2] * q_vt,
-        q_t + 2.0 * b[2] * b[2] * q_tt,
-    )
-    h[1, 0], h[2, 0], h[2, 1] = h[0, 1], h[0, 2], h[1, 2]
-    c, c_b, c_d = 1.0, 0.0, 0.0  # z = c b; dc = c_b g . db + c_d g . dd - c_h (h d) . db
-    c_h, slip = 0.0, 0.0
-    kappa = (g_1 * d_1 + g_2 * d_2 + g_3 * d_3) / size if size > 0.0 else 0.0
-    if bouc_wen and kappa > 0.0 and size < 1.0 + kappa:
-        rho, by_size, power = bouc_wen_radius(size, kappa, exponent)
-        over = 1.0 / size
-        c = rho * over
-        c_b = over * over * (by_size * (1.0 + power * kappa * over) - c)
-        c_d = -by_size * power * over * over
-        c_h = by_size * power * over * over
-        slip = u * (size - rho)
-    elif size > 1.0:
-        c = 1.0 / size
-        c_b = -c * c * c
-        slip = u * (size - 1.0)
-    z[0], z[1], z[2] = c * b[0], c * b[1], c * b[2]
-    out = w.rub
-    out[0, 0], out[1, 0], out[2, 0] = c * g_1, c * g_2, c * g_3
-    hd = w.rub_hd
+    g[0], g[1], g[2] = b[0] * q_v, b[1] * q_v, b[2] * q_t  # half the gradient
+    bend_of_norm(w, q_v, q_t, q_vv, q_vt, q_tt)
+    h, out, by = w.rub_h, w.rub, w.rub_c
+    kappa = (g[0] * hd[0] + g[1] * hd[1] + g[2] * hd[2]) / size if size > 0.0 else 0.0
+    c, c_b, c_d, c_h = returned_by(bouc_wen, exponent, size, kappa)
+    d_1, d_2, d_3 = hd[0], hd[1], hd[2]
+    along, by[3] = 0.0, 0.0
+    for k in range(3):  # derivative of c: by d over inv, and by the axial force
+        hd[k] = h[k, 0] * d_1 + h[k, 1] * d_2 + h[k, 2] * d_3
+        by[k] = (c_b + c_d) * g[k] - c_h * hd[k]
+        along += g[k] * n[k]
+        by[3] += c_b * g[k] * n[k] + c_d * g[k] * e[k] - c_h * hd[k] * n[k]
     for a in range(3):
-        hd[a] = h[a, 0] * d_1 + h[a, 1] * d_2 + h[a, 2] * d_3
-    by = w.rub_c  # derivative of c by d over inv, and by the axial force
-    by[0] = (c_b + c_d) * g_1 - c_h * hd[0]
-    by[1] = (c_b + c_d) * g_2 - c_h * hd[1]
-    by[2] = (c_b + c_d) * g_3 - c_h * hd[2]
-    n_1, n_2, n_3, along = 0.0, 0.0, 0.0, 0.0
-    by[3] = 0.0
-    if by_push != 0.0:
-        half = 0.5 * by_push / u_y
-        e_1, e_2, e_3 = half * d[0], half * d[1], half * d[2]
-        n_1, n_2, n_3 = by_push * old[0] + e_1, by_push * old[1] + e_2, by_push * old[2] + e_3
-        along = g_1 * n_1 + g_2 * n_2 + g_3 * n_3
-        by[3] = c_b * along + c_d * (g_1 * e_1 + g_2 * e_2 + g_3 * e_3)
-        by[3] -= c_h * (hd[0] * n_1 + hd[1] * n_2 + hd[2] * n_3)
-    for a in range(3):
-        g = g_1 if a == 0 else (g_2 if a == 1 else g_3)
+        z[a], out[a, 0] = c * b[a], c * g[a]
         for k in range(3):
-            out[a, 1 + k] = inv * (c * h[a, k] + g * by[k])
-        out[a, 4] = c * (h[a, 0] * n_1 + h[a, 1] * n_2 + h[a, 2] * n_3) + g * by[3]
+            out[a, 1 + k] = inv * (c * h[a, k] + g[a] * by[k])
+        out[a, 4] = c * (h[a, 0] * n[0] + h[a, 1] * n[1] + h[a, 2] * n[2]) + g[a] * by[3]
+    slip = u * size * (1.0 - c)
     slid = slid_on(w, old, d[0], d[1], d[2], u_y)
     if share == 0.0 or slip == 0.0 or slid == 0.0:
         return slid
     slope = w.slip_by  # derivative of the slip by d and by the axial force
     for k in range(3):
-        g = g_1 if k == 0 else (g_2 if k == 1 else g_3)
-        slope[k] = g / size * (1.0 - c) - size * by[k]
-    slope[3] = u * (along / size * (1.0 - c) - size * by[3])
-    slope[3] -= slip * u * 0.5 * by_push / u_y
+        slope[k] = g[k] / size * (1.0 - c) - size * by[k]
+    slope[3] = u * (along / size * (1.0 - c) - size * by[3] - slip * half)
     turn_on(w, d, before, share, slip, slid, u_y, z)
     return slid
 
