@@ -4,6 +4,7 @@
 VENV ?= .venv
 PYTHON ?=
 RUN := $(VENV)/bin/python
+export PYTHONDONTWRITEBYTECODE :=  # the suite starts Python a hundred times
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
