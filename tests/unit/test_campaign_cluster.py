@@ -28,10 +28,10 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[Any]:
-    """Four workers, processes of one thread, over loopback."""
+    """Three workers, processes of one thread, over loopback."""
     with (
         distributed.LocalCluster(
-            n_workers=4, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+            n_workers=3, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
         ) as made,
         distributed.Client(made) as client,
     ):
@@ -53,7 +53,7 @@ def small(store: Path, sets: int = 12) -> Campaign:
 
 
 def test_workers_that_are_slow_or_killed_change_nothing(tmp_path: Path, cluster: Any) -> None:
-    """One of four workers stands still for two seconds, another one is killed."""
+    """One of three workers stands still for two seconds, another one is killed."""
     killed: list[int] = []
     slow, lost, *_ = cluster.run(os.getpid).values()
 
