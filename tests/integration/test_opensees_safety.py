@@ -34,7 +34,7 @@ ROUTES = [
 PREAMBLE = """
 import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
-from tests.integration.conftest import Stand
+from tests.integration.stand import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
 from lir_element.opensees import connection
 from lir_element.opensees.plugin import _SESSION
