@@ -14,8 +14,8 @@ from validation.golden_review import GOLDEN, Review, prepared, projects, recompu
 
 RUN = {
     "01-asce-frame": ("lower", "nominal"),
-    "05-en-shear": ("lower",),
-    "09-nch-shear": ("lower", "upper"),
+    "05-en-shear": ("upper",),
+    "09-nch-shear": ("lower",),
 }
 """A frame and sticks, three codes, means and largest, with the bounds that are run here;
 `make nightly` runs these with all bounds, `validation.golden_review` all ten projects."""
@@ -98,7 +98,7 @@ def test_every_reported_number_of_all_bounds_is_found_again(name, tmp_path):
 
 @pytest.mark.slow
 def test_every_number_of_two_levels_is_found_again(first):
-    agrees(first[1])
+    agrees(first[1], share=len(RUN["09-nch-shear"]) / 3)
 
 
 def agrees(found: Review, share: float = 1.0):
