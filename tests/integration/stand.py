@@ -33,10 +33,9 @@ class Stand:
         self.ops.wipe()
         self.ops.model("basic", "-ndm", ndm, "-ndf", 6 if ndm == 3 else 3)
 
-    @staticmethod
-    def fresh_server() -> None:
+    def fresh_server(self) -> None:
         """End the server of this process: a new one writes to where standard error is captured."""
-        if _SESSION.server is not None:
+        if self.route == "portable" and _SESSION.server is not None:
             _SESSION.server.close()
             _SESSION.server = None
 
