@@ -4,10 +4,11 @@
 VENV ?= .venv
 PYTHON ?=
 RUN := $(VENV)/bin/python
+export PYTHONDONTWRITEBYTECODE :=  # the suite starts Python a hundred times
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs quick test nightly lint types kernels wheel clean
+.PHONY: help demo docs quick test suite nightly lint types kernels wheel clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
@@ -22,10 +23,13 @@ quick: $(READY)  ## the physics and one path through each door: a minute, once k
 	$(RUN) -m pytest -m quick -n auto --maxprocesses 4 --dist worksteal -q
 
 test: $(READY)  ## lint, types and all tests
-	$(MAKE) --no-print-directory -j 3 lint types kernels
+	$(MAKE) --no-print-directory lint
+	$(MAKE) --no-print-directory -j 2 types suite
+
+suite: kernels
 	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
-nightly: $(READY)  ## what takes minutes of compiling
+nightly: $(READY)  ## what takes minutes: compiling, more random cases, all bounds of reviewed projects
 	$(RUN) -m pytest -m nightly
 
 kernels: $(READY)  ## compile the kernels of usual analyses, once

@@ -88,9 +88,9 @@ class KernelHook(BuildHookInterface):  # type: ignore[misc]  # seen without hatc
             "PYTHONPATH": os.pathsep.join(filter(None, (self.root, os.environ.get("PYTHONPATH")))),
         }
         found = ""
-        for _ in range(2):
+        for command in (["-m", "frames.precompile"], ["-c", LIST]):
             found = subprocess.run(  # noqa: S603
-                [sys.executable, "-c", LIST],
+                [sys.executable, *command],
                 env=env,
                 check=True,
                 stdout=subprocess.PIPE,

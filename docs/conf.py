@@ -12,6 +12,7 @@ import warnings
 from importlib.metadata import version as version_of
 from pathlib import Path
 
+import furo
 from sphinx_gallery.sorting import ExplicitOrder, FileNameSortKey
 
 HERE = Path(__file__).parent
@@ -78,6 +79,8 @@ suppress_warnings = ["config.cache"]  # functions and objects in sphinx_gallery_
 warnings.filterwarnings("ignore", category=UserWarning, message=".*Agg.*")  # figures are not shown
 
 html_theme = "furo"
+if not RUN:  # the tree of all pages beside each page, made anew for each, is a third of the build
+    furo._compute_navigation_tree = lambda _: ""
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"  # drawn by the browser itself, without a network

@@ -9,18 +9,26 @@ pytest.importorskip("typer")
 from validation.random_projects import FINDINGS, perform, random_project
 
 SEED = 3
+DAILY, ALL = 12, 20
+"""Number of projects, and with those that `make nightly` adds."""
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # the command prints warnings
-@pytest.mark.parametrize("number", range(20))
+@pytest.mark.parametrize(
+    "number",
+    [
+        *range(DAILY),
+        *(pytest.param(one, marks=pytest.mark.nightly) for one in range(DAILY, ALL)),
+    ],
+)
 def test_a_random_project(number: int) -> None:
     found = perform(number, seed=SEED)
     assert found.outcome not in FINDINGS, f"{found.wrong}: {found.words}"
 
 
 def test_the_series_has_sound_and_spoilt_projects() -> None:
-    wrong = [random_project(SEED, number)[1] for number in range(20)]
+    wrong = [random_project(SEED, number)[1] for number in range(ALL)]
     assert 0 < wrong.count("") < 10
     assert len(set(wrong)) > 10
     assert random_project(SEED, 7) == random_project(SEED, 7)

@@ -34,7 +34,7 @@ ROUTES = [
 PREAMBLE = """
 import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
-from tests.integration.conftest import Stand
+from tests.integration.stand import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
 from lir_element.opensees import connection
 from lir_element.opensees.plugin import _SESSION
@@ -137,27 +137,32 @@ def test_a_server_killed_in_an_analysis_ends_it() -> None:
     assert errors.count("has ended: their states are lost") == 1
 
 
-@pytest.mark.parametrize("wipe", [True, False])
-def test_a_server_killed_while_idle_is_noticed(wipe: bool) -> None:
+def test_a_server_killed_while_idle_is_noticed() -> None:
+    """A new model is analysed as ever; and without one the process ends."""
     errors = run(
-        f"""
-        begin()
-        assert not any(advance())
-        os.kill(_SESSION.server.pid, signal.SIGKILL)
-        time.sleep(0.2)
-        assert ops.analyze(5, 0.005) != 0
-        if {wipe}:
-            ops.wipe()
+        """
+        for wiped in (True, False):
             begin()
             assert not any(advance())
+            os.kill(_SESSION.server.pid, signal.SIGKILL)
+            time.sleep(0.2)
+            assert ops.analyze(5, 0.005) != 0
+            if wiped:
+                ops.wipe()
         """,
         "portable",
     )
-    assert "the analysis cannot go on" in errors
+    assert errors.count("the analysis cannot go on") == 2
 
 
 @pytest.mark.parametrize(
-    "end", ["os.kill(os.getpid(), signal.SIGKILL)", "os._exit(3)", "sys.exit(0)", "1 / 0"]
+    "end",
+    [
+        "os.kill(os.getpid(), signal.SIGKILL)",
+        pytest.param("os._exit(3)", marks=pytest.mark.nightly),  # nothing is called, as of a kill
+        "sys.exit(0)",
+        pytest.param("1 / 0", marks=pytest.mark.nightly),  # what is called at an exit is
+    ],
 )
 def test_no_server_outlives_the_model(end: str) -> None:
     process = start(
@@ -172,17 +177,19 @@ def test_no_server_outlives_the_model(end: str) -> None:
     )
     output, errors = finish(process)
     assert output.strip(), errors
+    assert ("Traceback" in errors) is (end == "1 / 0")
     assert gone(int(output))
 
 
-@pytest.mark.parametrize("route", ROUTES)
+@pytest.mark.parametrize("route", ROUTES[:1])
 def test_exit_without_wipe_is_clean(route: str) -> None:
     errors = run("begin(3); assert not any(advance())", route)
     assert "Traceback" not in errors
 
 
 @pytest.mark.parametrize("route", ROUTES)
-def test_a_stranger_who_connects_first_is_turned_away(route: str) -> None:
+def test_only_our_own_process_is_connected_with(route: str) -> None:
+    """A stranger who connects first is turned away; no connection leaves no element."""
     run(
         """
         strangers = []
@@ -211,15 +218,7 @@ def test_a_stranger_who_connects_first_is_turned_away(route: str) -> None:
         else:
             sys.exit("somebody listens")
         ops.wipe()
-        """,
-        route,
-    )
 
-
-@pytest.mark.parametrize("route", ROUTES)
-def test_a_connection_that_never_arrives_leaves_no_element(route: str) -> None:
-    run(
-        """
         class Blind:
             def __init__(self, pid): pass
             def net_connections(self, kind): return []
@@ -352,32 +351,33 @@ def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None
 
 
 @pytest.mark.parametrize("route", ROUTES)
-@pytest.mark.parametrize(
-    "limit", ["slip_capacity=0.01", "interface_friction=float('inf'), rim_overrun=1e-4"]
-)
-def test_variable_steps_end_where_the_bearing_does(limit: str, route: str) -> None:
+def test_variable_steps_end_where_the_bearing_does(route: str) -> None:
     errors = run(
-        f"""
+        """
         from lir_element import CoulombFriction, LIRBearing
-        options = {{**dict(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-                    friction=CoulombFriction(0.05), interface_friction=0.126), **dict({limit})}}
-        stand.build(LIRBearing(**options))
-        stand.gravity()
-        stand.shaking(2.8)
-        ops.analysis("VariableTransient")
-        assert ops.analyze(400, 0.005, 1e-5, 0.01, 10) == -3
-        assert 0.3 < ops.getTime() < 1.0 and bearing_response(1, "status") != 0
-        ops.analysis("Transient")
-        assert ops.analyze(1, 0.005) < 0
+        plain = dict(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+                     friction=CoulombFriction(0.05), interface_friction=0.126)
+        for limit in (dict(slip_capacity=0.01),
+                      dict(interface_friction=float("inf"), rim_overrun=1e-4)):
+            stand.build(LIRBearing(**(plain | limit)))
+            stand.gravity()
+            stand.shaking(2.8)
+            ops.analysis("VariableTransient")
+            assert ops.analyze(400, 0.005, 1e-5, 0.01, 10) == -3
+            assert 0.3 < ops.getTime() < 1.0 and bearing_response(1, "status") != 0
+            ops.analysis("Transient")
+            assert ops.analyze(1, 0.005) < 0
+            ops.wipe()
         """,
         route,
     )
-    assert errors.count("bearing element 1") == 1
-    assert len(errors.splitlines()) < 200  # of OpenSees itself, for each trial
+    assert errors.count("bearing element 1") == 2
+    assert len(errors.splitlines()) < 400  # of OpenSees itself, for each trial
 
 
 @pytest.mark.parametrize("route", ROUTES)
-def test_a_database_is_refused(route: str, tmp_path: Path) -> None:
+def test_what_cannot_be_is_told(route: str, tmp_path: Path) -> None:
+    """A database is refused; that a system is symmetric is hinted at once."""
     errors = run(
         f"""
         def refused(command, tag):
@@ -396,19 +396,7 @@ def test_a_database_is_refused(route: str, tmp_path: Path) -> None:
         ops.wipe()
         begin(2)
         assert not any(advance()) and bearing_tags() == (1, 2)
-        """,
-        route,
-    )
-    told = errors.count("neither saved to a database nor restored from one")
-    # OpenSees 3.8 looks no further where nothing was saved: it refuses to restore before we do
-    assert told == 2 or (told == 1 and "failed to restore state" in errors)
-    assert "What to try: run the analysis again" in errors
 
-
-@pytest.mark.parametrize("route", ROUTES)
-def test_a_symmetric_system_is_hinted_at_once(route: str) -> None:
-    errors = run(
-        """
         from tests.integration.test_opensees_analyses import push_through
         for tangent in ("consistent", "consistent", "symmetric"):
             try:
@@ -422,3 +410,7 @@ def test_a_symmetric_system_is_hinted_at_once(route: str) -> None:
     )
     assert errors.count("whose tangent is unsymmetric") == 1
     assert 'tangent="symmetric" in bearing_element' in errors
+    told = errors.count("neither saved to a database nor restored from one")
+    # OpenSees 3.8 looks no further where nothing was saved: it refuses to restore before we do
+    assert told == 2 or (told == 1 and "failed to restore state" in errors)
+    assert "What to try: run the analysis again" in errors

@@ -13,7 +13,8 @@ from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
 
 SEED = 1
-CASES = 300
+CASES, NIGHTLY = 180, 300
+"""Number of test cases, and with those that `make nightly` adds."""
 AGAIN = 6
 BUILDINGS = 20
 HARD_BUILDINGS = (119, 123)
@@ -25,7 +26,14 @@ holds against a twist; sliders of a bearing that has lifted."""
 FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
 
 
-@pytest.mark.parametrize("number", [*range(CASES), *HARD])
+@pytest.mark.parametrize(
+    "number",
+    [
+        *range(CASES),
+        *HARD,
+        *(pytest.param(one, marks=pytest.mark.nightly) for one in range(CASES, NIGHTLY)),
+    ],
+)
 def test_completes_or_reports(number):
     again = number % AGAIN == 0 and random_scene(SEED, number).level == "pendulum"
     report = try_scene(SEED, number, again=again or number in HARD, finer=False)

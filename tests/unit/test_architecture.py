@@ -38,6 +38,7 @@ def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+@functools.cache
 def imported(tree: ast.AST, package: str) -> set[str]:
     """Return the full names of all that is imported."""
     names: set[str] = set()
@@ -50,6 +51,7 @@ def imported(tree: ast.AST, package: str) -> set[str]:
     return names
 
 
+@functools.cache
 def functions(tree: ast.AST) -> list[ast.FunctionDef]:
     return [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)]
 
@@ -126,6 +128,7 @@ def dotted(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
+@functools.cache
 def targets(path: Path) -> set[str]:
     """Return the modules that a module imports, anywhere in it and for annotations, too."""
     names = imported(parse(path), "")
@@ -145,6 +148,7 @@ def name_of(folder: Path) -> str:
     return ".".join(folder.relative_to(ROOT).parts)
 
 
+@functools.cache
 def holds_rooms(folder: Path) -> bool:
     return any(folder in other.parents and other.parent != folder for other in MODULES)
 

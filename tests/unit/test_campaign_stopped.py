@@ -126,11 +126,14 @@ def test_after_ctrl_c_the_rest_is_run(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of the size of files there")
-def test_a_full_disk_is_told_and_the_store_stays(tmp_path: Path) -> None:
+def test_a_full_disk_is_told_and_the_store_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """No file can grow at all: as on a full disk, each write fails, in reality."""
     import resource
     import signal
 
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # what is cut off would be kept
     campaign = small(tmp_path / "store")
 
     def fill(progress: BatchProgress) -> None:

@@ -96,6 +96,17 @@ def test_kernels_of_the_wheel_are_left_where_the_processor_lacks_what_they_use(
     assert shipped.shipped_for((triple, "znver3", has)) is None
 
 
+def test_processes_share_all_analyses_and_name_the_one_that_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert sorted(name for layer in precompile.LAYERS for name in layer) == sorted(precompile.USUAL)
+    monkeypatch.setattr(precompile, "LAYERS", (("element",), ("of nobody",)))
+    shared = precompile._compiled(2)
+    assert next(shared)[0] == "element"
+    with pytest.raises(RuntimeError, match=r"of 'of nobody': .*frames\.precompile --jobs 1"):
+        next(shared)
+
+
 @COMPILES
 @pytest.mark.slow
 def test_usual_analyses_compile_nothing_that_was_not_compiled_ahead() -> None:

@@ -71,6 +71,7 @@ def test_a_full_disk_is_said_and_survived(tmp_path: Path) -> None:
     save(results(1.0), path)
     code = """
 import resource
+sys.dont_write_bytecode = True  # it would be kept where the limit cuts it off
 data = xr.Dataset({"u": ("time", np.random.default_rng(0).normal(size=100000))})
 soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100000, hard))

@@ -72,8 +72,7 @@ def test_the_whole_length_is_a_uniform_load(section):
     assert_allclose(fixed_end(tapered), fixed_end(uniform), rtol=1e-12, atol=1e-9)
 
 
-@pytest.mark.parametrize("section", [SECTION, SHEAR])
-@pytest.mark.parametrize("releases", [None, {"j": ("My", "Mz")}])
+@pytest.mark.parametrize(("section", "releases"), [(SECTION, None), (SHEAR, {"j": ("My", "Mz")})])
 def test_against_many_point_loads(section, releases):
     """A linear load over a part, as point loads on 800 pieces without any load formula."""
     pieces, a, b = 800, 0.3, 3.1

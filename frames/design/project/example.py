@@ -61,6 +61,8 @@ def write_example(folder: Path, code: str = "ASCE 7-22") -> list[Path]:
     known = {each.name: each for each in known_codes() if each.example is not None}
     require_choice("code", canonical(code), tuple(known), error=ProjectError)
     own, motions = known[canonical(code)], folder / "motions"
+    if (folder / "project.toml").exists():  # before the motions are made
+        raise FileExistsError(str(folder / "project.toml"))
     chosen = own.example or ExampleProject({}, {})
     target = own.spectrum(**chosen.spectrum)
     contents = {folder / "project.toml": _text(own.name, chosen)}
