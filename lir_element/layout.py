@@ -291,6 +291,7 @@ TOUCH_FIELDS = (
     Field("memory", "-", "z", "hysteretic variable of a disc, its spin last", (3,)),
     Field("axes", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("centre", "m", "e", "centre of pressure of a disc, axes of its face", (2,)),
+    Field("core", "m", "", "the same without damping", (2,)),
 )
 
 SCRATCH_FIELDS = (

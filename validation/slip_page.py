@@ -53,7 +53,9 @@ def errors(entry: Entry, level: str) -> dict[str, float]:
     """Return the errors of a level against the rigid bodies [-]."""
     ours, theirs = entry[level], entry["rigid_body"]
     slip = max(theirs["slip"], LEAST * entry["capacity"])
-    scales = {"slip": slip, "left": slip} | {n: theirs[n] for n in ("displacement", "force", "axial")}
+    scales = {"slip": slip, "left": slip} | {
+        n: theirs[n] for n in ("displacement", "force", "axial")
+    }
     least = LEAST_RIM * theirs["force"]
     scales |= {name: max(theirs[name], least) for name in ("rim_bottom", "rim_top")}
     return {name: abs(ours[name] - theirs[name]) / scale for name, scale in scales.items()}

@@ -765,8 +765,8 @@ def test_twist_under_load(sign: float, weak: int) -> None:
         element.commit()
     torque = 2.0 / 3.0 * 0.08 * 0.05 * load
     force = element.resisting_force()
-    assert_allclose(element.response("torque"), sign * torque, rtol=1e-4, atol=0.0)
-    assert_allclose(force[[11, 5]], [sign * torque, -sign * torque], rtol=1e-4, atol=0.0)
+    assert_allclose(element.response("torque"), sign * torque, rtol=2e-4, atol=0.0)
+    assert_allclose(force[[11, 5]], [sign * torque, -sign * torque], rtol=2e-4, atol=0.0)
     assert_allclose(element.response("twist"), u[11], rtol=0.0, atol=0.0)
     turns = Rotation.from_quat(contacts(element).bodies_old["turn"][0, :2], scalar_first=True)
     spin = sign * turns.as_rotvec()[:, 2]

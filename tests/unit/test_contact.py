@@ -444,7 +444,7 @@ def test_forces_and_moments_of_all_pairs_balance(config: str, seed: int, kind: s
         else:  # a disc opens where the load lies outside its kern
             arms = np.linalg.norm(bodies.touch_new["centre"], axis=1) / bodies.c.radius
             assert arms.max() > 0.1
-            assert arms.max() < 1.0
+            assert arms.max() < 1.0 + 1e-12
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -55,6 +55,7 @@ ROUND_OFF = 4e-16  # of lengths and turns
 LARGEST_TURN = 0.1  # rad, of a body in one iteration
 SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
+_LEAPS = 3  # whole steps taken although the residual grows (a choice)
 _GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
 _SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, where it is softened first
 _STIFFER = 0.3  # by which it is brought down: some three iterations a stage (a choice)
@@ -157,7 +158,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
     p, c, w = s.props, s.sliders, s.scratch
     new, touch_new = s.new, s.touch_new
     size = unbalanced(s, dt, speeds)
-    mark = size
+    mark, leaps = size, 0
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return -1
@@ -174,7 +175,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         for k in range(2):
             for a in range(3):
                 w.try_displacement[k, a] = new.displacement[k, a]
-        best, kept = math.inf, factor
+        best, kept, whole = math.inf, factor, factor
         for _ in range(_TRIES):
             move_sliders(new, w, factor)
             attempt = unbalanced(s, dt, speeds)
@@ -183,6 +184,10 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
                 break
             factor *= SHORTER
+        if best >= _GAIN * size and leaps < _LEAPS:  # beyond a corner: contacts open or close
+            leaps += 1
+            kept = whole
+            mark = math.inf
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
             best = unbalanced(s, dt, speeds)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Scratch
 
 _A, _B, _C = 5.0 / 6.0, 7.0 / 27.0, 7.0 / 12.0  # of the norm: exact for slow and fast spin (7.12)
+_NOTHING = 1e-17  # square of z: friction of 1e-10 of the load, where Newton's method stops
+_FULL = 1.0 + 1e-12  # round-off: what has slipped holds until it slides on
 _BEND = 0.9  # rad a step, as in `slip`
 _STEEPEST = math.tan(_BEND)
 
@@ -88,8 +90,8 @@ def rubbing(x: float, y: float, s: float) -> tuple[float, float, float, float, f
     """
     v, t = x * x + y * y, s * s
     low = v + _C * t
-    if low < 1e-60:
-        return 0.0, 1.0, _B / _C, 0.0, 0.0, 0.0  # of sliding alone, of spinning alone
+    if low < _NOTHING:  # no direction: stiffnesses of sliding alone, of spinning alone
+        return v + _B / _C * t, 1.0, _B / _C, 0.0, 0.0, 0.0
     inv = 1.0 / low
     q = (v * v + _A * v * t + _B * t * t) * inv
     q_v = (2.0 * v + _A * t - q) * inv
@@ -153,7 +155,7 @@ def returned_by(
         c, square = rho * over, over * over
         c_h = by_size * power * square
         return c, square * (by_size * (1.0 + power * kappa * over) - c), -c_h, c_h
-    if size > 1.0:
+    if size > _FULL:
         c = 1.0 / size
         return c, -c * c * c, 0.0, 0.0
     return 1.0, 0.0, 0.0, 0.0

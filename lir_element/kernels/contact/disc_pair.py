@@ -70,6 +70,37 @@ def bed_of_plane(w: Scratch) -> float:
 
 
 @kernel
+def damp_rocking(
+    w: Scratch, c: Sliders, old: Touch, push: float, stiff: float, a: float, dt: float
+) -> None:
+    """Move the centre of pressure ``w.bed`` by the bed's damping, and its derivative.
+
+    What was pressed is damped as it is: the centre goes ahead of its elastic place by
+    ``c V_old / (N dt)`` times its way in the step (7.14), no farther than the edge.
+    """
+    if dt <= 0.0 or old.closure <= 0.0:
+        return
+    bed = w.bed
+    share = c.damping * old.closure / (dt * push)
+    x, y = bed[1, 0] - old.core[0], bed[2, 0] - old.core[1]
+    bed[1, 0] += share * x
+    bed[2, 0] += share * y
+    for k in range(1, 4):
+        fall = share * stiff / push * bed[0, k]  # N grows by stiff times V
+        bed[1, k] += share * bed[1, k] - fall * x
+        bed[2, k] += share * bed[2, k] - fall * y
+    size = math.sqrt(bed[1, 0] ** 2 + bed[2, 0] ** 2)
+    if size <= a:
+        return
+    e_1, e_2, short = bed[1, 0] / size, bed[2, 0] / size, a / size
+    bed[1, 0], bed[2, 0] = a * e_1, a * e_2
+    for k in range(1, 4):
+        along = e_1 * bed[1, k] + e_2 * bed[2, k]
+        bed[1, k] = short * (bed[1, k] - along * e_1)
+        bed[2, k] = short * (bed[2, k] - along * e_2)
+
+
+@kernel
 def press_bed(
     w: Scratch, c: Sliders, old: Touch, new: Touch, p: float, a: float, dt: float
 ) -> float:
@@ -82,9 +113,9 @@ def press_bed(
     new.closure = mean
     new.gap = mean if mean > 0.0 else p + a * math.sqrt(w.tilt[0] ** 2 + w.tilt[1] ** 2)
     new.push = 0.0
-    new.centre[0], new.centre[1] = old.centre[0], old.centre[1]
+    for k in range(2):
+        new.centre[k], new.core[k] = 0.0, 0.0
     if mean <= 0.0:
-        new.centre[0], new.centre[1] = 0.0, 0.0
         return 0.0
     stiff = c.stiffness
     push = stiff * mean
@@ -93,8 +124,10 @@ def press_bed(
         stiff += c.damping / dt
     if push <= 0.0:
         return 0.0
-    bed, face, rho = w.bed, w.face, w.rho
     new.push = push
+    bed, face, rho = w.bed, w.face, w.rho
+    new.core[0], new.core[1] = bed[1, 0], bed[2, 0]
+    damp_rocking(w, c, old, push, stiff, a, dt)
     new.centre[0], new.centre[1] = bed[1, 0], bed[2, 0]
     for b in range(3):
         rho[b] = bed[1, 0] * face[0, b] + bed[2, 0] * face[1, b]
