@@ -34,9 +34,10 @@ from frames import (
     uplift_gap,
 )
 from frames.laws import Bilinear, PlasticHinge
-from frames.results.peak_response import LEFT, QUANTITIES, TOTALS
+from frames.results.quantities import LEFT, QUANTITIES
 from frames.results.recorded import REACHED
 from frames.results.summary import table_of
+from frames.results.totals import TOTALS
 from lir_element import (
     AnalysisWarning,
     CoulombFriction,
@@ -317,11 +318,11 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
 def reached() -> list[str]:
     """Return the table of what a recording keeps of all steps."""
     rows = []
-    for name, (dims, unit, meaning, _) in QUANTITIES.items():
+    for name, (dims, unit, meaning, *_) in QUANTITIES.items():
         text = meaning if meaning.startswith("1:") else f"largest {meaning}"
         rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, text])
     for name in LEFT:
-        dims, unit, meaning, _ = QUANTITIES[name]
+        dims, unit, meaning = QUANTITIES[name][:3]
         rows.append([code(f"{REACHED}{name}_left"), ", ".join(dims), unit, f"{meaning}, left"])
     for name, (dims, unit, meaning, _) in TOTALS.items():
         rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, meaning])

@@ -61,6 +61,8 @@ class Reached(NamedTuple):
 
     bearing: Array  # (n_bearings, columns)
     bearing_at: Array
+    shown: Array  # (1,) scratch: a record with a field for each quantity of a bearing
+    columns: Array  # (1, columns) the same memory as numbers
     axis: Array  # (3,) displacement along each axis
     axis_at: Array
     node: Array  # (n_nodes, 2) accelerations in plan, vertical

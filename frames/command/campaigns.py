@@ -5,7 +5,6 @@ What they need is imported in them: the other commands start without it.
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -22,7 +21,7 @@ def campaign(
 ) -> None:
     """Run a campaign, or go on with it: models, motions, scales and parameters of a file."""
     with told():
-        _require_zarr()
+        _require_packages()
         from frames.risk.campaign.file import read_campaign, workers_of
 
         found = read_campaign(file, store=store)
@@ -44,7 +43,7 @@ def campaign_status(
 ) -> None:
     """Tell how far a campaign is, also while it runs."""
     with told():
-        _require_zarr()
+        _require_packages()
         from frames.risk.campaign.store import open_campaign
 
         found = open_campaign(store).status()
@@ -53,7 +52,9 @@ def campaign_status(
             say(f"warning: {text}")
 
 
-def _require_zarr() -> None:
-    if find_spec("zarr") is None:
-        msg = "campaigns need zarr: pip install 'lir-dcfp[campaign]'"
-        raise ProjectError(msg)
+def _require_packages() -> None:
+    from frames.risk.campaign.packages import lacking_packages
+
+    lacking = lacking_packages()
+    if lacking:
+        raise ProjectError(lacking)

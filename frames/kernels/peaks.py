@@ -1,6 +1,6 @@
 """Kernels that keep the largest values of a run and their times, step by step.
 
-The definitions are those of frames/results/peak_response.py; tests hold both to each other.
+The formulas are those of kernels/quantities.py, by which Datasets are read as well.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
 from frames.kernel_data import ENERGY_TERMS
-from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
+from frames.kernels.quantities import balance_gap, show_bearing, size, sliding_power
+from lir_element.kernels.derived import in_plan
 from lir_element.kernels.friction_law import lowered
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -23,28 +24,6 @@ if TYPE_CHECKING:
 
 AT_ONCE = 4
 """Steps whose displacements are formed together: each column of the maps is read once for them."""
-
-BEARING_COLUMNS = (
-    "displacement",
-    "force",
-    "axial_force",
-    "axial_tension",
-    "vertical_tension",
-    "vertical_change",
-    "lifted",
-    "gap",
-    "sliding",
-    "sliding",
-    "rim_force",
-    "rims_met",
-    "slip",
-    "interface_share",
-    "slipped",
-    "eccentricity",
-    "spin",
-    "centre_shift",
-)
-"""Quantities in the columns of `Reached.bearing`; sliding has one for each surface."""
 
 WHOLE_PLACES = (
     "base_shear",
@@ -69,73 +48,15 @@ def raise_to(values: Floats, times: Floats, place: int, value: float, time: floa
 
 
 @inlined
-def eccentricity(
-    state: State, radius: float, height: float, slider_radius: float, floor: float, static: float
-) -> float:
-    """Return the interface's eccentricity over the slider's radius, 0 where hardly pressed."""
-    load = state.axial_force
-    if not (load > PRESSED * static and load > floor):
-        return 0.0
-    n_x, n_y = state.axis[0], state.axis[1]
-    size = math.sqrt(n_x * n_x + n_y * n_y)
-    unit = size if size > 0.0 else 1.0
-    rim = state.rim_force[0] * state.axis[2] / unit
-    arm = radius - height
-    b_x = (
-        arm * state.interface_force[0] + radius * (rim * n_x - state.friction_force[0, 0])
-    ) / load
-    b_y = (
-        arm * state.interface_force[1] + radius * (rim * n_y - state.friction_force[0, 1])
-    ) / load
-    t_x, t_y = b_x - state.slip[0], b_y - state.slip[1]
-    return math.sqrt(max(b_x * b_x + b_y * b_y, t_x * t_x + t_y * t_y)) / slider_radius
-
-
-@inlined
-def gap_of(u: Floats, shift_x: float, shift_y: float, length: float, slip: float) -> float:
-    """Return the gap of the axial contact of a bearing that has lifted off."""
-    x, y, rise = u[6] - u[0] + shift_x, u[7] - u[1] + shift_y, length - (u[8] - u[2])
-    square = x * x + y * y + rise * rise - slip * slip
-    return max(length - math.sqrt(max(square, 0.0)), 0.0)
-
-
-@inlined
-def peak_contact(
-    p: Props, state: State, static: float, values: Floats, times: Floats, t: float
-) -> None:
-    """Keep what the axial force, the rims and the interface of a bearing reached."""
-    load, f = state.axial_force, state.force
-    raise_to(values, times, 1, math.sqrt(f[6] * f[6] + f[7] * f[7]), t)
-    raise_to(values, times, 2, load, t)
-    raise_to(values, times, 3, -load, t)
-    ratio = load / static
-    raise_to(values, times, 4, -ratio, t)
-    raise_to(values, times, 5, abs(ratio - 1.0), t)
-    raise_to(values, times, 6, 1.0 if ratio <= 0.0 else 0.0, t)
-    for surface in range(2):
-        x, y = state.slider_displacement[surface, 0], state.slider_displacement[surface, 1]
-        raise_to(values, times, 8 + surface, math.sqrt(x * x + y * y), t)
-    rim = max(state.rim_force[0], state.rim_force[1])
-    raise_to(values, times, 10, rim, t)
-    raise_to(values, times, 11, 1.0 if rim > 0.0 else 0.0, t)
-    h_x, h_y = state.interface_force[0], state.interface_force[1]
-    holds = p.interface_friction * max(load, LEAST_SHARE * static)
-    share = math.sqrt(h_x * h_x + h_y * h_y) / holds
-    raise_to(values, times, 13, share, t)
-    raise_to(values, times, 14, 1.0 if share >= FULL_SLIP else 0.0, t)
-    raise_to(values, times, 16, abs(state.spin), t)
-
-
-@inlined
 def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> None:
     """Add a step of a bearing to the sums over steps."""
     load = max(state.axial_force, 0.0)
     for surface in range(2):
         speed = state.sliding_speed[surface]
-        reached.total[0] += load * p.friction_max[surface] * speed
+        reached.total[0] += sliding_power(load, p.friction_max[surface], speed)
         if p.friction_drop[surface] != 0.0:
             lower, _ = lowered(p, surface, speed)
-            reached.total[1] += load * lower * speed
+            reached.total[1] += sliding_power(load, lower, speed)
     lifted = state.axial_force <= 0.0
     if lifted and reached.lifted[k, 1] == 0.0:
         reached.total[2] += 1.0
@@ -151,31 +72,19 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
         p, state = devices.records[k], states[row, k]
         values, times = reached.bearing[k], reached.bearing_at[k]
         u = state.displacement
-        x, y, z = u[6] - u[0], u[7] - u[1], u[8] - u[2]
-        raise_to(values, times, 0, math.sqrt(x * x + y * y), t)
-        raise_to(reached.axis, reached.axis_at, 0, abs(x), t)
-        raise_to(reached.axis, reached.axis_at, 1, abs(y), t)
-        raise_to(reached.axis, reached.axis_at, 2, abs(z), t)
-        shift_x = -p.lever[0] * u[4] - p.lever[1] * u[10]  # C2 - C1: x_j - l2 e_j - x_i - l1 e_i
-        shift_y = p.lever[0] * u[3] + p.lever[1] * u[9]
-        s = state.slip_total
-        slip = math.sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2])
-        gap = 0.0
-        if state.axial_force <= 0.0:
-            gap = gap_of(u, shift_x, shift_y, p.length, slip)
-        raise_to(values, times, 7, gap, t)
-        raise_to(values, times, 12, slip, t)
-        raise_to(values, times, 17, math.sqrt(shift_x * shift_x + shift_y * shift_y), t)
-        share = eccentricity(
+        for axis in range(3):
+            raise_to(reached.axis, reached.axis_at, axis, size(u[6 + axis] - u[axis]), t)
+        show_bearing(
+            p,
             state,
+            devices.static[k],
             devices.radius[k],
             devices.height[k],
-            p.slider_radius,
             devices.floor[k],
-            devices.static[k],
+            reached.shown[0],
         )
-        raise_to(values, times, 15, share, t)
-        peak_contact(p, state, devices.static[k], values, times, t)
+        for column in range(values.shape[0]):
+            raise_to(values, times, column, reached.columns[0, column], t)
         add_totals(p, state, reached, k, t)
 
 
@@ -186,10 +95,10 @@ def peak_energy(reached: Reached, energy: Floats, t: float) -> None:
     for term in range(1, energy.shape[0]):
         total += energy[term]
     given = energy[_INPUT]
-    raise_to(reached.whole, reached.whole_at, 1, abs(given), t)
-    raise_to(reached.whole, reached.whole_at, 2, abs(energy[_NUMERICAL]), t)
-    raise_to(reached.whole, reached.whole_at, 3, abs(given - total), t)
-    raise_to(reached.whole, reached.whole_at, 4, abs(energy[_YIELDING]), t)
+    raise_to(reached.whole, reached.whole_at, 1, size(given), t)
+    raise_to(reached.whole, reached.whole_at, 2, size(energy[_NUMERICAL]), t)
+    raise_to(reached.whole, reached.whole_at, 3, balance_gap(given, total), t)
+    raise_to(reached.whole, reached.whole_at, 4, size(energy[_YIELDING]), t)
 
 
 @kernel
@@ -248,7 +157,7 @@ def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float
         x = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k, a) + g_x
         y = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k + 1, a) + g_y
         z = sparse_row(shape.a_start, shape.a_place, shape.a_value, 3 * k + 2, a) + g_z
-        plan, vertical = math.sqrt(x * x + y * y), abs(z)
+        plan, vertical = in_plan(x, y), size(z)
         if k < n_nodes:
             raise_to(reached.node[k], reached.node_at[k], 0, plan, t)
             raise_to(reached.node[k], reached.node_at[k], 1, vertical, t)
@@ -259,9 +168,9 @@ def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float
         x = sparse_row(shape.u_start, shape.u_place, shape.u_value, 2 * k, u)
         y = sparse_row(shape.u_start, shape.u_place, shape.u_value, 2 * k + 1, u)
         if k < n_storeys:
-            raise_to(reached.storey, reached.storey_at, k, math.sqrt(x * x + y * y), t)
+            raise_to(reached.storey, reached.storey_at, k, in_plan(x, y), t)
         else:
-            raise_to(reached.line, reached.line_at, k - n_storeys, math.sqrt(x * x + y * y), t)
+            raise_to(reached.line, reached.line_at, k - n_storeys, in_plan(x, y), t)
 
 
 @inlined
@@ -277,7 +186,7 @@ def peak_shear(
 ) -> None:
     """Take up the base shear at one step: of bearings on the ground, and of other supports."""
     first, m = 2 * (shape.sizes[2] + shape.sizes[3]), beyond.shape[1]
-    square = 0.0
+    x, y = 0.0, 0.0
     for axis in range(2):
         force = shape.shear[axis, m]
         for k in range(m):
@@ -286,8 +195,8 @@ def peak_shear(
         for k in range(devices.on_ground.shape[0]):
             if devices.on_ground[k] == 1:
                 force += states[row, k].force[6 + axis]
-        square += force * force
-    raise_to(reached.whole, reached.whole_at, 0, math.sqrt(square), t)
+        x, y = (force, y) if axis == 0 else (x, force)
+    raise_to(reached.whole, reached.whole_at, 0, in_plan(x, y), t)
 
 
 @inlined
@@ -303,7 +212,7 @@ def peak_storey_shear(
             if shape.crossed[k, b] == 1:
                 x += states[row, b].force[6]
                 y += states[row, b].force[7]
-        raise_to(reached.shear, reached.shear_at, k, math.sqrt(x * x + y * y), t)
+        raise_to(reached.shear, reached.shear_at, k, in_plan(x, y), t)
 
 
 @kernel

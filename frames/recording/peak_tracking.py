@@ -1,6 +1,6 @@
 """What a run reached, taken up by compiled code from what its loop records, without any Dataset.
 
-The quantities are those of `frames.results.peak_response`, of most runs at the level 'pendulum'
+The quantities are those of `frames.results.quantities`, of most runs at the level 'pendulum'
 (`can_track`); those of others are read off Datasets (`Reduction`).
 """
 
@@ -15,7 +15,6 @@ from frames.assembly.assemble import node_geometric_stiffness
 from frames.kernel_data import device_records
 from frames.kernels.peaks import (
     AT_ONCE,
-    BEARING_COLUMNS,
     WHOLE_PLACES,
     peak_of_bearings,
     peak_of_structure,
@@ -24,6 +23,7 @@ from frames.peak_data import Devices, Reached, Shape
 from frames.recording.section_cuts import storey_rows
 from frames.results.measures import floor_shares, lines_of
 from frames.results.peak_response import Extreme
+from frames.results.quantities import QUANTITIES
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -33,6 +33,13 @@ if TYPE_CHECKING:
     from frames.kernel_data import Ground, Output
     from frames.statics.gravity import GravityState
     from lir_element.layout import Records
+
+
+_OF_STEPS = {name: quantity.dims for name, quantity in QUANTITIES.items() if quantity.by_step}
+SHOWN = np.dtype(
+    [(name, np.float64, (2,) * ("surface" in dims)) for name, dims in _OF_STEPS.items()]
+)
+"""Quantities of a bearing that compiled code fills at each step (kernels/quantities.py)."""
 
 
 class Places(NamedTuple):
@@ -144,10 +151,13 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
     def lowest(*size: int) -> FloatArray:
         return np.full(size, -np.inf)
 
-    columns, whole = len(BEARING_COLUMNS), len(WHOLE_PLACES)
+    whole, columns = len(WHOLE_PLACES), SHOWN.itemsize // 8
+    shown = lowest(1, columns)
     return Reached(
         bearing=lowest(bearings, columns),
         bearing_at=np.zeros((bearings, columns)),
+        shown=shown.view(SHOWN)[:, 0].view(np.recarray),
+        columns=shown,
         axis=lowest(3),
         axis_at=np.zeros(3),
         node=lowest(nodes, 2),
@@ -196,13 +206,8 @@ class PeakTracker:
     def reached(self) -> dict[str, Extreme]:
         """Return what was reached, by quantity."""
         r = self._reached
-        found = {}
-        for column, name in enumerate(BEARING_COLUMNS):
-            if name != "sliding":
-                values, at = r.bearing[:, column].copy(), r.bearing_at[:, column].copy()
-                found[name] = Extreme(values, at)
-        both = [k for k, name in enumerate(BEARING_COLUMNS) if name == "sliding"]
-        found["sliding"] = Extreme(r.bearing[:, both], r.bearing_at[:, both])
+        of_bearings = r.bearing.view(SHOWN)[:, 0], r.bearing_at.view(SHOWN)[:, 0]
+        found = {name: Extreme(*(each[name].copy() for each in of_bearings)) for name in _OF_STEPS}
         found["displacement_along"] = Extreme(r.axis.copy(), r.axis_at.copy())
         for k, name in enumerate(WHOLE_PLACES):
             found[name] = Extreme(np.array(r.whole[k]), np.array(r.whole_at[k]))

@@ -9,17 +9,10 @@ import xarray as xr
 
 from frames.recording.recording import Recording
 from frames.results.envelopes import EXTREMES
-from frames.results.peak_response import (
-    LEFT,
-    QUANTITIES,
-    TOTALS,
-    Extreme,
-    extreme_of,
-    later,
-    rims_met,
-    storeys_of_lines,
-)
+from frames.results.peak_response import Extreme, extreme_of, later, storeys_of_lines
+from frames.results.quantities import LEFT, QUANTITIES, rims_met
 from frames.results.recorded import REACHED
+from frames.results.totals import TOTALS
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -81,7 +74,7 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
     """
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
-        dims, unit, meaning, _ = QUANTITIES[name]
+        dims, unit, meaning = QUANTITIES[name][:3]
         text = meaning if meaning.startswith("1:") else f"largest {meaning}"
         variables[REACHED + name] = labelled(dims, most.values, unit, text)
         variables[f"{REACHED}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
@@ -89,7 +82,7 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
         dims, unit, meaning, _ = TOTALS[name]
         variables[REACHED + name] = labelled(dims, value, unit, meaning)
     for name, value in found.left.items():
-        dims, unit, meaning, _ = QUANTITIES[name]
+        dims, unit, meaning = QUANTITIES[name][:3]
         variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, f"{meaning}, left")
     variables[UNTIL] = labelled((), found.until, "s", "time of the last base step")
     coordinates: dict[str, Any] = {}

@@ -14,7 +14,8 @@ import xarray as xr
 
 from frames.peak_data import FULL_SLIP
 from frames.results.energy_balance import Remark, equilibrium, time_step
-from frames.results.peak_response import Extreme, largest, left_out, total
+from frames.results.peak_response import Extreme, largest, total
+from frames.results.quantities import left_out
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.tables import html_table

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from frames._jit import on_arrays
 from frames.kernel_data import ENERGY_TERMS
+from frames.kernels.quantities import by_tilt, open_gap
 from frames.motion.spectra import response_spectrum
 from frames.results.recorded import (
     largest_kept,
@@ -350,15 +352,16 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         "interface_slip_size",
         "axial_force",
     )
-    length = data["length"].to_numpy()
     moves = data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
     across = moves[..., :2] + centre_shift(data)
-    slip = data["interface_slip_size"].transpose("time", "bearing").to_numpy()
-    square = (across**2).sum(axis=-1) + (length - moves[..., 2]) ** 2 - slip**2
-    gap = np.maximum(length - np.sqrt(np.maximum(square, 0.0)), 0.0)
-    lifted = data["axial_force"].transpose("time", "bearing").to_numpy() <= 0.0
+    slip, load = (
+        data[name].transpose("time", "bearing").to_numpy()
+        for name in ("interface_slip_size", "axial_force")
+    )
     return xr.DataArray(
-        np.where(lifted, gap, 0.0),
+        on_arrays(open_gap)(
+            across[..., 0], across[..., 1], moves[..., 2], data["length"].to_numpy(), slip, load
+        ),
         dims=("time", "bearing"),
         coords={"time": data["time"], "bearing": data["bearing"]},
         attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),
@@ -380,14 +383,12 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
         msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
         raise ValueError(msg)
     turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
-    total = np.zeros((*data.variables["axial_force"].shape, 2))
-    for end, name in enumerate(("bottom", "top")):
-        place = data["bearing_node"].isel(end=end).to_numpy()
-        lever = data["lever"].sel(surface=name).to_numpy()
-        # C1 = x_i + l_1 e_i and C2 = x_j - l_2 e_j, with the plates' axes e = (r_y, -r_x, 1)
-        total[..., 0] -= lever * turns[:, place, 1]
-        total[..., 1] += lever * turns[:, place, 0]
-    return total
+    ends = [data["bearing_node"].isel(end=end).to_numpy() for end in (0, 1)]
+    levers = [data["lever"].sel(surface=name).to_numpy() for name in ("bottom", "top")]
+    # C1 = x_i + l_1 e_i and C2 = x_j - l_2 e_j, with the plates' axes e = (r_y, -r_x, 1)
+    x = on_arrays(by_tilt)(*levers, *(-turns[:, place, 1] for place in ends))
+    y = on_arrays(by_tilt)(*levers, *(turns[:, place, 0] for place in ends))
+    return np.stack([x, y], axis=-1)
 
 
 def _level_means(data: xr.Dataset, name: str, dofs: list[str]) -> FloatArray:

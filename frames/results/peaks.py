@@ -21,6 +21,7 @@ from frames.results.peak_response import (
     storeys_of_lines,
     total,
 )
+from frames.results.quantities import QUANTITIES
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
@@ -159,9 +160,9 @@ def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
     yield _peak("interface slip", "m", slip, names)
     yield _peak("interface slip over overlap", "1", overlap, names)
     yield Peak("residual interface slip", left_over["slip"], "m", end)
-    yield _peak("rim force", "N", largest(data, "rim_force"), names)
-    yield _peak("bearing force in plan", "N", largest(data, "force"), names)
-    yield _peak("axial force", "N", largest(data, "axial_force"), names)
+    for name, quantity in QUANTITIES.items():
+        if quantity.row:
+            yield _peak(quantity.row, quantity.unit, largest(data, name), names)
     least = _peak("minimum axial force", "N", largest(data, "axial_tension"), names)
     yield least._replace(value=0.0 - least.value)
 

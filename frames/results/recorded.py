@@ -18,7 +18,7 @@ ENDS = "first and last step"
 """How that attribute begins where no step between is kept as a rule."""
 
 REACHED = "reached_"
-"""Begins the names of what was reached at all steps: `frames.results.peak_response`."""
+"""Begins the names of what was reached at all steps: `frames.results.quantities`."""
 
 
 def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:
@@ -29,7 +29,7 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
     data : xarray.Dataset
         Of a time history.
     name : str
-        A quantity of `frames.results.peak_response`.
+        A quantity of `frames.results.quantities`.
 
     Returns
     -------

@@ -124,6 +124,22 @@ return: a bundle of records.
 """
 
 
+def on_arrays(formula: Callable[..., float]) -> Callable[..., Any]:
+    """Return the Python of a kernel that is a formula of numbers: it takes arrays as well.
+
+    Parameters
+    ----------
+    formula : callable
+        A kernel that calls no other one, of operations that numpy has for arrays.
+
+    Returns
+    -------
+    callable
+        The same of arrays, which are broadcast.
+    """
+    return cast("Callable[..., Any]", getattr(formula, "py_func", formula))
+
+
 def _ours(dispatcher: Any) -> bool:
     return isinstance(getattr(dispatcher, "_cache", None), KernelCache)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from lir_element._compile.jit import on_arrays
 from lir_element.errors import (
     AnalysisError,
     AnalysisInterrupted,
@@ -16,6 +17,7 @@ from lir_element.errors import (
     RunStatus,
     failure_message,
 )
+from lir_element.kernels.derived import in_plan, in_space
 from lir_element.layout import PROPS_BY_NAME
 from lir_element.results.deferred import deferred
 
@@ -89,7 +91,8 @@ def bearing_variables(
     u, f = states["displacement"], states["force"]
     each = (step, "bearing")
     vector, surface = (*each, "axis"), (*each, "surface")
-    slip_size = np.linalg.norm(states["slip_total"], axis=-1)
+    slip, passed = states["slip_total"], states["interface_force"]
+    slip_size = on_arrays(in_space)(slip[..., 0], slip[..., 1], slip[..., 2])
     return {
         "bearing_displacement": labelled(
             vector, u[..., 6:9] - u[..., 0:3], "m", "displacement of node j relative to node i"
@@ -116,16 +119,14 @@ def bearing_variables(
             "m",
             "sliding on each concave surface",
         ),
-        "interface_slip": labelled(
-            vector, own(states["slip_total"]), "m", "top slider relative to bottom slider"
-        ),
+        "interface_slip": labelled(vector, own(slip), "m", "top slider relative to bottom slider"),
         "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
         "slider_spin": labelled(
             each, own(states["spin"]), "rad", "spin of the sliders about their axis, mean of both"
         ),
         "interface_force": labelled(
             each,
-            np.linalg.norm(states["interface_force"], axis=-1),
+            on_arrays(in_plan)(passed[..., 0], passed[..., 1]),
             "N",
             "force that the interface passes in its plane",
         ),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from lir_element._compile.jit import on_arrays
 from lir_element.device.sliders import interface_height
+from lir_element.kernels.derived import eccentricity
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Records
@@ -34,19 +34,19 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
         The larger of both eccentricities [m]; zero where the axial force has faded (below 0.1 % of
         the design load). For a rigid slider: in the same plane.
     """
-    radius = props["radius"][:, :1]
     slider_height = props["radius"].sum(axis=1) - props["length"]
-    height = interface_height(props["radius"], props["slider_radius"], slider_height)[:, None]
-    n = states["axis"]
-    size = np.linalg.norm(n[..., :2], axis=-1, keepdims=True)
-    outward = n[..., :2] / np.where(size > 0.0, size, 1.0)
-    rim = states["rim_force"][..., :1] * outward * n[..., 2:]  # in the basis t
-    moment = (radius - height) * states["interface_force"] + radius * (
-        rim - states["friction_force"][..., 0, :]
+    vectors = (
+        states["axis"],
+        states["rim_force"][..., :1],
+        states["interface_force"],
+        states["friction_force"][..., 0, :],
+        states["slip"],
     )
-    load = states["axial_force"]
-    pressed = load > props["axial_floor"]
-    bottom = moment / np.where(pressed, load, np.inf)[..., None]
-    top = np.where(pressed[..., None], bottom - states["slip"], 0.0)
-    larger: Floats = np.maximum(np.linalg.norm(bottom, axis=-1), np.linalg.norm(top, axis=-1))
+    larger: Floats = on_arrays(eccentricity)(
+        states["axial_force"],
+        props["axial_floor"],
+        props["radius"][:, 0],
+        interface_height(props["radius"], props["slider_radius"], slider_height),
+        *(vector[..., k] for vector in vectors for k in range(vector.shape[-1])),
+    )
     return larger

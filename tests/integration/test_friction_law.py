@@ -539,6 +539,7 @@ def test_a_campaign_varies_a_field_of_the_law(
     folder: Path, put_example: Callable[..., Path]
 ) -> None:
     pytest.importorskip("zarr")
+    pytest.importorskip("filelock")
     from frames.design import ProjectError
     from frames.risk.campaign.file import read_campaign
 

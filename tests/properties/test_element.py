@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
@@ -250,6 +250,7 @@ def test_initial_stiffness(variant: str, lab: SimpleNamespace) -> None:
 
 
 @given(angle=st.floats(-math.pi, math.pi), seed=st.integers(0, 10_000))
+@example(angle=0.5, seed=1170)  # 'bouc_wen': round-off of the spin's balance ends a joint search
 @settings(max_examples=3)
 def test_rotated_about_the_vertical(
     variant: str, lab: SimpleNamespace, angle: float, seed: int

@@ -26,7 +26,8 @@ ALLOWED = {
 KERNELS = [path for path in MODULES if "kernels" in path.relative_to(ROOT).parts]
 # What makes pointers of addresses: code generators, which kernels call like kernels.
 ADDRESSES = [ROOT / "lir_element/opensees/block/pointers.py"]
-FOREIGN = {"numba.carray"}
+# Beside the mathematics of numbers: that of formulas which arrays go through as well.
+FOREIGN = {"numba.carray", "numpy.absolute", "numpy.maximum", "numpy.sqrt"}
 DECORATORS = {"kernel", "inlined", "expanded", "intrinsic", "entry_point"}
 BUNDLES = {"lir_element.errors.RunStatus"} | {
     f"lir_element.bundles.contact_data.{name}" for name in ("BodyStep", "Contacts")

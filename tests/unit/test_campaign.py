@@ -1,5 +1,7 @@
 """Campaigns: samples, plan, results beside those of time_histories, failures, refusals."""
 
+import subprocess  # this interpreter  # noqa: S404
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +22,7 @@ from frames.risk import (
     open_campaign,
     sobol_sample,
 )
-from frames.risk.campaign import plan_description
+from frames.risk.campaign import packages, plan_description
 from frames.risk.campaign.designs import with_parameters
 from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import Plan, differences
@@ -28,6 +30,7 @@ from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 
 zarr = pytest.importorskip("zarr")
+pytest.importorskip("filelock")
 
 BEARING = LIRBearing(
     radius=0.75,
@@ -299,6 +302,45 @@ def test_two_campaigns_at_once_are_refused(tmp_path: Path) -> None:
     ):
         campaign.run()
     campaign.run()
+
+
+HOLDER = """
+import sys, time
+from pathlib import Path
+from frames.risk.campaign.lock import locked
+
+with locked(Path(sys.argv[1])):
+    print("held", flush=True)
+    time.sleep(600.0)
+"""
+
+
+def test_the_lock_of_a_process_that_was_killed_is_seized(tmp_path: Path) -> None:
+    """Another process is named while it lives; what a killed one left behind holds nobody up."""
+    command = [sys.executable, "-c", HOLDER, str(tmp_path / "lock")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:  # noqa: S603
+        try:
+            assert other.stdout is not None
+            assert other.stdout.readline() == "held\n"
+            told = rf"is in use by process {other.pid} on .+ since \d{{4}}-.+: wait until it has"
+            with pytest.raises(CampaignError, match=told), locked(tmp_path / "lock"):
+                pass
+        finally:
+            other.kill()
+    assert [p.name for p in tmp_path.glob("*.json")] == ["lock-holder.json"]  # it could not tidy up
+    with locked(tmp_path / "lock"):
+        pass
+    assert [p.name for p in tmp_path.iterdir()] == ["lock"]
+
+
+@pytest.mark.parametrize("missing", ["zarr", "filelock"])
+def test_a_package_that_is_missing_is_named(
+    missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there = packages.find_spec
+    monkeypatch.setattr(packages, "find_spec", lambda n: None if n == missing else there(n))
+    with pytest.raises(ImportError, match=rf"need {missing}: pip install 'lir-dcfp\[campaign\]'"):
+        small(tmp_path / "store")
 
 
 def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
 pytest.importorskip("zarr")
+pytest.importorskip("filelock")
 distributed = pytest.importorskip("distributed")
 pytestmark = [
     pytest.mark.slow,

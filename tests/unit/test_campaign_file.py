@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("zarr")
+pytest.importorskip("filelock")
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 pytest.importorskip("typer")

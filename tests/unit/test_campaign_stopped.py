@@ -16,6 +16,7 @@ from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
 pytest.importorskip("zarr")
+pytest.importorskip("filelock")
 
 DRIVER = """
 import json, os, random, signal, sys, time

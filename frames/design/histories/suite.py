@@ -11,16 +11,10 @@ import numpy as np
 from frames.design.calculation.check import CONFIRMED
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
-from frames.results.peak_response import (
-    LEFT,
-    QUANTITIES,
-    TOTALS,
-    largest,
-    left,
-    storeys_of_lines,
-    total,
-)
+from frames.results.peak_response import largest, left, storeys_of_lines, total
+from frames.results.quantities import LEFT, QUANTITIES
 from frames.results.recorded import REACHED
+from frames.results.totals import TOTALS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -164,7 +158,7 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
     data : xarray.Dataset
         Of `time_histories`, or of one `time_history`.
     name : str
-        A quantity of `frames.results.peak_response`, also one that was left ("slip_left").
+        A quantity of `frames.results.quantities`, also one that was left ("slip_left").
 
     Returns
     -------

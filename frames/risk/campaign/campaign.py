@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -16,6 +15,7 @@ from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import Reference, Work, compute
 from frames.risk.campaign.cluster import over_cluster
+from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan import Plan
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.sampling import ParameterSample, whole
@@ -69,7 +69,7 @@ class Campaign:
     ValueError, TypeError
         If an argument cannot be.
     ImportError
-        If zarr is not installed.
+        If zarr or filelock is not installed.
 
     Examples
     --------
@@ -104,9 +104,9 @@ class Campaign:
         tolerance: float | None = None,
         features: Features | None = None,
     ) -> None:
-        if importlib.util.find_spec("zarr") is None:
-            msg = "campaigns need zarr: pip install 'lir-dcfp[campaign]'"
-            raise ImportError(msg)
+        lacking = lacking_packages()
+        if lacking:
+            raise ImportError(lacking)
         require_type("sample", sample, (ParameterSample, type(None)), "a ParameterSample")
         require_type("record", record, (Recording, type(None)), "a Recording, or None")
         structures, grounds = _named(models), named_motions(motions)

@@ -1,27 +1,28 @@
-"""One campaign at a time on a database: a lock that the system lets go of when its process ends."""
+"""One campaign at a time on a database: who holds it, and who is told so."""
 
 from __future__ import annotations
 
 import json
 import os
 import socket
-import sys
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
+from frames.results.storage import write_whole
 from frames.risk._errors import CampaignError
 
 if TYPE_CHECKING:
     from collections.abc import Generator
     from pathlib import Path
 
-_BYTE = 1 << 30  # that Windows locks: far behind the text, which others may read
-
 
 @contextmanager
 def locked(path: Path) -> Generator[None, None, None]:
     """Hold a lock file; that of a process that has died is seized.
+
+    The system lets go of it when its process ends. Who holds it stands in a file beside it, which
+    others can read on every system.
 
     Parameters
     ----------
@@ -38,42 +39,30 @@ def locked(path: Path) -> Generator[None, None, None]:
     CampaignError
         If another process, or another part of this one, holds it.
     """
-    with path.open("a+", encoding="utf-8") as file:
-        try:
-            _take(file)
-        except OSError as cause:
-            file.seek(0)
-            msg = (
-                f"{path.parent} is in use by {_holder(file.read())}: wait until it has ended, or "
-                "name another folder"
-            )
-            raise CampaignError(msg) from cause
-        file.truncate(0)
-        began = datetime.now(UTC).isoformat(timespec="seconds")
-        json.dump({"pid": os.getpid(), "host": socket.gethostname(), "since": began}, file)
-        file.flush()
-        try:
-            yield
-        finally:
-            file.truncate(0)
+    from filelock import FileLock, Timeout
 
-
-def _holder(text: str) -> str:
+    lock, note = FileLock(path), path.with_name(f"{path.name}-holder.json")
     try:
-        known = json.loads(text)
-    except json.JSONDecodeError:
+        lock.acquire(timeout=0)
+    except Timeout as cause:
+        msg = (
+            f"{path.parent} is in use by {_holder(note)}: wait until it has ended, or name another "
+            "folder"
+        )
+        raise CampaignError(msg) from cause
+    try:
+        began = datetime.now(UTC).isoformat(timespec="seconds")
+        known = {"pid": os.getpid(), "host": socket.gethostname(), "since": began}
+        write_whole(note, json.dumps(known).encode())
+        yield
+    finally:
+        note.unlink(missing_ok=True)
+        lock.release()
+
+
+def _holder(note: Path) -> str:
+    try:
+        known = json.loads(note.read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError):  # it has just begun, or just ended
         return "another process"
     return f"process {known['pid']} on {known['host']} since {known['since']}"
-
-
-if sys.platform == "win32":
-    import msvcrt
-
-    def _take(file: IO[str]) -> None:
-        file.seek(_BYTE)
-        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-else:
-    import fcntl
-
-    def _take(file: IO[str]) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 _MAX_ITERATIONS = 60
 _MAX_STEEPEST = 12
 _TOLERANCE = 1e-12  # of axial force times string length
-_ROUND_OFF = 4e-16  # of lengths
+ROUND_OFF = 4e-16  # of lengths
 _LARGEST_TURN = 0.1  # rad, of the axis in one iteration
 _GAIN = 0.999  # of the residual, with which a step does: any gain beyond round-off
 _SHORTER = 0.3  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 8  # of a step: the last one is 0.3^7, 2e-4 of it (a choice)
-_NEARLY = 10.0  # residuals to reach: as good, where no step gains any more (a choice)
+NEARLY = 10.0  # residuals to reach: as good, where no step gains any more (a choice)
 _SINGULAR = 1e-3  # of the restoring term's determinant, below which Newton sees none (a choice)
 _LARGEST_SEARCH = 3.0 * _LARGEST_TURN  # 17 degrees, beyond any neighbouring equilibrium (a choice)
 _FURTHER = 4.0  # times as far, until the zero is bracketed (a choice)
@@ -71,9 +71,9 @@ def residual_square(w: Work) -> float:
 def square_to_reach(p: Props, w: Work) -> float:
     """Return the square of the residual to reach: that of round-off in lengths under stiff laws."""
     stiff = w.l * w.law_stiffness[1] + w.law_stiffness[0]
-    enough = (_TOLERANCE + _ROUND_OFF * stiff) * w.n_hat * w.l
+    enough = (_TOLERANCE + ROUND_OFF * stiff) * w.n_hat * w.l
     for k in range(2):
-        enough += _ROUND_OFF * p.radius[k] ** 2 * w.stiff_rim[k]
+        enough += ROUND_OFF * p.radius[k] ** 2 * w.stiff_rim[k]
     return enough * enough
 
 
@@ -190,7 +190,7 @@ def solve_axis(p: Props, old: State, w: Work) -> int:
         if size < enough:
             return count
         if not newton_turn(p, old, w):
-            if size < _NEARLY**2 * enough:
+            if size < NEARLY**2 * enough:
                 return count
             steepest += 1
             if not steepest_turn(p, old, w) or steepest > _MAX_STEEPEST:

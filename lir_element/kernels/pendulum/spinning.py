@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.pendulum.solve import (
+    NEARLY,
+    ROUND_OFF,
     mark_start,
     move,
     residual_square,
@@ -98,6 +100,26 @@ def lacking(p: Props, w: Work, balance: float) -> float:
 
 
 @kernel
+def round_off(p: Props, old: State, w: Work) -> float:
+    """Return the round-off of the spin's balance over N: that of lengths under stiff laws.
+
+    As `square_to_reach` has it for the axis: friction over N is known to ``l mu / u_y`` times the
+    round-off of lengths, centres of pressure with it and with the forces of the rims.
+    """
+    held = ROUND_OFF * w.l * w.law_stiffness[1]
+    total = math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) * held
+    rims = 0.0
+    for k in range(2):
+        rims += ROUND_OFF * p.radius[k] ** 2 * w.stiff_rim[k] / w.n_hat
+    for k in range(2):
+        mu, radius = old.friction_coefficient[k], p.radius[k]
+        rubs = ROUND_OFF * w.l * mu * w.per_yield[k]
+        arm = math.sqrt(w.arm[k, 0] ** 2 + w.arm[k, 1] ** 2)
+        total += mu * (radius * (held + rubs) + rims) + arm * rubs
+    return total
+
+
+@kernel
 def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
     """Return Newton's step of axis and spin together: two turns and a spin; zeros where none is."""
     w.spins = 1.0
@@ -122,8 +144,9 @@ def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
 def spin_with_axis(p: Props, old: State, w: Work) -> int:
     """Find the axis and the spin of a step together; return the iterations, or -1.
 
-    Newton's method in three unknowns from where slip and spin go on as in the last step. It gives
-    up where it does not settle quickly: then the spin is found around the axis (`spin_sliders`).
+    Newton's method in three unknowns from where slip and spin go on as in the last step. Where no
+    step gains any more, round-off does. It gives up where it does not settle quickly: then the spin
+    is found around the axis (`spin_sliders`).
     """
     first = first_spin(p, old, w.dt)
     if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
@@ -151,6 +174,10 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
         balance = spin_balance(p, old, w)
         before, lacks = lacks, lacking(p, w, balance)
         if not lacks < before:
+            in_balance = abs(balance) <= max(enough, round_off(p, old, w))
+            if in_balance and residual_square(w) < NEARLY**2 * square_to_reach(p, w):
+                w.spins = 1.0 if w.spin != 0.0 else 0.0
+                return count + 1
             return -1
     return -1
 
@@ -194,6 +221,9 @@ def spin_sliders(p: Props, old: State, w: Work) -> None:
         step = min(max(step, -most), most)
         if not low < w.spin + step < high:
             step = 0.5 * (low + high) - w.spin
+        if abs(step) < _SMALLEST_STEP and abs(balance) <= round_off(p, old, w):
+            w.spins = 1.0 if w.spin != 0.0 else 0.0
+            return
         if abs(step) < _SMALLEST_STEP or abs(w.spin + step) > _LARGEST_SPIN:
             break
         if axis_for_spin(p, old, w, step) < 0:

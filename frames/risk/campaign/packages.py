@@ -1,0 +1,15 @@
+"""What campaigns need that comes with the extra `campaign`."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+_NEEDED = ("zarr", "filelock")
+
+
+def lacking_packages() -> str:
+    """Return what is missing and how to install it, in a sentence; nothing where all is there."""
+    missing = [name for name in _NEEDED if find_spec(name) is None]
+    if not missing:
+        return ""
+    return f"campaigns need {' and '.join(missing)}: pip install 'lir-dcfp[campaign]'"
