@@ -22,7 +22,7 @@ WORDS = ("bodies_old", "bodies_new", "touch_old", "touch_new")
 
 
 class Contacts(NamedTuple):
-    """Bearings with contact points: constants, committed (old) and trial (new) state, scratch.
+    """Bearings whose sliders are bodies: constants, committed (old) and trial (new) state, scratch.
 
     `row` says for each bearing of a model where it stands in the other arrays, -1 for bearings
     at another level. Unused contact points at the end of a row have no share.
@@ -68,7 +68,7 @@ def contact_arrays(
     bearings : sequence of LIRBearing
         All bearings of a model.
     chosen : sequence of bool
-        Which of them have contact points.
+        Which of them have sliders that are bodies.
     gravity : float
         Acceleration that gives the sliders their weight [m/s2].
 

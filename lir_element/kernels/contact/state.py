@@ -1,4 +1,4 @@
-"""Kernels of bearings with contact points: their record from the bodies, works of a step."""
+"""Kernels of bearings whose sliders are bodies: their record from the bodies, works of a step."""
 
 from __future__ import annotations
 
