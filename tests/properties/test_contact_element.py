@@ -514,12 +514,14 @@ def test_bearing_at_rest_carries_its_sliders(lab: SimpleNamespace) -> None:
 # ------------------------------------------------------------------------------- symmetries
 
 
-@pytest.mark.parametrize(("points", "angle"), [(8, 90.0), (4, -90.0), (5, 72.0), (12, 60.0)])
+@pytest.mark.parametrize(
+    ("points", "angle"), [(None, 37.0), (8, 90.0), (4, -90.0), (5, 72.0), (12, 60.0)]
+)
 @pytest.mark.parametrize("name", ["velocity", "bouc_wen_velocity", "fused"])
 def test_rotated_about_the_vertical(
-    name: str, points: int, angle: float, lab: SimpleNamespace
+    name: str, points: int | None, angle: float, lab: SimpleNamespace
 ) -> None:
-    """By angles that map the contact points onto themselves."""
+    """Discs by any angle, contact points by those that map them onto themselves."""
     bearing = lab.make(name, contact_points=points)
     u, time = lab.smooth_path(bearing, 7, 300)
     turn = blocks(Rotation.from_rotvec([0.0, 0.0, math.radians(angle)]).as_matrix())
@@ -531,7 +533,7 @@ def test_rotated_about_the_vertical(
 @pytest.mark.parametrize("name", ["coulomb", "velocity", "random-1"])
 def test_other_directions_differ_little(name: str, lab: SimpleNamespace) -> None:
     """Eight points stand for a disc: a turn by 25 degrees changes forces by less than 1 %."""
-    bearing = lab.make(name)
+    bearing = lab.make(name, contact_points=8)
     u, time = lab.smooth_path(bearing, 7, 300)
     turn = blocks(Rotation.from_rotvec([0.0, 0.0, math.radians(25.0)]).as_matrix())
     one, two = walk(bearing, u, time), walk(bearing, u @ turn.T, time)

@@ -159,6 +159,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
     new, touch_new = s.new, s.touch_new
     size = unbalanced(s, dt, speeds)
     mark, leaps = size, 0
+    most = _LEAPS if dt > 0.0 and s.points[0].disc > 0.0 else 0
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return -1
@@ -184,7 +185,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
                 break
             factor *= SHORTER
-        if best >= _GAIN * size and leaps < _LEAPS:  # beyond a corner: contacts open or close
+        if leaps < most and best >= _GAIN * size:  # a corner: contacts open or close beyond it
             leaps += 1
             kept = whole
             mark = math.inf
