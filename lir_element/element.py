@@ -69,7 +69,7 @@ class Element:
         The device.
     level : {"pendulum", "contact"}
         Level of fidelity: "pendulum" holds the sliders in full contact; "contact" has them as
-        bodies with contact points, which rock, open and land (some fifty times the cost).
+        bodies whose faces press as discs, which rock, open and land (some ten times the cost).
     features : Features, optional
         What is modelled; everything if None. Without vertical coupling the constant load is the
         bearing's design load. Plate rotation and the second direction belong to the displacements

@@ -261,6 +261,7 @@ POINT_FIELDS = (
     Field("pair", "-", "", "0 bottom surface (B), 1 interface (C), 2 top surface (A)", (), "i8"),
     Field("arm", "m", "", "contact point from its slider's mass centre, own axes", (3,)),
     Field("share", "-", "", "share of the interface's stiffness"),
+    Field("disc", "m", "a", "radius of a disc that stands for all points of a face; 0: a point"),
 )
 
 BODY_FIELDS = (
@@ -287,6 +288,10 @@ TOUCH_FIELDS = (
     Field("slid", "m", "", "part of the last step's sliding past the old z"),
     Field("speed", "m/s", "v", "speed of sliding"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
+    Field("memory", "-", "z", "hysteretic variable of a disc, its spin last", (3,)),
+    Field("axes", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
+    Field("centre", "m", "e", "centre of pressure of a disc, axes of its face", (2,)),
+    Field("core", "m", "", "the same without damping", (2,)),
 )
 
 SCRATCH_FIELDS = (
@@ -325,6 +330,31 @@ SCRATCH_FIELDS = (
     Field("spare_vector", "", "", "spare", (3,)),
     Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
+    Field("joint", "", "", "matrix of both sliders, right-hand sides", (12, 24)),
+    Field("face", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
+    Field("tilt", "-", "g", "slope of its penetration along them", (2,)),
+    Field("bed", "m", "V, e", "its mean penetration, centre of pressure, derivatives", (3, 4)),
+    Field("bed_by", "", "", "derivative of penetration and slope by shift and turn", (3, 6)),
+    Field("push_by", "", "", "derivative of load and centre of pressure by them", (3, 6)),
+    Field("rho", "m", "", "from the centre of the face to the centre of pressure", (3,)),
+    Field("old_place", "-", "", "where the material there was, from the sphere's centre", (3,)),
+    Field("way", "m", "", "sliding (2), spin times radius of a disc", (3,)),
+    Field("spin_by", "", "", "derivative of the spin by normal and turn", (6,)),
+    Field("rub", "", "", "friction of a disc over mu N, with its derivatives", (3, 5)),
+    Field("rub_b", "-", "b", "trial value of its hysteretic variable", (3,)),
+    Field("rub_g", "-", "", "half the gradient of its norm's square", (3,)),
+    Field("rub_n", "1/N", "", "derivative of b by the axial force", (3,)),
+    Field("rub_e", "1/N", "", "derivative of the sliding over the way to slip by it", (3,)),
+    Field("rub_h", "-", "", "half the second derivative of its norm's square", (3, 3)),
+    Field("rub_hd", "-", "", "that times the sliding", (3,)),
+    Field("rub_c", "-", "", "derivative of what the return map leaves of b", (4,)),
+    Field("slid_by", "-", "", "derivative of the sliding past the old z", (3,)),
+    Field("slip_by", "-", "", "derivative of the slip", (4,)),
+    Field("couple", "N m", "", "couple of a pair, axes of its carrier", (3,)),
+    Field("couple_global", "N m", "", "the same in global axes", (3,)),
+    Field("six", "", "", "derivative of force and couple by shift and turn", (6, 6)),
+    Field("six_global", "", "", "the same in global axes", (6, 6)),
+    Field("pair_row", "", "", "the same by both bodies", (6, 12)),
 )
 
 

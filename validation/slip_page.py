@@ -17,7 +17,17 @@ Entry = dict[str, Any]
 
 LEAST = 0.02
 """Slip over the capacity: errors of a smaller largest slip are over this one [-]."""
-ALLOWED = {"displacement": 0.05, "force": 0.05, "slip": 0.1, "left": 0.1}
+LEAST_RIM = 0.05
+"""Rim force over the bearing's force: errors of a smaller rim force are over this one [-]."""
+ALLOWED = {
+    "displacement": 0.05,
+    "force": 0.05,
+    "axial": 0.05,
+    "rim_bottom": 0.05,
+    "rim_top": 0.05,
+    "slip": 0.1,
+    "left": 0.1,
+}
 """Errors up to which a run that is called sufficient keeps its promise [-]."""
 FINE = ("ok", "inaccurate")
 SHOWN = 12
@@ -28,6 +38,9 @@ NAMES = {
     "left": "residual slip, over the largest",
     "displacement": "peak displacement",
     "force": "force (99.9 %)",
+    "axial": "axial force (99.9 %)",
+    "rim_bottom": "bottom rim's force (99.9 %)",
+    "rim_top": "top rim's force (99.9 %)",
 }
 
 
@@ -40,7 +53,11 @@ def errors(entry: Entry, level: str) -> dict[str, float]:
     """Return the errors of a level against the rigid bodies [-]."""
     ours, theirs = entry[level], entry["rigid_body"]
     slip = max(theirs["slip"], LEAST * entry["capacity"])
-    scales = {"slip": slip, "left": slip} | {n: theirs[n] for n in ("displacement", "force")}
+    scales = {"slip": slip, "left": slip} | {
+        n: theirs[n] for n in ("displacement", "force", "axial")
+    }
+    least = LEAST_RIM * theirs["force"]
+    scales |= {name: max(theirs[name], least) for name in ("rim_bottom", "rim_top")}
     return {name: abs(ours[name] - theirs[name]) / scale for name, scale in scales.items()}
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from lir_element.device.sliders import initial_bodies, initial_touches, point_records, slider_record
+from lir_element.device.sliders import face_records, initial_bodies, slider_record
 from lir_element.layout import SCRATCH, Records, Words
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ WORDS = ("bodies_old", "bodies_new", "touch_old", "touch_new")
 
 
 class Contacts(NamedTuple):
-    """Bearings with contact points: constants, committed (old) and trial (new) state, scratch.
+    """Bearings whose sliders are bodies: constants, committed (old) and trial (new) state, scratch.
 
     `row` says for each bearing of a model where it stands in the other arrays, -1 for bearings
     at another level. Unused contact points at the end of a row have no share.
@@ -68,7 +68,7 @@ def contact_arrays(
     bearings : sequence of LIRBearing
         All bearings of a model.
     chosen : sequence of bool
-        Which of them have contact points.
+        Which of them have sliders that are bodies.
     gravity : float
         Acceleration that gives the sliders their weight [m/s2].
 
@@ -80,25 +80,20 @@ def contact_arrays(
     row = np.full(len(bearings), -1, dtype=np.int64)
     row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]
-    each = [point_records(bearing) for bearing in picked]
-    most = max((points.shape[1] for points in each), default=0)
+    each = [face_records(bearing) for bearing in picked]
+    most = max((faces.shape[1] for faces, _ in each), default=0)
     sliders = np.concatenate([slider_record(bearing, gravity) for bearing in picked])
-    points = np.concatenate([_padded(part, most) for part in each])
-    touches = np.concatenate(
-        [
-            _padded(initial_touches(bearing, part), most)
-            for bearing, part in zip(picked, each, strict=True)
-        ]
-    )
-    for k, part in enumerate(each):  # unused points lie on a real one
-        points["arm"][k, part.shape[1] :] = points["arm"][k, 0]
+    faces = np.concatenate([_padded(part, most) for part, _ in each])
+    touches = np.concatenate([_padded(start, most) for _, start in each])
+    for k, (part, _) in enumerate(each):  # unused points lie on a real one
+        faces["arm"][k, part.shape[1] :] = faces["arm"][k, 0]
         touches["spot"][k, part.shape[1] :] = touches["spot"][k, 0]
     bodies = initial_bodies(len(picked))
     others, news = bodies.copy(), touches.copy()
     return Contacts(
         row=row,
         sliders=sliders,
-        points=points,
+        points=faces,
         bodies_old=bodies,
         bodies_new=others,
         touch_old=touches,
@@ -115,7 +110,7 @@ def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
     """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
     contacts.bodies_old[:] = initial_bodies(len(bearings))
     for k, bearing in enumerate(bearings):
-        start = initial_touches(bearing, point_records(bearing))[0]
+        start = face_records(bearing)[1][0]
         contacts.touch_old[k, : len(start)] = start
 
 

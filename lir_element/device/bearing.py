@@ -91,9 +91,10 @@ class LIRBearing(Specification):
     slider_inertia : ((float, float), (float, float)), optional
         Moments of inertia of both sliders about a transverse axis through the mass centre and
         about the slider's axis [kg m2].
-    contact_points : int
-        Contact points of each of the three interfaces, at the levels that have them: 4 to 7 lie on
-        the slider's edge, an even number from 8 on lies on two rings that act as a full disc.
+    contact_points : int, optional
+        At the levels "contact" and "rigid_body" each face of a slider is a disc on an elastic bed,
+        in closed form. A number has that many contact points instead, to compare: 4 to 7 lie on
+        the slider's edge, an even number from 8 to 64 on two rings, 96, 128, ... on rings of 32.
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.
     pressure_dependence : PressureDependence, optional

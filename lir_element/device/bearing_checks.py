@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -139,12 +139,16 @@ def _check_sliders(bearing: Specification) -> None:
         for value in (number for pair in pairs for number in pair):
             require_positive("slider_inertia", value, "kg m2")
     given: object = bearing.contact_points
+    if given is None:
+        return
     whole = isinstance(given, (int, np.integer)) and not isinstance(given, (bool, np.bool_))
-    count = int(bearing.contact_points) if whole else 0
-    if count < 4 or (count >= 8 and count % 2):
+    count = int(cast("int", given)) if whole else 0
+    fits = 4 <= count <= 7 or (8 <= count <= 64 and count % 2 == 0)
+    if not (fits or (count >= 96 and count % 32 == 0)):
         msg = (
-            f"contact_points = {given!r}: give a whole number, 4 to 7 (one ring on the slider's "
-            "edge) or an even one from 8 on (two rings, which act as a full disc)"
+            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 "
+            "(one ring on the slider's edge), an even number from 8 to 64 (two rings) or a "
+            "multiple of 32 from 96 on (rings of 32)"
         )
         raise ValueError(msg)
 

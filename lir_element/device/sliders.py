@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import roots_jacobi
 
 from lir_element.argument_checks import as_pair
 from lir_element.device.bearing import STANDARD_GRAVITY, LIRBearing
@@ -60,9 +61,10 @@ def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
     Parameters
     ----------
     count : int
-        Below eight: one ring on the slider's edge, as in the paper's Fig. 5. From eight on: two
-        rings, on the edge with a third of the stiffness and at half the radius with the rest,
-        which give the area, the torque 2/3 a mu N and the rocking stiffness of a full disc.
+        Below eight: one ring on the slider's edge, as in the paper's Fig. 5. Up to 64: two rings,
+        on the edge with a third of the stiffness and at half the radius with the rest, which give
+        the area, the torque 2/3 a mu N and the rocking stiffness of a full disc. Beyond: rings of
+        32, by Gauss-Radau quadrature over the radius, the last on the edge.
     radius : float
         Slider's radius [m].
 
@@ -71,16 +73,20 @@ def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
     tuple
         Places (count, 2) [m] and shares of the stiffness (count,) [-].
     """
-    if count < 8:
-        angle = 2.0 * math.pi * np.arange(count) / count
-        return radius * np.column_stack([np.cos(angle), np.sin(angle)]), np.full(count, 1.0 / count)
-    half = count // 2
-    angle = 2.0 * math.pi * np.arange(half) / half
-    other = angle + math.pi / half
-    outer = radius * np.column_stack([np.cos(angle), np.sin(angle)])
-    inner = 0.5 * radius * np.column_stack([np.cos(other), np.sin(other)])
-    shares = np.concatenate([np.full(half, 1.0 / 3.0 / half), np.full(half, 2.0 / 3.0 / half)])
-    return np.concatenate([outer, inner]), shares
+    rings = 1 if count < 8 else max(2, count // 32 if count > 64 else 2)
+    each = count // rings
+    where, weight = np.ones(1), np.ones(1)
+    if rings > 1:  # over 0 < r < 1 with the weight 2 r, one place at r = 1
+        x, own = roots_jacobi(rings - 1, 1.0, 1.0)
+        own = 0.5 * own / (1.0 - x)
+        where = np.append(0.5 * (1.0 + x), 1.0)[::-1]
+        weight = np.append(own, 1.0 - own.sum())[::-1]
+    plan, share = [], []
+    for k, (r, part) in enumerate(zip(where, weight, strict=True)):  # outermost first
+        angle = 2.0 * math.pi * np.arange(each) / each + (k % 2) * math.pi / each
+        plan.append(radius * r * np.column_stack([np.cos(angle), np.sin(angle)]))
+        share.append(np.full(each, part / each))
+    return np.concatenate(plan), np.concatenate(share)
 
 
 def gripping(plan: Floats, share: Floats, sphere: float) -> float:
@@ -164,8 +170,10 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
     )
     record["plane"][0] = interface - bottom, interface - top
     record["vertex"][0] = -first - bottom, -first + bearing.slider_height - top
-    plan, share = ring_points(bearing.contact_points, bearing.slider_radius)
-    record["grip"][0] = [1.0 / gripping(plan, share, sphere) for sphere in bearing.radii]
+    record["grip"][0] = 1.0
+    if bearing.contact_points is not None:
+        plan, share = ring_points(bearing.contact_points, bearing.slider_radius)
+        record["grip"][0] = [1.0 / gripping(plan, share, sphere) for sphere in bearing.radii]
     options = bearing.resolved()
     record["stiffness"] = INTERFACES * options["axial_stiffness"]
     record["damping"] = INTERFACES * options["axial_damping"]
@@ -174,9 +182,28 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
     return record
 
 
-def point_records(bearing: LIRBearing) -> Records:
-    """Return the contact points of a bearing, a record array of shape (1, 3 n)."""
-    plan, share = ring_points(bearing.contact_points, bearing.slider_radius)
+def face_records(bearing: LIRBearing) -> tuple[Records, Records]:
+    """Return the sliders' faces as discs or contact points, and their state undeformed.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The device.
+
+    Returns
+    -------
+    tuple of records
+        POINT and TOUCH, shapes (1, 3) or (1, 3 n): bottom surface, interface, top surface.
+    """
+    if bearing.contact_points is None:
+        return _discs(bearing)
+    points = point_records(bearing, bearing.contact_points)
+    return points, initial_touches(bearing, points)
+
+
+def point_records(bearing: LIRBearing, count: int) -> Records:
+    """Return `count` contact points a face of a bearing, a record array of shape (1, 3 n)."""
+    plan, share = ring_points(count, bearing.slider_radius)
     sliders = slider_record(bearing)
     count = len(plan)
     points = np.zeros((1, INTERFACES * count), dtype=POINT)
@@ -194,6 +221,20 @@ def point_records(bearing: LIRBearing) -> Records:
         points["arm"][0, part, 2] = height
         points["share"][0, part] = share
     return points
+
+
+def _discs(bearing: LIRBearing) -> tuple[Records, Records]:
+    # A disc has the friction coefficient of its surface: no correction by (7.7).
+    sliders = slider_record(bearing)
+    discs = np.zeros((1, INTERFACES), dtype=POINT)
+    discs["pair"][0] = range(INTERFACES)
+    discs["share"], discs["disc"] = 1.0, bearing.slider_radius
+    vertex, plane = sliders["vertex"][0], sliders["plane"][0]
+    discs["arm"][0, :, 2] = vertex[0], plane[1], vertex[1]
+    touches = np.zeros((1, INTERFACES), dtype=TOUCH)
+    touches["spot"][0, :, 2] = -bearing.radii[0], 0.0, bearing.radii[1]
+    touches["axes"][0, :] = np.eye(2, 3)
+    return discs, touches
 
 
 def initial_bodies(count: int) -> Records:

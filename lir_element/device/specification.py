@@ -44,7 +44,7 @@ class Specification:
     slider_density: float = 7850.0
     slider_mass: float | tuple[float, float] | None = None
     slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = None
-    contact_points: int = 8
+    contact_points: int | None = None
     allow_weak_interface: bool = False
     pressure_dependence: PressureDependence | None = None
     friction_heating: FrictionHeating | None = None

@@ -13,7 +13,7 @@ import numpy as np
 
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.sliders import initial_bodies, initial_touches, point_records
+from lir_element.device.sliders import face_records, initial_bodies
 from lir_element.element import initial_state
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES, HEAT_PARTS, STATE, STATE_BY_NAME, WORK
@@ -257,7 +257,7 @@ class ElementMemory:
         ):
             self._keep(name, getattr(bundle, name))
         self._keep("bodies_first", initial_bodies(1))
-        self._keep("touch_first", initial_touches(self.bearing, point_records(self.bearing)))
+        self._keep("touch_first", face_records(self.bearing)[1])
 
     def _keep(self, name: str, array: Records) -> None:
         self._kept.append(array)

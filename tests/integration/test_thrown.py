@@ -50,7 +50,7 @@ def test_a_slider_that_tumbles_is_not_ok() -> None:
     """At level contact it rocks to 40 degrees and lands somewhere: a little more topples it."""
     model = lumped_mass(ONE_PIECE, 3e4)
     with pytest.warns(AnalysisWarning, match="tumbled"):
-        data = time_history(model, toss(19.0), tolerance=1e-3, level="contact")
+        data = time_history(model, toss(15.8), tolerance=1e-3, level="contact")
     assert data.attrs["status"] == "inaccurate"
     assert "degrees (at its rim it lies at 6)" in data.attrs["audit"]
     assert energy_error(data) < 1e-3
@@ -59,7 +59,7 @@ def test_a_slider_that_tumbles_is_not_ok() -> None:
 
 
 def test_a_slider_that_rocks_is_ok() -> None:
-    data = time_history(lumped_mass(ONE_PIECE, 3e4), toss(12.0, 4.0), dt=None, level="contact")
+    data = time_history(lumped_mass(ONE_PIECE, 3e4), toss(18.0, 4.0), dt=None, level="contact")
     assert data.attrs["status"] == "ok"
     turn = data["body_rotation"].sel(body="bottom_slider").to_numpy()[:, 0]
     assert np.hypot(turn[:, 0], turn[:, 1]).max() > 0.13  # beyond its rim, 0.111

@@ -58,6 +58,7 @@ def outcome(data: xr.Dataset) -> dict[str, Any]:
     slip = data["interface_slip_size"].to_numpy()[:, 0]
     across = ("bearing_displacement", "bearing_force")
     u, f = (np.linalg.norm(finer(data, name), axis=-1) for name in across)
+    rims = data["rim_force"].to_numpy()[:, 0]
     return {
         "status": str(data.attrs["status"]),
         "time": float(data["time"][-1]),
@@ -66,6 +67,9 @@ def outcome(data: xr.Dataset) -> dict[str, Any]:
         "spin": float(data["slider_spin"][-1, 0]),
         "displacement": float(u.max()),
         "force": float(np.quantile(f, QUANTILE)),
+        "axial": float(np.quantile(data["axial_force"].to_numpy(), QUANTILE)),
+        "rim_bottom": float(np.quantile(rims[:, 0], QUANTILE)),
+        "rim_top": float(np.quantile(rims[:, 1], QUANTILE)),
         "lifts": bool((data["axial_force"][1:] <= 0.0).any()),
         "seconds": float(data.attrs["seconds_loop"]),
     }

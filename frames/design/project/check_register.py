@@ -85,7 +85,7 @@ class RunToCheck:
 
     Examples
     --------
-    In the how-to: "Adding a check or a design code" (docs/extending.md).
+    In the how-to: "Adding a check, a design code or a friction law" (docs/extending.md).
     """
 
     code: DesignCode

@@ -13,15 +13,22 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.pairs import OWN, place_bodies, press, turn_by
+from lir_element.kernels.contact.elimination import solve_all, solve_one
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
-from lir_element.kernels.contact.start import fly_on, follow_string, place_nodes, turn_back
+from lir_element.kernels.contact.start import (
+    carry_on,
+    fly_on,
+    follow_string,
+    place_nodes,
+    turn_back,
+)
 from lir_element.kernels.contact.state import bodies_status, fill_state
 from lir_element.kernels.friction_law import least
 from lir_element.kernels.heating import left_by_heat, left_by_pressure
-from lir_element.kernels.linear import solve_many
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
-from lir_element.kernels.pendulum.trial import has_no_state, trial
+from lir_element.kernels.pendulum.trial import has_no_state, is_finite, trial
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -48,6 +55,7 @@ ROUND_OFF = 4e-16  # of lengths and turns
 LARGEST_TURN = 0.1  # rad, of a body in one iteration
 SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
+_LEAPS = 3  # whole steps taken although the residual grows (a choice)
 _GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
 _SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, where it is softened first
 _STIFFER = 0.3  # by which it is brought down: some three iterations a stage (a choice)
@@ -91,39 +99,39 @@ def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
 
 @kernel
 def set_system(s: BodyStep, dt: float) -> None:
-    """Set Newton's matrix (12 x 12): minus the derivative of the residual."""
+    """Set Newton's matrix (12 x 12) in ``w.joint``: minus the derivative of the residual."""
     c, w = s.sliders, s.scratch
+    a = w.joint
     for row in range(12):
         for col in range(12):
-            w.system[row, col] = -w.k[6 + row, 6 + col]
+            a[row, col] = -w.k[6 + row, 6 + col]
     if dt == 0.0:  # sliders that nothing holds stay where they are
         for row in range(12):
-            w.system[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
+            a[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
         return
     for k in range(2):
         first = 6 * k
-        for a in range(3):
-            w.system[first + a, first + a] += c.mass[k] / (dt * dt)
+        for e in range(3):
+            a[first + e, first + e] += c.mass[k] / (dt * dt)
         add_gyration(s, dt, k, first + 3)
 
 
 @kernel
-def newton_direction(new: Bodies, w: Scratch, bodies: int) -> float:
-    """Set ``w.step`` of the first `bodies`, keep their turns; return how much of it to try first.
+def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
+    """Set ``w.step`` of both sliders, keep their turns; return how much of it to try first.
 
-    No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
+    No body turns by more than `LARGEST_TURN`, or moves by more than that times the slider's radius.
+    Zero where the matrix is singular.
     """
-    n = 6 * bodies
-    for row in range(n):
-        w.right[row, 0] = w.residual[row]
-    if not solve_many(w.system, w.right, n, 1):
+    for row in range(12):
+        w.joint[row, 12] = w.residual[row]
+    if not solve_one(w, w.step):
         return 0.0
     largest = 0.0
-    for row in range(n):
-        w.step[row] = w.right[row, 0]
-        if row % 6 >= 3:
-            largest = max(largest, abs(w.step[row]))
-    for k in range(bodies):
+    for row in range(12):
+        size = abs(w.step[row])
+        largest = max(largest, size if row % 6 >= 3 else size / c.radius)
+    for k in range(2):
         for a in range(4):
             w.try_turn[k, a] = new.turn[k, a]
     return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
@@ -150,7 +158,8 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
     p, c, w = s.props, s.sliders, s.scratch
     new, touch_new = s.new, s.touch_new
     size = unbalanced(s, dt, speeds)
-    mark = size
+    mark, leaps = size, 0
+    most = _LEAPS if dt > 0.0 and s.points[0].disc > 0.0 else 0
     for count in range(_MAX_ITERATIONS):
         if not math.isfinite(size):
             return -1
@@ -161,13 +170,13 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         if size <= small_forces(p, c, touch_new, dt):
             return count
         set_system(s, dt)
-        factor = newton_direction(new, w, 2)
+        factor = newton_direction(c, new, w)
         if factor == 0.0:
             return -1
         for k in range(2):
             for a in range(3):
                 w.try_displacement[k, a] = new.displacement[k, a]
-        best, kept = math.inf, factor
+        best, kept, whole = math.inf, factor, factor
         for _ in range(_TRIES):
             move_sliders(new, w, factor)
             attempt = unbalanced(s, dt, speeds)
@@ -176,6 +185,10 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
                 break
             factor *= SHORTER
+        if leaps < most and best >= _GAIN * size:  # a corner: contacts open or close beyond it
+            leaps += 1
+            kept = whole
+            mark = math.inf
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
             best = unbalanced(s, dt, speeds)
@@ -236,23 +249,29 @@ def contact_trial(
     """
     p, c, w = s.props, s.sliders, s.scratch
     b_old, b_new = s.old, s.new
-    code = trial(p, old, new, pen, u, v, time)
-    if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
-        return code
-    dt = pen.dt
+    if not (math.isfinite(time) and is_finite(u) and is_finite(v)):
+        return _NOT_FINITE
+    dt = max(time - old.time, 0.0)
+    pen.dt = dt
     set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
-    aloft = old.axial_force == 0.0 and dt > 0.0
-    for attempt in range(2):
-        if count >= 0:
-            break
-        turn_back(b_old, b_new)
-        if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
-            fly_on(b_old, b_new, dt)
-        else:
-            follow_string(p, c, b_new, w, pen)
+    if dt > 0.0 and s.points[0].disc > 0.0 and carry_on(s, old, dt):
         count = balance_sliders(s, dt, pen.static_speed)
+    if count < 0:
+        code = trial(p, old, new, pen, u, v, time)
+        if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
+            return code
+        aloft = old.axial_force == 0.0 and dt > 0.0
+        for attempt in range(2):
+            if count >= 0:
+                break
+            turn_back(b_old, b_new)
+            if (attempt == 0) == aloft or (has_no_state(code) and dt > 0.0):
+                fly_on(b_old, b_new, dt)
+            else:
+                follow_string(p, c, b_new, w, pen)
+            count = balance_sliders(s, dt, pen.static_speed)
     if count < 0 and dt == 0.0:
         turn_back(b_old, b_new)
         count = balance_by_softer_friction(s, pen)
@@ -291,17 +310,20 @@ def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
     """
     c, w = s.sliders, s.scratch
     set_system(s, dt)
+    a = w.joint
     for row in range(12):
-        for col in range(12):
-            w.right[row, col] = w.k[6 + row, col if col < 6 else col + 12]
-    solve_many(w.system, w.right, 12, 12)
+        for col in range(6):
+            a[row, 12 + col] = w.k[6 + row, col]
+            a[row, 18 + col] = w.k[6 + row, 18 + col]
+    solve_all(w)
     for row in range(12):
         at = row if row < 6 else row + 12
-        for col in range(12):
-            total = w.k[at, col if col < 6 else col + 12]
-            for e in range(12):
-                total += w.k[at, 6 + e] * w.right[e, col]  # (7.6)
-            k[row, col] = -total
+        for col in range(6):
+            k[row, col], k[row, 6 + col] = -w.k[at, col], -w.k[at, 18 + col]
+        for e in range(12):
+            factor = w.k[at, 6 + e]
+            for col in range(12):
+                k[row, col] -= factor * a[e, 12 + col]  # (7.6)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:

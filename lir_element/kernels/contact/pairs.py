@@ -8,83 +8,26 @@ that forces and moments of each pair balance to round-off (Eq. (5) of the paper)
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined, kernel
+from lir_element.kernels.contact.discs import press_disc
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
+from lir_element.kernels.contact.places import (
+    HIGH,
+    LOW_BOTTOM,
+    LOW_TOP,
+    NORMAL,
+    ORIGINS,
+    RIM_BOTTOM,
+    locate,
+)
 from lir_element.kernels.rotation import add_cross
 from lir_element.kernels.slip import step_share
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
-    from lir_element.layout import Bodies, Floats, Scratch, Sliders
-
-NORMAL, LOW_BOTTOM, HIGH, LOW_TOP, RIM_BOTTOM, RIM_TOP, OWN = 0, 1, 2, 3, 4, 5, 6
-_ORIGINS = 7
-
-
-@kernel
-def matrix_of(turn: Floats, q: Floats) -> None:
-    """Fill `q` (3, 3) with the rotation matrix of the unit quaternion `turn`."""
-    w, x, y, z = turn[0], turn[1], turn[2], turn[3]
-    q[0, 0] = 1.0 - 2.0 * (y * y + z * z)
-    q[1, 1] = 1.0 - 2.0 * (z * z + x * x)
-    q[2, 2] = 1.0 - 2.0 * (x * x + y * y)
-    q[0, 1], q[1, 0] = 2.0 * (x * y - w * z), 2.0 * (x * y + w * z)
-    q[1, 2], q[2, 1] = 2.0 * (y * z - w * x), 2.0 * (y * z + w * x)
-    q[2, 0], q[0, 2] = 2.0 * (z * x - w * y), 2.0 * (z * x + w * y)
-
-
-@kernel
-def turn_by(start: Floats, x: float, y: float, z: float, out: Floats) -> None:
-    """Set `out` (4,) to the rotation vector (x, y, z) in global axes after the turn `start`."""
-    half = 0.5 * math.sqrt(x * x + y * y + z * z)
-    share = 0.5 * (1.0 - half * half / 6.0) if half < 1e-4 else 0.5 * math.sin(half) / half
-    a, b, c, d = math.cos(half), share * x, share * y, share * z
-    e, f, g, h = start[0], start[1], start[2], start[3]
-    t_0, t_1 = a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g
-    t_2, t_3 = a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e
-    inv = 1.0 / math.sqrt(t_0 * t_0 + t_1 * t_1 + t_2 * t_2 + t_3 * t_3)
-    out[0], out[1], out[2], out[3] = inv * t_0, inv * t_1, inv * t_2, inv * t_3
-
-
-@kernel
-def turn_between(old: Floats, new: Floats) -> tuple[float, float, float]:
-    """Return the rotation vector (global axes) that leads from the turn `old` to `new`."""
-    a, b, c, d = new[0], new[1], new[2], new[3]
-    e, f, g, h = old[0], -old[1], -old[2], -old[3]
-    s = a * e - b * f - c * g - d * h
-    x, y, z = (
-        a * f + b * e + c * h - d * g,
-        a * g - b * h + c * e + d * f,
-        (a * h + b * g - c * f + d * e),
-    )
-    sign = 1.0 if s >= 0.0 else -1.0
-    size = math.sqrt(x * x + y * y + z * z)
-    factor = 2.0 if size < 1e-9 else 2.0 * math.atan2(size, abs(s)) / size
-    return sign * factor * x, sign * factor * y, sign * factor * z
-
-
-@kernel
-def place_bodies(c: Sliders, w: Scratch, bodies: Bodies, first: int, last: int) -> None:
-    """Set places and rotations of the bodies `first` to `last` (exclusive) from their record."""
-    for b in range(first, last):
-        for a in range(3):
-            w.x[b, a] = c.place[b, a] + bodies.displacement[b - 1, a]
-        matrix_of(bodies.turn[b - 1], w.q[b])
-
-
-@kernel
-def locate(w: Scratch, body: int, carrier: int, x: float, y: float, z: float, up: float) -> None:
-    """Set the point (x, y, z) of `body` in axes of its `carrier`, from height `up` on its axis."""
-    q, r = w.q[body], w.q[carrier]
-    for a in range(3):
-        w.arm[0, a] = q[a, 0] * x + q[a, 1] * y + q[a, 2] * z
-        w.arm[1, a] = w.arm[0, a] + (w.x[body, a] - w.x[carrier, a])
-    for a in range(3):
-        w.d[a] = r[0, a] * w.arm[1, 0] + r[1, a] * w.arm[1, 1] + r[2, a] * w.arm[1, 2]
-    w.d[2] -= up
+    from lir_element.layout import Floats, Scratch
 
 
 @kernel
@@ -184,6 +127,22 @@ def add_slope(w: Scratch, body: int, carrier: int) -> None:
     add_cross(k, r + 3, r, f[0], f[1], f[2], -1.0)
 
 
+@inlined
+def clear_parts(parts: Floats) -> None:
+    """Set the forces of all origins to zero."""
+    for part in range(ORIGINS):
+        for row in range(24):
+            parts[part, row] = 0.0
+
+
+@inlined
+def clear_square(k: Floats) -> None:
+    """Set the derivative of all forces to zero."""
+    for row in range(24):
+        for col in range(24):
+            k[row, col] = 0.0
+
+
 @kernel
 def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive: bool) -> None:
     """Set the forces ``w.g`` on all bodies at ``w.x``, ``w.q``, and the new state of contacts.
@@ -195,14 +154,13 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
     points, old, new = s.points, s.old, s.new
     new.step = dt
     w.share, w.step_before = step_share(dt, old.step), old.step
-    for row in range(24):
-        w.g[row] = 0.0
-        for part in range(_ORIGINS):
-            new.parts[part, row] = 0.0
-        if derive:
-            for col in range(24):
-                w.k[row, col] = 0.0
+    clear_parts(new.parts)
+    if derive:
+        clear_square(w.k)
     for j in range(points.shape[0]):
+        if points[j].disc > 0.0:
+            press_disc(s, j, dt, speed_bottom, speed_top, derive)
+            continue
         pair, arm = points[j].pair, points[j].arm
         stiffness, damping = points[j].share * c.stiffness, points[j].share * c.damping
         clear_pair(w)
@@ -259,6 +217,9 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
         add_pair(w, new.parts, body, carrier, RIM_BOTTOM + side, RIM_BOTTOM + side)
         if derive:
             add_slope(w, body, carrier)
-    for part in range(_ORIGINS):
+    total, parts = w.g, new.parts
+    for row in range(24):
+        total[row] = parts[0, row]
+    for part in range(1, ORIGINS):
         for row in range(24):
-            w.g[row] += new.parts[part, row]
+            total[row] += parts[part, row]

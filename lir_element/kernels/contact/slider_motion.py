@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.pairs import OWN, matrix_of, turn_between
+from lir_element.kernels.contact.places import OWN, matrix_of, turn_between
 from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def add_gyration(s: BodyStep, dt: float, k: int, first: int) -> None:
     h = w.spare_vector
     h[0], h[1], h[2] = 0.0, 0.0, 0.0
     momentum(inertia, q, spin, h, 0, 1.0)
-    m = w.system
+    m = w.joint
     for a in range(3):
         for b in range(3):
             total = 0.0

@@ -10,11 +10,12 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.pairs import matrix_of, turn_by
+from lir_element.kernels.contact.places import matrix_of, turn_by
 from lir_element.kernels.rotation import rotate
 
 if TYPE_CHECKING:
-    from lir_element.layout import Bodies, Floats, Props, Scratch, Sliders, Work
+    from lir_element.bundles.contact_data import BodyStep
+    from lir_element.layout import Bodies, Floats, Props, Scratch, Sliders, State, Work
 
 _RESTING = 1.0 / 3.0  # of the closure in each of the three interfaces, which are equally stiff
 
@@ -84,3 +85,114 @@ def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
             new.displacement[b, a] = old.displacement[b, a] + dt * old.velocity[b, a]
         s = old.spin[b]
         turn_by(old.turn[b], dt * s[0], dt * s[1], dt * s[2], new.turn[b])
+
+
+@kernel
+def turn_of(q: Floats, out: Floats) -> None:
+    """Set `out` (4,) to the unit quaternion of the rotation matrix `q` (Shepperd 1978)."""
+    trace = q[0, 0] + q[1, 1] + q[2, 2]
+    if trace > 0.0:
+        s = 2.0 * math.sqrt(1.0 + trace)
+        out[0] = 0.25 * s
+        out[1], out[2] = (q[2, 1] - q[1, 2]) / s, (q[0, 2] - q[2, 0]) / s
+        out[3] = (q[1, 0] - q[0, 1]) / s
+        return
+    i = 0
+    for k in range(1, 3):
+        if q[k, k] > q[i, i]:
+            i = k
+    j, k = (i + 1) % 3, (i + 2) % 3
+    s = 2.0 * math.sqrt(max(1.0 + q[i, i] - q[j, j] - q[k, k], 1e-30))
+    out[0] = (q[k, j] - q[j, k]) / s
+    out[1 + i], out[1 + j] = 0.25 * s, (q[j, i] + q[i, j]) / s
+    out[1 + k] = (q[k, i] + q[i, k]) / s
+
+
+@kernel
+def shortest_turn(x: Floats, y: Floats, q: Floats) -> bool:
+    """Set `q` (3, 3) to the rotation without spin that brings the direction of x onto that of y."""
+    size = math.sqrt((x[0] ** 2 + x[1] ** 2 + x[2] ** 2) * (y[0] ** 2 + y[1] ** 2 + y[2] ** 2))
+    if size == 0.0:
+        return False
+    c = (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]) / size
+    if c <= -0.5:
+        return False
+    v_0 = (x[1] * y[2] - x[2] * y[1]) / size
+    v_1 = (x[2] * y[0] - x[0] * y[2]) / size
+    v_2 = (x[0] * y[1] - x[1] * y[0]) / size
+    k = 1.0 / (1.0 + c)
+    q[0, 0], q[0, 1], q[0, 2] = c + k * v_0 * v_0, k * v_0 * v_1 - v_2, k * v_0 * v_2 + v_1
+    q[1, 0], q[1, 1], q[1, 2] = k * v_0 * v_1 + v_2, c + k * v_1 * v_1, k * v_1 * v_2 - v_0
+    q[2, 0], q[2, 1], q[2, 2] = k * v_0 * v_2 - v_1, k * v_1 * v_2 + v_0, c + k * v_2 * v_2
+    return True
+
+
+@kernel
+def carry_on(s: BodyStep, old: State, dt: float) -> bool:
+    """Put the sliders where they go with the plates as one piece, rocked as they are.
+
+    The line of the sphere centres turns and stretches: the sliders turn with it about the bottom
+    sphere's centre, and each contact takes a third of the stretch. An interface that slipped in the
+    last step slips on. False where a contact was open.
+    """
+    p, c, w, new = s.props, s.sliders, s.scratch, s.new
+    bottom, plane, top = s.touch_old[0], s.touch_old[1], s.touch_old[2]
+    if bottom.push <= 0.0 or top.push <= 0.0 or plane.push <= 0.0:
+        return False
+    q, face, h = w.q[0], bottom.axes, w.spare_matrix
+    for a in range(3):  # the bottom slider's axes seen from its plate, by columns
+        m, o = (a + 1) % 3, (a + 2) % 3
+        w.half[a, 0], w.half[a, 1] = face[0, a], face[1, a]
+        w.half[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
+    share = dt / s.old.step if s.old.step > 0.0 and plane.slid > 0.0 else 0.0
+    slip_1, slip_2 = share * plane.increment[0], share * plane.increment[1]
+    go, aim, place = w.axis, w.spare_vector, w.way
+    for a in range(3):
+        go[a] = old.centres[a] + w.half[a, 0] * slip_1 + w.half[a, 1] * slip_2
+        place[a] = w.x[3, a] - w.x[0, a] - p.lever[1] * w.q[3][a, 2] - p.lever[0] * q[a, 2]
+    for a in range(3):
+        aim[a] = q[0, a] * place[0] + q[1, a] * place[1] + q[2, a] * place[2]
+    if not shortest_turn(go, aim, h):
+        return False
+    long = math.sqrt(go[0] ** 2 + go[1] ** 2 + go[2] ** 2)
+    stretch = math.sqrt(aim[0] ** 2 + aim[1] ** 2 + aim[2] ** 2) - long
+    part = _RESTING * stretch
+    grow = 1.0 + part / p.radius[0]
+    for a in range(3):  # global axes of plate times turn
+        for b in range(3):
+            w.global_slope[a, b] = q[a, 0] * h[0, b] + q[a, 1] * h[1, b] + q[a, 2] * h[2, b]
+    g, low, up = w.global_slope, w.q[1], w.q[2]
+    for a in range(3):
+        for b in range(3):
+            low[a, b] = g[a, 0] * w.half[0, b] + g[a, 1] * w.half[1, b] + g[a, 2] * w.half[2, b]
+    d = bottom.spot
+    for a in range(3):
+        w.x[1, a] = (
+            w.x[0, a]
+            + p.lever[0] * q[a, 2]
+            + grow * (g[a, 0] * d[0] + g[a, 1] * d[1] + g[a, 2] * d[2])
+            - c.vertex[0] * low[a, 2]
+        )
+    face, d = plane.axes, plane.spot
+    for a in range(3):
+        m, o = (a + 1) % 3, (a + 2) % 3
+        w.half[a, 0], w.half[a, 1] = face[0, a], face[1, a]
+        w.half[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
+    for a in range(3):
+        for b in range(3):
+            up[a, b] = (
+                low[a, 0] * w.half[0, b] + low[a, 1] * w.half[1, b] + low[a, 2] * w.half[2, b]
+            )
+    for a in range(3):
+        w.x[2, a] = (
+            w.x[1, a]
+            + low[a, 0] * (d[0] + slip_1)
+            + low[a, 1] * (d[1] + slip_2)
+            + low[a, 2] * (c.plane[0] + d[2] - part)
+            - c.plane[1] * up[a, 2]
+        )
+    for b in range(1, 3):
+        turn_of(w.q[b], new.turn[b - 1])
+        for a in range(3):
+            new.displacement[b - 1, a] = w.x[b, a] - c.place[b, a]
+    return True

@@ -1,4 +1,4 @@
-"""Kernels of bearings with contact points: their record from the bodies, works of a step."""
+"""Kernels of bearings whose sliders are bodies: their record from the bodies, works of a step."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
+from lir_element.kernels.contact.disc import size_of
 from lir_element.kernels.contact.pair import set_tangents
-from lir_element.kernels.contact.pairs import (
+from lir_element.kernels.contact.places import (
     HIGH,
     LOW_BOTTOM,
     LOW_TOP,
@@ -197,8 +198,12 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         y, z = before.hysteresis, after.hysteresis
         if side < 2:
             mu *= s.sliders.grip[side]
-        gain = stored(mu, after.push, u_y, z[0], z[1])
-        gain -= stored(mu, before.push, u_y, y[0], y[1])
+        if s.points[j].disc > 0.0:
+            gain = stored(mu, after.push, u_y, size_of(after.memory), 0.0)
+            gain -= stored(mu, before.push, u_y, size_of(before.memory), 0.0)
+        else:
+            gain = stored(mu, after.push, u_y, z[0], z[1])
+            gain -= stored(mu, before.push, u_y, y[0], y[1])
         if side == 0:
             bottom += gain
         elif side == 1:

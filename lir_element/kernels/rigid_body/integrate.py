@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from lir_element._compile.jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.pairs import place_bodies, press, turn_between
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import place_bodies, turn_between
 from lir_element.kernels.contact.state import bodies_status, contact_accumulate, fill_state
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.rigid_body.step import explicit_step, implicit_step, set_accelerations

@@ -13,20 +13,15 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.condensed import (
+    LARGEST_TURN,
     ROUND_OFF,
     SHORTER,
-    newton_direction,
     small_forces,
 )
-from lir_element.kernels.contact.pairs import (
-    OWN,
-    matrix_of,
-    place_bodies,
-    press,
-    turn_between,
-    turn_by,
-)
+from lir_element.kernels.contact.pairs import press
+from lir_element.kernels.contact.places import OWN, matrix_of, place_bodies, turn_between, turn_by
 from lir_element.kernels.contact.slider_motion import momentum
+from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -194,6 +189,27 @@ def small_enough(s: BodyStep, run: RigidRun, dt: float) -> float:
 
 
 @kernel
+def newton_direction(new: Bodies, w: Scratch) -> float:
+    """Set ``w.step`` of all bodies, keep their turns; return how much of it to try first.
+
+    No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
+    """
+    for row in range(18):
+        w.right[row, 0] = w.residual[row]
+    if not solve_many(w.system, w.right, 18, 1):
+        return 0.0
+    largest = 0.0
+    for row in range(18):
+        w.step[row] = w.right[row, 0]
+        if row % 6 >= 3:
+            largest = max(largest, abs(w.step[row]))
+    for k in range(3):
+        for a in range(4):
+            w.try_turn[k, a] = new.turn[k, a]
+    return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+
+
+@kernel
 def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> bool:
     """Take one implicit step from `s.old` to `s.new`; return whether Newton's method converged."""
     old, new, w = s.old, s.new, s.scratch
@@ -205,7 +221,7 @@ def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> b
         if size <= small_enough(s, run, dt):
             return True
         set_matrix(run, w, setup, dt)
-        factor = newton_direction(new, w, 3)
+        factor = newton_direction(new, w)
         if factor == 0.0:
             return False
         for entry in range(9):
