@@ -316,7 +316,7 @@ SCRATCH_FIELDS = (
     Field("tangent_1", "-", "t_1", "basis of the tangent plane", (3,)),
     Field("tangent_2", "-", "t_2", "the same", (3,)),
     Field("system", "", "", "matrix of Newton's method", (18, 18)),
-    Field("right", "", "", "its right-hand sides", (18, 12)),
+    Field("right", "", "", "its right-hand side", (18, 1)),
     Field("residual", "N, N m", "", "unbalanced forces on the bodies", (18,)),
     Field("step", "m, rad", "", "last step of Newton's method", (18,)),
     Field("shift", "m", "", "displacement of the mass centres over the time step", (9,)),

@@ -73,7 +73,7 @@ def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
     tuple
         Places (count, 2) [m] and shares of the stiffness (count,) [-].
     """
-    rings = 1 if count < 8 else max(2, count // 32 if count > 64 else 2)
+    rings = 1 if count < 8 else 2 if count <= 64 else count // 32
     each = count // rings
     where, weight = np.ones(1), np.ones(1)
     if rings > 1:  # over 0 < r < 1 with the weight 2 r, one place at r = 1

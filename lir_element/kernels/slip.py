@@ -273,23 +273,11 @@ def friction_step(
     flat = (z_1, z_2, h_11, h_12, h_21, h_22, slid, a_1, a_2, n_1, n_2)
     if share == 0.0 or slip == 0.0 or slid == 0.0:
         return flat
-    cross = before_1 * dw_2 - before_2 * dw_1
-    dot = before_1 * dw_1 + before_2 * dw_2
-    if not dot > 0.0:
-        return flat
-    if not abs(cross) < _STEEPEST * dot:
-        return flat
-    angle = small_angle(cross / dot)
-    q = angle * angle * (1.0 / (_BEND * _BEND))
     if slid < slip:  # what a falling axial force takes from z is no sliding
         slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
-    square = dw_1 * dw_1 + dw_2 * dw_2
-    over = 1.0 / (slip + u_y)
-    part = slip * over  # what a turn adds up to over the steps is then half a step's
-    whole = share * angle * (1.0 - q) ** 2
-    turn = whole * part  # (3.7)
-    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
-    by_slip = whole * u_y * over * over
+    turns, turn, by_angle, by_slip = turn_to_end(before_1, before_2, dw_1, dw_2, share, slip, u_y)
+    if not turns:
+        return flat
     turn_1 = -by_angle * dw_2 + by_slip * s_1
     turn_2 = by_angle * dw_1 + by_slip * s_2
     turn_n = by_slip * s_n
@@ -308,6 +296,34 @@ def friction_step(
         c * n_1 - s * n_2 - r_2 * turn_n,
         s * n_1 + c * n_2 + r_1 * turn_n,
     )
+
+
+@inlined
+def turn_to_end(
+    before_1: float,
+    before_2: float,
+    dw_1: float,
+    dw_2: float,
+    share: float,
+    slip: float,
+    u_y: float,
+) -> tuple[bool, float, float, float]:
+    """Return whether z turns on to the end of the step, its angle and what derives it (3.7).
+
+    By the direction of the sliding over its length, and by the slip.
+    """
+    cross = before_1 * dw_2 - before_2 * dw_1
+    dot = before_1 * dw_1 + before_2 * dw_2
+    if not dot > 0.0 or not abs(cross) < _STEEPEST * dot:
+        return False, 0.0, 0.0, 0.0
+    angle = small_angle(cross / dot)
+    q = angle * angle * (1.0 / (_BEND * _BEND))
+    square = dw_1 * dw_1 + dw_2 * dw_2
+    over = 1.0 / (slip + u_y)
+    part = slip * over  # what a turn adds up to over the steps is then half a step's
+    whole = share * angle * (1.0 - q) ** 2
+    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
+    return True, whole * part, by_angle, whole * u_y * over * over
 
 
 @inlined

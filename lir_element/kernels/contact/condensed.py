@@ -117,24 +117,29 @@ def set_system(s: BodyStep, dt: float) -> None:
 
 
 @kernel
-def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
-    """Set ``w.step`` of both sliders, keep their turns; return how much of it to try first.
+def first_share(new: Bodies, w: Scratch, bodies: int, length: float) -> float:
+    """Keep the bodies' turns, and return how much of ``w.step`` to try first.
 
-    No body turns by more than `LARGEST_TURN`, or moves by more than that times the slider's radius.
-    Zero where the matrix is singular.
+    No body turns by more than `LARGEST_TURN`, or moves by more than that times `length`.
     """
+    largest = 0.0
+    for row in range(6 * bodies):
+        size = abs(w.step[row])
+        largest = max(largest, size if row % 6 >= 3 else size / length)
+    for k in range(bodies):
+        for a in range(4):
+            w.try_turn[k, a] = new.turn[k, a]
+    return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+
+
+@kernel
+def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
+    """Set ``w.step`` of both sliders; return how much to try first, 0 where it is singular."""
     for row in range(12):
         w.joint[row, 12] = w.residual[row]
     if not solve_one(w, w.step):
         return 0.0
-    largest = 0.0
-    for row in range(12):
-        size = abs(w.step[row])
-        largest = max(largest, size if row % 6 >= 3 else size / c.radius)
-    for k in range(2):
-        for a in range(4):
-            w.try_turn[k, a] = new.turn[k, a]
-    return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+    return first_share(new, w, 2, c.radius)
 
 
 @kernel

@@ -13,7 +13,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import inlined, kernel
-from lir_element.kernels.slip import bouc_wen_radius, direction_of, small_angle
+from lir_element.kernels.slip import bouc_wen_radius, direction_of, turn_to_end
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Scratch
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 _A, _B, _C = 5.0 / 6.0, 7.0 / 27.0, 7.0 / 12.0  # of the norm: exact for slow and fast spin (7.12)
 _NOTHING = 1e-17  # square of z: friction of 1e-10 of the load, where Newton's method stops
 _FULL = 1.0 + 1e-12  # round-off: what has slipped holds until it slides on
-_BEND = 0.9  # rad a step, as in `slip`
-_STEEPEST = math.tan(_BEND)
 
 
 @kernel
@@ -233,27 +231,18 @@ def turn_on(
     z: Floats,
 ) -> None:
     """Turn friction and hysteretic variable on to the end of the step (3.7), with derivatives."""
-    cross = before[0] * d[1] - before[1] * d[0]
-    dot = before[0] * d[0] + before[1] * d[1]
-    if not dot > 0.0:
-        return
-    if not abs(cross) < _STEEPEST * dot:
-        return
     slope, out = w.slip_by, w.rub
     if slid < slip:
         slip = slid
         for k in range(3):
             slope[k] = w.slid_by[k]
         slope[3] = 0.0
-    angle = small_angle(cross / dot)
-    q = angle * angle * (1.0 / (_BEND * _BEND))
-    square = d[0] * d[0] + d[1] * d[1]
-    over = 1.0 / (slip + u_y)
-    part = slip * over
-    whole = share * angle * (1.0 - q) ** 2
-    by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
-    by_slip = whole * u_y * over * over
-    c, s = direction_of(whole * part)
+    turns, angle, by_angle, by_slip = turn_to_end(
+        before[0], before[1], d[0], d[1], share, slip, u_y
+    )
+    if not turns:
+        return
+    c, s = direction_of(angle)
     for k in range(5):
         x, y = out[0, k], out[1, k]
         out[0, k], out[1, k] = c * x - s * y, s * x + c * y

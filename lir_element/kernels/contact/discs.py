@@ -15,7 +15,7 @@ from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
-    from lir_element.layout import Floats, Props, Scratch, Sliders
+    from lir_element.layout import Floats, Scratch
 
 
 @kernel
@@ -64,20 +64,6 @@ def global_vector(q: Floats, local: Floats, out: Floats) -> None:
     """Set `out` to the vector `local` of a body with axes `q`, in global axes."""
     for a in range(3):
         out[a] = q[a, 0] * local[0] + q[a, 1] * local[1] + q[a, 2] * local[2]
-
-
-@kernel
-def locate_face(w: Scratch, c: Sliders, p: Props, pair: int, height: float) -> None:
-    """Set place and axes of the face of a pair's body in axes of the carrier."""
-    if pair == 0:
-        locate(w, 1, 0, 0.0, 0.0, height, p.lever[0])
-        set_columns(w, 1, 0)
-    elif pair == 2:
-        locate(w, 2, 3, 0.0, 0.0, height, -p.lever[1])
-        set_columns(w, 2, 3)
-    else:
-        locate(w, 2, 1, 0.0, 0.0, height, c.plane[0])
-        set_columns(w, 2, 1)
 
 
 @kernel
@@ -151,14 +137,16 @@ def press_disc(
     pair, a = point.pair, point.disc
     clear_pair(w)
     w.couple[0], w.couple[1], w.couple[2] = 0.0, 0.0, 0.0
-    locate_face(w, c, p, pair, point.arm[2])
-    friction = HIGH
-    body, carrier = 2, 1
+    body, carrier, friction, up = 2, 1, HIGH, c.plane[0]
     if pair == 0:
-        body, carrier, friction = 1, 0, LOW_BOTTOM
+        body, carrier, friction, up = 1, 0, LOW_BOTTOM, p.lever[0]
+    elif pair == 2:
+        carrier, friction, up = 3, LOW_TOP, -p.lever[1]
+    locate(w, body, carrier, 0.0, 0.0, point.arm[2], up)
+    set_columns(w, body, carrier)
+    if pair == 0:
         push = sphere_disc(p, c, 0, w, old, new, a, dt, speed_bottom)
     elif pair == 2:
-        carrier, friction = 3, LOW_TOP
         push = sphere_disc(p, c, 1, w, old, new, a, dt, speed_top)
     elif p.fused:
         bond_disc(w, c, old, new, a, dt)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.contact.places import matrix_of, turn_by
 from lir_element.kernels.rotation import rotate
 
@@ -127,6 +127,23 @@ def shortest_turn(x: Floats, y: Floats, q: Floats) -> bool:
     return True
 
 
+@inlined
+def set_axes_of(face: Floats, out: Floats) -> None:
+    """Set the axes of a body (columns of `out`) from the two in its face, by rows."""
+    for a in range(3):
+        m, o = (a + 1) % 3, (a + 2) % 3
+        out[a, 0], out[a, 1] = face[0, a], face[1, a]
+        out[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
+
+
+@inlined
+def multiply(x: Floats, y: Floats, out: Floats) -> None:
+    """Set `out` (3, 3) to the product of two matrices, neither of which it is."""
+    for a in range(3):
+        for b in range(3):
+            out[a, b] = x[a, 0] * y[0, b] + x[a, 1] * y[1, b] + x[a, 2] * y[2, b]
+
+
 @kernel
 def carry_on(s: BodyStep, old: State, dt: float) -> bool:
     """Put the sliders where they go with the plates as one piece, rocked as they are.
@@ -139,11 +156,8 @@ def carry_on(s: BodyStep, old: State, dt: float) -> bool:
     bottom, plane, top = s.touch_old[0], s.touch_old[1], s.touch_old[2]
     if bottom.push <= 0.0 or top.push <= 0.0 or plane.push <= 0.0:
         return False
-    q, face, h = w.q[0], bottom.axes, w.spare_matrix
-    for a in range(3):  # the bottom slider's axes seen from its plate, by columns
-        m, o = (a + 1) % 3, (a + 2) % 3
-        w.half[a, 0], w.half[a, 1] = face[0, a], face[1, a]
-        w.half[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
+    q, h = w.q[0], w.spare_matrix
+    set_axes_of(bottom.axes, w.half)
     share = dt / s.old.step if s.old.step > 0.0 and plane.slid > 0.0 else 0.0
     slip_1, slip_2 = share * plane.increment[0], share * plane.increment[1]
     go, aim, place = w.axis, w.spare_vector, w.way
@@ -158,13 +172,9 @@ def carry_on(s: BodyStep, old: State, dt: float) -> bool:
     stretch = math.sqrt(aim[0] ** 2 + aim[1] ** 2 + aim[2] ** 2) - long
     part = _RESTING * stretch
     grow = 1.0 + part / p.radius[0]
-    for a in range(3):  # global axes of plate times turn
-        for b in range(3):
-            w.global_slope[a, b] = q[a, 0] * h[0, b] + q[a, 1] * h[1, b] + q[a, 2] * h[2, b]
     g, low, up = w.global_slope, w.q[1], w.q[2]
-    for a in range(3):
-        for b in range(3):
-            low[a, b] = g[a, 0] * w.half[0, b] + g[a, 1] * w.half[1, b] + g[a, 2] * w.half[2, b]
+    multiply(q, h, g)
+    multiply(g, w.half, low)
     d = bottom.spot
     for a in range(3):
         w.x[1, a] = (
@@ -173,16 +183,9 @@ def carry_on(s: BodyStep, old: State, dt: float) -> bool:
             + grow * (g[a, 0] * d[0] + g[a, 1] * d[1] + g[a, 2] * d[2])
             - c.vertex[0] * low[a, 2]
         )
-    face, d = plane.axes, plane.spot
-    for a in range(3):
-        m, o = (a + 1) % 3, (a + 2) % 3
-        w.half[a, 0], w.half[a, 1] = face[0, a], face[1, a]
-        w.half[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
-    for a in range(3):
-        for b in range(3):
-            up[a, b] = (
-                low[a, 0] * w.half[0, b] + low[a, 1] * w.half[1, b] + low[a, 2] * w.half[2, b]
-            )
+    set_axes_of(plane.axes, w.half)
+    d = plane.spot
+    multiply(low, w.half, up)
     for a in range(3):
         w.x[2, a] = (
             w.x[1, a]

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.condensed import (
-    LARGEST_TURN,
     ROUND_OFF,
     SHORTER,
+    first_share,
     small_forces,
 )
 from lir_element.kernels.contact.pairs import press
@@ -190,23 +190,14 @@ def small_enough(s: BodyStep, run: RigidRun, dt: float) -> float:
 
 @kernel
 def newton_direction(new: Bodies, w: Scratch) -> float:
-    """Set ``w.step`` of all bodies, keep their turns; return how much of it to try first.
-
-    No body turns by more than `LARGEST_TURN`. Zero where the matrix is singular.
-    """
+    """Set ``w.step`` of all bodies; return how much of it to try first, 0 where it is singular."""
     for row in range(18):
         w.right[row, 0] = w.residual[row]
     if not solve_many(w.system, w.right, 18, 1):
         return 0.0
-    largest = 0.0
     for row in range(18):
         w.step[row] = w.right[row, 0]
-        if row % 6 >= 3:
-            largest = max(largest, abs(w.step[row]))
-    for k in range(3):
-        for a in range(4):
-            w.try_turn[k, a] = new.turn[k, a]
-    return min(1.0, LARGEST_TURN / largest) if largest > 0.0 else 1.0
+    return first_share(new, w, 3, math.inf)
 
 
 @kernel
