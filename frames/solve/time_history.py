@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-3  # of histories over the displacement reached, where the program chooses
-_CONTACT_TOLERANCE = 3e-4  # the same with a bearing at the level 'contact': its sliders' own motion
+_CONTACT_TOLERANCE = 1e-3  # the same with a bearing at the level 'contact': its sliders' own motion
 _HALVED_FROM = 5e-4  # tolerance below whose half the largest step is halved, below a fourth twice
 _ERROR_SHARE = 0.045  # of what a lasting force does to the pendulum: it does not last (calibrated)
 _ERROR_TIME = 8.0  # times sqrt(L / g), over which what rings gets out of phase (calibrated)
