@@ -402,7 +402,16 @@ class Bodies:
     def press(self, *, derive: bool = False) -> np.ndarray:
         self.w.x[:], self.w.q[:] = self.x, self.q
         bodies = BodyStep(
-            self.p, self.c, self.points, self.old, self.new, self.touch_old, self.touch_new, self.w
+            self.p,
+            self.c,
+            self.points,
+            self.old,
+            self.new,
+            self.touch_old,
+            self.touch_new,
+            None,
+            None,
+            self.w,
         )
         press(bodies, self.dt, 0.03, 0.04, derive)
         return self.w.g.copy().reshape(4, 6)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.disc_pair import bond_disc, plane_disc, set_columns, sphere_disc
-from lir_element.kernels.contact.pair import clear_pair
 from lir_element.kernels.contact.places import HIGH, LOW_BOTTOM, LOW_TOP, NORMAL, locate
 from lir_element.kernels.rotation import add_cross
 
@@ -135,8 +134,6 @@ def press_disc(
     p, c, w = s.props, s.sliders, s.scratch
     point, old, new = s.points[j], s.touch_old[j], s.touch_new[j]
     pair, a = point.pair, point.disc
-    clear_pair(w)
-    w.couple[0], w.couple[1], w.couple[2] = 0.0, 0.0, 0.0
     body, carrier, friction, up = 2, 1, HIGH, c.plane[0]
     if pair == 0:
         body, carrier, friction, up = 1, 0, LOW_BOTTOM, p.lever[0]
@@ -145,14 +142,14 @@ def press_disc(
     locate(w, body, carrier, 0.0, 0.0, point.arm[2], up)
     set_columns(w, body, carrier)
     if pair == 0:
-        push = sphere_disc(p, c, 0, w, old, new, a, dt, speed_bottom)
+        push = sphere_disc(p, c, 0, w, old, new, a, dt, speed_bottom, derive)
     elif pair == 2:
-        push = sphere_disc(p, c, 1, w, old, new, a, dt, speed_top)
+        push = sphere_disc(p, c, 1, w, old, new, a, dt, speed_top, derive)
     elif p.fused:
-        bond_disc(w, c, old, new, a, dt)
+        bond_disc(w, c, old, new, a, dt, derive)
         push = 1.0
     else:
-        push = plane_disc(p, c, w, old, new, a, dt)
+        push = plane_disc(p, c, w, old, new, a, dt, derive)
     if push == 0.0:
         return
     if not (pair == 1 and p.fused):

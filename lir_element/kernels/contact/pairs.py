@@ -155,6 +155,7 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
     new.step = dt
     w.share, w.step_before = step_share(dt, old.step), old.step
     clear_parts(new.parts)
+    w.derived = 1 if derive else 0
     if derive:
         clear_square(w.k)
     for j in range(points.shape[0]):
