@@ -295,9 +295,7 @@ TOUCH_FIELDS = (
 )
 
 SEARCH_FIELDS = (
-    Field(
-        "leads", "-", "", "last steps whose lead is known: none, one, two equal ones", (), "i8"
-    ),
+    Field("leads", "-", "", "last steps whose lead is known: none, one, two equal ones", (), "i8"),
     Field("lead", "m, rad", "", "where sliders rest beyond the start of their search", (2, 6)),
     Field("lead_before", "m, rad", "", "the same in the step before", (2, 6)),
     Field("renewed", "-", "", "1 where the trial has taken a new inverse", (), "i8"),
@@ -366,7 +364,10 @@ SCRATCH_FIELDS = (
     Field("slid_by", "-", "", "derivative of the sliding past the old z", (3,)),
     Field("slip_by", "-", "", "derivative of the slip", (4,)),
     Field("couple", "N m", "", "couple of a pair, axes of its carrier", (3,)),
-    Field("couple_global", "N m", "", "the same in global axes", (3,)),
+    Field(
+        "held", "", "", "of discs, then rims: arms (2), normal force, friction, couple", (5, 5, 3)
+    ),
+    Field("momentum", "N m s", "", "sliders' angular momentum at the committed state", (2, 3)),
     Field("six", "", "", "derivative of force and couple by shift and turn", (6, 6)),
     Field("six_global", "", "", "the same in global axes", (6, 6)),
     Field("pair_row", "", "", "the same by both bodies", (6, 12)),

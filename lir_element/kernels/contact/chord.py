@@ -13,8 +13,15 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.elimination import solve_all
-from lir_element.kernels.contact.places import turn_between, turn_by
-from lir_element.kernels.contact.residual import set_system, small_forces, unbalanced
+from lir_element.kernels.contact.pairs import add_up, clear_parts, hold_pairs, push_sliders
+from lir_element.kernels.contact.places import OWN, place_bodies, turn_between, turn_by
+from lir_element.kernels.contact.residual import (
+    set_system,
+    size_of_residual,
+    small_forces,
+    unbalanced,
+)
+from lir_element.kernels.contact.slider_motion import own_forces
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -139,17 +146,39 @@ def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
 
 
 @kernel
+def weigh(s: BodyStep, dt: float) -> float:
+    """Set what is held of discs and rims and ``w.residual`` at the sliders' places; return its size.
+
+    As `unbalanced`, whose forces by origin are left as they are.
+    """
+    c, w = s.sliders, s.scratch
+    place_bodies(c, w, s.new, 1, 3)
+    hold_pairs(s, dt, 0.0, 0.0, False)
+    own_forces(s, dt, 1)
+    own_forces(s, dt, 2)
+    part = s.new.parts[OWN]
+    for row in range(12):
+        w.residual[row] = part[6 + row]
+    push_sliders(s, w.residual)
+    return size_of_residual(c, w)
+
+
+@kernel
 def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
     kept = s.search_old
     fresh = abs(kept.inverse_step - dt) > _LIKE * dt
     inverse = kept.inverse
-    size, before = unbalanced(s, dt, speeds, fresh), math.inf
+    before = math.inf
+    size = unbalanced(s, dt, speeds, True) if fresh else weigh(s, dt)
     for count in range(_MOST):
         if not size < before:
             return -1
         if size <= small_forces(p, c, s.touch_new, dt):
+            if w.derived == 0:
+                clear_parts(s.new.parts)
+                add_up(s)
             return count
         if fresh or size > _FALL * before:
             if w.derived == 0:
@@ -161,5 +190,5 @@ def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
             return -1
         step_on(s.new, w)
         before = size
-        size = unbalanced(s, dt, speeds, False)
+        size = weigh(s, dt)
     return -1

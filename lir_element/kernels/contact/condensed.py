@@ -18,6 +18,7 @@ from lir_element.kernels.contact.elimination import solve_all, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_by
 from lir_element.kernels.contact.residual import HOLD, set_system, small_forces, unbalanced
+from lir_element.kernels.contact.slider_motion import set_momentum
 from lir_element.kernels.contact.start import (
     carry_on,
     fly_on,
@@ -218,6 +219,7 @@ def contact_trial(
     place_nodes(p, c, w, u)
     count = -1
     begin_search(s.search_new)
+    set_momentum(s)
     if dt > 0.0 and s.points[0].disc > 0.0 and carry_on(s, old, dt):
         count = go_on(s, old, dt, pen.static_speed)
     if count < 0:

@@ -32,15 +32,6 @@ _LEAST_RADIUS = 0.05  # of the slider's, in which an edge still resists spin (a 
 
 
 @inlined
-def set_columns(w: Scratch, body: int, carrier: int) -> None:
-    """Set the body's axes in its plane as seen from the carrier, ``w.face`` (2, 3)."""
-    q, r = w.q[body], w.q[carrier]
-    for k in range(2):
-        for a in range(3):
-            w.face[k, a] = r[0, a] * q[0, k] + r[1, a] * q[1, k] + r[2, a] * q[2, k]
-
-
-@inlined
 def damped_centre(
     e_1: float, e_2: float, old: Touch, share: float, a: float
 ) -> tuple[float, float]:

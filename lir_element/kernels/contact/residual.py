@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import OWN, place_bodies
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
-    from lir_element.layout import Floats, Props, Records, Sliders
+    from lir_element.layout import Floats, Props, Records, Scratch, Sliders
 
 _TOLERANCE = 1e-10  # of the normal forces
 HOLD = 1e-10  # of the contact stiffness, in static states
@@ -38,9 +38,16 @@ def unbalanced(s: BodyStep, dt: float, speeds: Floats, derive: bool) -> float:
     own_forces(s, dt, 1)
     own_forces(s, dt, 2)
     part = s.new.parts[OWN]
-    total = 0.0
     for row in range(12):
         w.residual[row] = w.g[6 + row] + part[6 + row]
+    return size_of_residual(c, w)
+
+
+@inlined
+def size_of_residual(c: Sliders, w: Scratch) -> float:
+    """Return the size of ``w.residual``."""
+    total = 0.0
+    for row in range(12):
         size = w.residual[row] if row % 6 < 3 else w.residual[row] / c.radius
         total += size * size
     return math.sqrt(total)
