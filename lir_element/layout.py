@@ -342,13 +342,14 @@ SCRATCH_FIELDS = (
     Field("spare_vector", "", "", "spare", (3,)),
     Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
-    Field("joint", "", "", "matrix of both sliders, right-hand sides", (12, 24)),
+    Field("joint", "", "", "matrix of both sliders, right-hand side or inverse", (12, 24)),
+    Field("order", "", "", "rows exchanged as it is inverted", (12,), "i8"),
+    Field("follow", "", "", "motion of the sliders by the nodes' displacements", (12, 12)),
     Field("face", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("tilt", "-", "g", "slope of its penetration along them", (2,)),
     Field("bed", "", "", "derivative of mean penetration, centre of pressure by both", (3, 3)),
     Field("bed_by", "", "", "derivative of penetration and slope by shift and turn", (3, 6)),
     Field("push_by", "", "", "derivative of load and centre of pressure by them", (3, 6)),
-    Field("rho", "m", "", "from the centre of the face to the centre of pressure", (3,)),
     Field("old_place", "-", "", "where the material there was, from the sphere's centre", (3,)),
     Field("way", "m", "", "sliding of a disc", (2,)),
     Field("spin_by", "", "", "derivative of the spin by normal and turn", (6,)),
@@ -364,13 +365,11 @@ SCRATCH_FIELDS = (
     Field("slid_by", "-", "", "derivative of the sliding past the old z", (3,)),
     Field("slip_by", "-", "", "derivative of the slip", (4,)),
     Field("couple", "N m", "", "couple of a pair, axes of its carrier", (3,)),
-    Field(
-        "held", "", "", "of discs, then rims: arms (2), normal force, friction, couple", (5, 5, 3)
-    ),
+    Field("held", "", "", "of discs, rims: two arms, normal force, friction, couple", (5, 5, 3)),
     Field("momentum", "N m s", "", "sliders' angular momentum at the committed state", (2, 3)),
+    Field("axes", "-", "", "axes of a face where they were, turned with the carrier", (2, 3)),
     Field("six", "", "", "derivative of force and couple by shift and turn", (6, 6)),
-    Field("six_global", "", "", "the same in global axes", (6, 6)),
-    Field("pair_row", "", "", "the same by both bodies", (6, 12)),
+    Field("pair_row", "", "", "the same by one body", (6, 6)),
 )
 
 

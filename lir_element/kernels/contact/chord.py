@@ -12,7 +12,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.elimination import solve_all
+from lir_element.kernels.contact.elimination import invert
 from lir_element.kernels.contact.pairs import add_up, clear_parts, hold_pairs, push_sliders
 from lir_element.kernels.contact.places import OWN, place_bodies, turn_between, turn_by
 from lir_element.kernels.contact.residual import (
@@ -116,15 +116,11 @@ def renew_inverse(s: BodyStep, dt: float) -> bool:
     """Take the inverse anew from the derivative at hand; False where there is none."""
     w, new = s.scratch, s.search_new
     set_system(s, dt)
-    a = w.joint
-    for row in range(12):
-        for col in range(12):
-            a[row, 12 + col] = 1.0 if row == col else 0.0
-    if not solve_all(w):
+    if not invert(w):
         return False
-    for row in range(12):
-        for col in range(12):
-            new.inverse[col, row] = a[row, 12 + col]
+    for col in range(12):
+        for row in range(12):
+            new.inverse[col, row] = w.joint[col, 12 + row]
     new.renewed, new.inverse_step = 1, dt
     return True
 
@@ -147,7 +143,7 @@ def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
 
 @kernel
 def weigh(s: BodyStep, dt: float) -> float:
-    """Set what is held of discs and rims and ``w.residual`` at the sliders' places; return its size.
+    """Set what is held of discs and rims, and ``w.residual``; return its size.
 
     As `unbalanced`, whose forces by origin are left as they are.
     """

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.chord import begin_search, keep_lead, lead_on, seek
-from lir_element.kernels.contact.elimination import solve_all, solve_one
+from lir_element.kernels.contact.elimination import invert, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_by
 from lir_element.kernels.contact.residual import HOLD, set_system, small_forces, unbalanced
@@ -266,6 +266,32 @@ def look_at_committed(s: BodyStep, old: State) -> None:
 
 
 @kernel
+def condense(w: Scratch, k: Floats) -> None:
+    """Add what the sliders' motion takes from the nodes' stiffness `k` (7.6).
+
+    The inverse stands in ``w.joint``. A node touches one slider: ``w.follow`` (12, 12) is the
+    motion of both sliders for one of its nodes' displacements.
+    """
+    inverse, follow = w.joint, w.follow
+    for row in range(12):
+        for col in range(12):
+            follow[row, col] = 0.0
+    for b in range(2):
+        for e in range(6):
+            at = 6 * b + e
+            for row in range(12):
+                factor = inverse[at, 12 + row]
+                for col in range(6):
+                    follow[row, 6 * b + col] += factor * w.k[6 + at, 18 * b + col]
+    for b in range(2):
+        for a in range(6):
+            for e in range(6):
+                factor = w.k[18 * b + a, 6 + 6 * b + e]
+                for col in range(12):
+                    k[6 * b + a, col] -= factor * follow[6 * b + e, col]
+
+
+@kernel
 def contact_tangent(s: BodyStep, pen: Work, k: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed.
 
@@ -276,20 +302,12 @@ def contact_tangent(s: BodyStep, pen: Work, k: Floats) -> None:
     if w.derived == 0:
         unbalanced(s, dt, pen.static_speed, True)
     set_system(s, dt)
-    a = w.joint
-    for row in range(12):
-        for col in range(6):
-            a[row, 12 + col] = w.k[6 + row, col]
-            a[row, 18 + col] = w.k[6 + row, 18 + col]
-    solve_all(w)
     for row in range(12):
         at = row if row < 6 else row + 12
         for col in range(6):
             k[row, col], k[row, 6 + col] = -w.k[at, col], -w.k[at, 18 + col]
-        for e in range(12):
-            factor = w.k[at, 6 + e]
-            for col in range(12):
-                k[row, col] -= factor * a[e, 12 + col]  # (7.6)
+    if invert(w):
+        condense(w, k)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:

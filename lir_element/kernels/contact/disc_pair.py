@@ -17,9 +17,9 @@ from lir_element.kernels.contact.disc_slope import (
     slope_of_bond,
     slope_of_cap,
     slope_of_push,
-    slope_of_tilt_on_plane,
-    slope_of_tilt_on_sphere,
+    slope_of_tilt,
     slope_on_plane,
+    turned,
 )
 from lir_element.kernels.contact.pair import set_tangents
 from lir_element.kernels.friction_law import coefficient, least
@@ -50,7 +50,15 @@ def damped_centre(
 
 @inlined
 def press_bed(
-    w: Scratch, c: Sliders, old: Touch, new: Touch, p: float, a: float, dt: float, derive: bool
+    w: Scratch,
+    c: Sliders,
+    body: int,
+    old: Touch,
+    new: Touch,
+    p: float,
+    a: float,
+    dt: float,
+    derive: bool,
 ) -> float:
     """Set load and centre of pressure of a disc that penetrates by `p`; return the load.
 
@@ -81,12 +89,10 @@ def press_bed(
         damped = c.damping * old.closure / (dt * push)
         e_1, e_2 = damped_centre(e_1, e_2, old, damped, a)
     new.centre[0], new.centre[1] = e_1, e_2
-    face, rho, d = w.face, w.rho, w.d
     for b in range(3):
-        rho[b] = e_1 * face[0, b] + e_2 * face[1, b]
-        d[b] += rho[b]
+        w.d[b] += e_1 * w.face[0, b] + e_2 * w.face[1, b]
     if derive:
-        slope_of_push(w, old, new, p, a, stiff, damped)
+        slope_of_push(w, w.q[body], old, new, p, a, stiff, damped)
     return push
 
 
@@ -152,9 +158,12 @@ def sphere_disc(
     size = math.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
     for k in range(2):
         w.tilt[k] = (d[0] * face[k, 0] + d[1] * face[k, 1] + d[2] * face[k, 2]) / size
+    body, carrier = (1, 0) if side == 0 else (2, 3)
     if derive:
-        slope_of_tilt_on_sphere(w, size)
-    push = press_bed(w, c, old, new, size - radius, a, dt, derive)
+        m_0, m_1, m_2 = turned(w.q[carrier], d)
+        inv = 1.0 / size
+        slope_of_tilt(w, w.q[body], inv * m_0, inv * m_1, inv * m_2, inv)
+    push = press_bed(w, c, body, old, new, size - radius, a, dt, derive)
     if push <= 0.0:
         rest_disc(w, old, new, least(p, side))
         return 0.0
@@ -169,8 +178,9 @@ def sphere_disc(
         o[b] = old.spot[b] + e_1 * old.axes[0, b] + e_2 * old.axes[1, b]
         square += o[b] * o[b]
     old_size = math.sqrt(square)
+    over = 1.0 / old_size
     for b in range(3):
-        o[b] /= old_size
+        o[b] *= over
     t, s = w.tangent_1, w.tangent_2
     spread = torsion_radius(old, a)
     way_1 = -radius * (t[0] * o[0] + t[1] * o[1] + t[2] * o[2])
@@ -213,7 +223,8 @@ def sphere_disc(
         w.tangential[b] = -(f_1 * t[b] + f_2 * s[b])
         w.couple[b] = -f_3 * n[b]
     if derive:
-        slope_of_cap(w, old, radius, sign, size, old_size, push, spread, f_1, f_2, f_3)
+        q, r = w.q[carrier], w.q[body]
+        slope_of_cap(w, q, r, old, radius, sign, size, old_size, push, spread, f_1, f_2, f_3)
     return push
 
 
@@ -224,9 +235,10 @@ def plane_disc(
     """Set force and couple of the top slider's face on the bottom slider's plane; see above."""
     keep_place(w, new)
     w.tilt[0], w.tilt[1] = -w.face[0, 2], -w.face[1, 2]
+    q, face = w.q[1], w.q[2]
     if derive:
-        slope_of_tilt_on_plane(w)
-    push = press_bed(w, c, old, new, -w.d[2], a, dt, derive)
+        slope_of_tilt(w, face, -q[0, 2], -q[1, 2], -q[2, 2], 0.0)
+    push = press_bed(w, c, 2, old, new, -w.d[2], a, dt, derive)
     if push <= 0.0:
         rest_disc(w, old, new, p.interface_friction)
         return 0.0
@@ -264,7 +276,7 @@ def plane_disc(
     w.tangential[2] = 0.0
     w.couple[0], w.couple[1], w.couple[2] = 0.0, 0.0, -spread * push * mu * f_3
     if derive:
-        slope_on_plane(w, old, push, spread)
+        slope_on_plane(w, q, face, old, push, spread)
     return push
 
 
@@ -287,7 +299,7 @@ def bond_disc(
         w.couple[1] += square * (f[2] * h[0] - f[0] * h[2])
         w.couple[2] += square * (f[0] * h[1] - f[1] * h[0])
     if derive:
-        slope_of_bond(w, -c.stiffness - rate, square)
+        slope_of_bond(w, w.q[1], w.q[2], -c.stiffness - rate, square)
     keep_place(w, new)
     rest_disc(w, old, new, 0.0)
     new.gap = -w.d[2]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined
 from lir_element.kernels.contact.disc_pair import bond_disc, plane_disc, sphere_disc
 from lir_element.kernels.contact.held import COUPLE, FRICTION, PUSH, hold_forces, hold_nothing
 from lir_element.kernels.rotation import add_cross
@@ -17,65 +17,51 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Scratch
 
 
-@kernel
-def set_blocks(w: Scratch, held: Floats, carrier: int) -> None:
-    """Set the derivatives (3 x 12) of the pair's global force and couple by body and carrier."""
-    q, six = w.q[carrier], w.six
-    for block in range(4):
-        top, left = 3 * (block // 2), 3 * (block % 2)
-        for a in range(3):
-            for b in range(3):
-                w.half[a, b] = (
-                    q[a, 0] * six[top, left + b]
-                    + q[a, 1] * six[top + 1, left + b]
-                    + q[a, 2] * six[top + 2, left + b]
-                )
-        for a in range(3):
-            for b in range(3):
-                w.six_global[top + a, left + b] = (
-                    w.half[a, 0] * q[b, 0] + w.half[a, 1] * q[b, 1] + w.half[a, 2] * q[b, 2]
-                )
-    g, row = w.six_global, w.pair_row
-    for side in range(2):
-        sign = 1.0 if side == 0 else -1.0
-        x, y, z = held[side, 0], held[side, 1], held[side, 2]
-        col = 6 * side
-        for a in range(6):
-            g_0, g_1, g_2 = g[a, 0], g[a, 1], g[a, 2]
-            row[a, col], row[a, col + 1], row[a, col + 2] = sign * g_0, sign * g_1, sign * g_2
-            row[a, col + 3] = sign * (y * g_2 - z * g_1 + g[a, 3])
-            row[a, col + 4] = sign * (z * g_0 - x * g_2 + g[a, 4])
-            row[a, col + 5] = sign * (x * g_1 - y * g_0 + g[a, 5])
+@inlined
+def add_block(w: Scratch, held: Floats, sign: float, arm: Floats, s: int, r: int, col: int) -> None:
+    """Add a disc's derivative by one of its bodies, whose arm is `arm`, to ``w.k``.
+
+    Rows `s` are those of the body, `r` those of the carrier; `col` is the first column.
+    """
+    g, k, f, m = w.six, w.k, w.force[0], held[COUPLE]
+    x, y, z = held[0, 0], held[0, 1], held[0, 2]
+    u, v, t = held[1, 0], held[1, 1], held[1, 2]
+    row = w.pair_row
+    for a in range(6):
+        g_0, g_1, g_2 = g[a, 0], g[a, 1], g[a, 2]
+        row[a, 0], row[a, 1], row[a, 2] = sign * g_0, sign * g_1, sign * g_2
+        row[a, 3] = sign * (arm[1] * g_2 - arm[2] * g_1 + g[a, 3])
+        row[a, 4] = sign * (arm[2] * g_0 - arm[0] * g_2 + g[a, 4])
+        row[a, 5] = sign * (arm[0] * g_1 - arm[1] * g_0 + g[a, 5])
+    if sign < 0.0:  # both turn with the carrier
+        add_cross(row, 0, 3, f[0], f[1], f[2], -1.0)
+        add_cross(row, 3, 3, m[0], m[1], m[2], -1.0)
+    for e in range(6):
+        g_0, g_1, g_2 = row[0, e], row[1, e], row[2, e]
+        k[s, col + e] += g_0
+        k[s + 1, col + e] += g_1
+        k[s + 2, col + e] += g_2
+        k[r, col + e] -= g_0
+        k[r + 1, col + e] -= g_1
+        k[r + 2, col + e] -= g_2
+        k[s + 3, col + e] += y * g_2 - z * g_1 + row[3, e]
+        k[s + 4, col + e] += z * g_0 - x * g_2 + row[4, e]
+        k[s + 5, col + e] += x * g_1 - y * g_0 + row[5, e]
+        k[r + 3, col + e] -= v * g_2 - t * g_1 + row[3, e]
+        k[r + 4, col + e] -= t * g_0 - u * g_2 + row[4, e]
+        k[r + 5, col + e] -= u * g_1 - v * g_0 + row[5, e]
 
 
-@kernel
+@inlined
 def add_disc_slope(w: Scratch, held: Floats, body: int, carrier: int) -> None:
     """Add the derivative of a disc's forces and moments to ``w.k``."""
-    f, m, k, row, arm = w.force[0], held[COUPLE], w.k, w.pair_row, held[0]
+    f, k, arm = w.force[0], w.k, held[0]
     for a in range(3):
         f[a] = held[PUSH, a] + held[FRICTION, a]
-    set_blocks(w, held, carrier)
-    add_cross(row, 0, 9, f[0], f[1], f[2], -1.0)  # both turn with the carrier
-    add_cross(row, 3, 9, m[0], m[1], m[2], -1.0)
     s, r = 6 * body, 6 * carrier
-    x, y, z = arm[0], arm[1], arm[2]
-    u, v, t = held[1, 0], held[1, 1], held[1, 2]
-    for e in range(12):
-        col = s + e if e < 6 else r + e - 6
-        g_0, g_1, g_2 = row[0, e], row[1, e], row[2, e]
-        k[s, col] += g_0
-        k[s + 1, col] += g_1
-        k[s + 2, col] += g_2
-        k[r, col] -= g_0
-        k[r + 1, col] -= g_1
-        k[r + 2, col] -= g_2
-        k[s + 3, col] += y * g_2 - z * g_1 + row[3, e]
-        k[s + 4, col] += z * g_0 - x * g_2 + row[4, e]
-        k[s + 5, col] += x * g_1 - y * g_0 + row[5, e]
-        k[r + 3, col] -= v * g_2 - t * g_1 + row[3, e]
-        k[r + 4, col] -= t * g_0 - u * g_2 + row[4, e]
-        k[r + 5, col] -= u * g_1 - v * g_0 + row[5, e]
-    dot = x * f[0] + y * f[1] + z * f[2]
+    add_block(w, held, 1.0, held[0], s, r, s)
+    add_block(w, held, -1.0, held[1], s, r, r)
+    dot = arm[0] * f[0] + arm[1] * f[1] + arm[2] * f[2]
     for a in range(3):  # arms move: (turn x arm) x force on the body; the other's with the material
         for b in range(3):
             turn = arm[a] * f[b] - (dot if a == b else 0.0)
