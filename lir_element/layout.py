@@ -289,6 +289,7 @@ TOUCH_FIELDS = (
     Field("speed", "m/s", "v", "speed of sliding"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
     Field("memory", "-", "z", "hysteretic variable of a disc, its spin last", (3,)),
+    Field("size", "-", "", "norm of that (7.12)"),
     Field("axes", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("centre", "m", "e", "centre of pressure of a disc, axes of its face", (2,)),
     Field("core", "m", "", "the same without damping", (2,)),

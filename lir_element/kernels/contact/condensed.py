@@ -273,22 +273,22 @@ def condense(w: Scratch, k: Floats) -> None:
     motion of both sliders for one of its nodes' displacements.
     """
     inverse, follow = w.joint, w.follow
-    for row in range(12):
-        for col in range(12):
-            follow[row, col] = 0.0
     for b in range(2):
-        for e in range(6):
-            at = 6 * b + e
-            for row in range(12):
-                factor = inverse[at, 12 + row]
-                for col in range(6):
-                    follow[row, 6 * b + col] += factor * w.k[6 + at, 18 * b + col]
+        k_yu = w.k[6 + 6 * b : 12 + 6 * b, 18 * b : 18 * b + 6]
+        for row in range(12):
+            for col in range(6):
+                total = 0.0
+                for e in range(6):
+                    total += inverse[6 * b + e, 12 + row] * k_yu[e, col]
+                follow[row, 6 * b + col] = total
     for b in range(2):
+        k_uy = w.k[18 * b : 18 * b + 6, 6 + 6 * b : 12 + 6 * b]
         for a in range(6):
-            for e in range(6):
-                factor = w.k[18 * b + a, 6 + 6 * b + e]
-                for col in range(12):
-                    k[6 * b + a, col] -= factor * follow[6 * b + e, col]
+            for col in range(12):
+                total = 0.0
+                for e in range(6):
+                    total += k_uy[a, e] * follow[6 * b + e, col]
+                k[6 * b + a, col] -= total
 
 
 @kernel

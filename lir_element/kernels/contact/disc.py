@@ -119,13 +119,16 @@ def size_of(z: Floats) -> float:
 
 @inlined
 def slid_on(
-    z: Floats, d_1: float, d_2: float, d_3: float, u_y: float
+    z: Floats, before: float, d_1: float, d_2: float, d_3: float, u_y: float
 ) -> tuple[float, float, float, float]:
-    """Return the sliding past the old z (3.9), in the norm, and its derivative."""
+    """Return the sliding past the old z (3.9), in the norm, and its derivative.
+
+    `before` is the norm of the old z.
+    """
     inv = 1.0 / u_y
     b_1, b_2, b_3 = z[0] + d_1 * inv, z[1] + d_2 * inv, z[2] + d_3 * inv
     q, q_v, q_t, _, _, _ = rubbing(b_1, b_2, b_3)
-    size, before = math.sqrt(q), size_of(z)
+    size = math.sqrt(q)
     if size <= before:
         return 0.0, 0.0, 0.0, 0.0
     over = 1.0 / size
@@ -159,6 +162,7 @@ def rub(
     bouc_wen: int,
     exponent: float,
     old: Floats,
+    old_size: float,
     d_1: float,
     d_2: float,
     d_3: float,
@@ -169,12 +173,12 @@ def rub(
     share: float,
     z: Floats,
     derive: bool,
-) -> tuple[float, float, float, float]:
+) -> tuple[float, float, float, float, float]:
     """Return the friction of a disc that slides by `d` (2) and spins by `d_3` over its radius.
 
-    Friction over mu N (2), torque over mu N a, and the sliding past the old z. `z` (3,) is the new
-    hysteretic variable. With `derive` also ``w.rub`` (3, 4), the derivative of the first three by
-    `d` and by the axial force, and ``w.slid_by`` (3,), that of the last by `d`. Laws as in
+    Friction over mu N (2), torque over mu N a, the sliding past the old z, and the norm of the new
+    hysteretic variable `z` (3,); `old_size` is that of the old one. With `derive` also ``w.rub`` (3, 4), the derivative of the first three by
+    `d` and by the axial force, and ``w.slid_by`` (3,), that of the sliding by `d`. Laws as in
     `slip.friction_map`; the norm of section 7 takes the place of the length.
     """
     inv = 0.5 * (1.0 + kept) / u_y
@@ -188,7 +192,7 @@ def rub(
     f_1, f_2, f_3 = c * g_1, c * g_2, c * g_3
     z_1, z_2 = c * b_1, c * b_2
     slip = size * (1.0 - c) / inv
-    slid, by_1, by_2, by_3 = slid_on(old, d_1, d_2, d_3, u_y)
+    slid, by_1, by_2, by_3 = slid_on(old, old_size, d_1, d_2, d_3, u_y)
     turns = share > 0.0 and slip > 0.0 and slid > 0.0
     if derive:
         b, g, d = w.rub_b, w.rub_g, w.rub_d
@@ -212,7 +216,7 @@ def rub(
             if derive:
                 turn_slope(w, cos, sin, f_1, f_2, held, by_angle, by_slip)
     z[0], z[1], z[2] = z_1, z_2, c * b_3
-    return f_1, f_2, f_3, slid
+    return f_1, f_2, f_3, slid, c * size
 
 
 @kernel

@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import inlined
 from lir_element.kernels.contact.disc_pair import bond_disc, plane_disc, sphere_disc
-from lir_element.kernels.contact.held import COUPLE, FRICTION, PUSH, hold_forces, hold_nothing
+from lir_element.kernels.contact.held import (
+    COUPLE,
+    FRICTION,
+    PUSH,
+    hold_forces,
+    hold_nothing,
+    place_point,
+)
 from lir_element.kernels.rotation import add_cross
 
 if TYPE_CHECKING:
@@ -72,20 +79,12 @@ def add_disc_slope(w: Scratch, held: Floats, body: int, carrier: int) -> None:
 
 
 @inlined
-def place_face(w: Scratch, held: Floats, body: int, carrier: int, z: float, up: float) -> None:
-    """Set a face's centre and axes as the carrier sees them, and the arms to it.
-
-    It is at `z` on the body's axis; `up` is the height of the surface's centre on the carrier's.
-    """
+def set_face(w: Scratch, body: int, carrier: int) -> None:
+    """Set the axes of the body's face as the carrier sees them, ``w.face`` (2, 3)."""
     q, r = w.q[body], w.q[carrier]
-    for a in range(3):
-        held[0, a] = q[a, 2] * z
-        held[1, a] = held[0, a] + (w.x[body, a] - w.x[carrier, a])
-    for a in range(3):
-        w.d[a] = r[0, a] * held[1, 0] + r[1, a] * held[1, 1] + r[2, a] * held[1, 2]
-        for k in range(2):
+    for k in range(2):
+        for a in range(3):
             w.face[k, a] = r[0, a] * q[0, k] + r[1, a] * q[1, k] + r[2, a] * q[2, k]
-    w.d[2] -= up
 
 
 @inlined
@@ -100,7 +99,8 @@ def hold_disc(
     old, new, held = s.touch_old[pair], s.touch_new[pair], w.held[pair]
     a, z = s.points[pair].disc, s.points[pair].arm[2]
     up = p.lever[0] if pair == 0 else (c.plane[0] if pair == 1 else -p.lever[1])
-    place_face(w, held, body, carrier, z, up)
+    place_point(w, held, body, carrier, z, up)
+    set_face(w, body, carrier)
     if pair != 1:
         push = sphere_disc(p, c, 0 if pair == 0 else 1, w, old, new, a, dt, speed, derive)
     elif p.fused:

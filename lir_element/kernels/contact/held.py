@@ -18,6 +18,23 @@ PUSH, FRICTION, COUPLE = 2, 3, 4
 
 
 @inlined
+def place_point(
+    w: Scratch, held: Floats, body: int, carrier: int, height: float, up: float
+) -> None:
+    """Set the arms to a point on the body's axis, and ``w.d``: where the carrier sees it.
+
+    At a `height` over the body's mass centre, from `up` on the carrier's axis.
+    """
+    q, r = w.q[body], w.q[carrier]
+    for a in range(3):
+        held[0, a] = q[a, 2] * height
+        held[1, a] = held[0, a] + (w.x[body, a] - w.x[carrier, a])
+    for a in range(3):
+        w.d[a] = r[0, a] * held[1, 0] + r[1, a] * held[1, 1] + r[2, a] * held[1, 2]
+    w.d[2] -= up
+
+
+@inlined
 def hold_forces(w: Scratch, held: Floats, carrier: int) -> None:
     """Hold the force and couple that a pair has in axes of its carrier."""
     q = w.q[carrier]

@@ -17,6 +17,7 @@ from lir_element.kernels.contact.held import (
     add_held,
     hold_forces,
     hold_nothing,
+    place_point,
     spread_pair,
 )
 from lir_element.kernels.contact.pair import clear_pair, rim
@@ -28,7 +29,6 @@ from lir_element.kernels.contact.places import (
     OWN,
     RIM_BOTTOM,
     RIM_TOP,
-    locate,
 )
 from lir_element.kernels.contact.points import add_slope, press_points
 from lir_element.kernels.slip import step_share
@@ -57,17 +57,16 @@ def clear_square(k: Floats) -> None:
 @inlined
 def hold_rim(s: BodyStep, side: int, body: int, carrier: int, dt: float, derive: bool) -> None:
     """Hold the force of a rim on the slider's outermost point; its derivative goes to ``w.k``."""
-    p, w = s.props, s.scratch
-    clear_pair(w)
+    p, w, held = s.props, s.scratch, s.scratch.held[3 + side]
     up = p.lever[0] if side == 0 else -p.lever[1]
-    locate(w, body, carrier, 0.0, 0.0, s.sliders.vertex[side], up)
+    place_point(w, held, body, carrier, s.sliders.vertex[side], up)
+    clear_pair(w)
     rim(p, side, w, s.old, s.new, dt)
-    held = w.held[3 + side]
     if s.new.rim_force[side] == 0.0:
         hold_nothing(held)
         return
     for a in range(3):
-        held[0, a], held[1, a], w.couple[a] = w.arm[0, a], w.arm[1, a], 0.0
+        w.arm[0, a], w.arm[1, a], w.couple[a] = held[0, a], held[1, a], 0.0
     hold_forces(w, held, carrier)
     if derive:
         for a in range(3):
