@@ -3,7 +3,8 @@
 Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (what is
 committed) and `WORK` (scratch of one state determination; nothing in it survives). Where the
 sliders are bodies with contact points, `SLIDERS` and `POINT` hold their constants, `BODIES` and
-`TOUCH` their state, `SCRATCH` the rest.
+`TOUCH` their state, `SEARCH` what is committed to speed up the next search for them, `SCRATCH` the
+rest.
 """
 
 from __future__ import annotations
@@ -289,7 +290,7 @@ TOUCH_FIELDS = (
     Field("speed", "m/s", "v", "speed of sliding"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
     Field("memory", "-", "z", "hysteretic variable of a disc, its spin last", (3,)),
-    Field("size", "-", "", "norm of that (7.12)"),
+    Field("norm", "-", "", "norm of that (7.12)"),
     Field("axes", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("centre", "m", "e", "centre of pressure of a disc, axes of its face", (2,)),
     Field("core", "m", "", "the same without damping", (2,)),

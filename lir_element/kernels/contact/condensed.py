@@ -1,9 +1,8 @@
-"""Kernels of the level 'contact': both sliders as bodies, solved inside the element by Newton.
+"""Kernels of the level 'contact': both sliders as bodies, their equilibrium found in the element.
 
-Twelve unknowns: displacement and spin of the bottom and of the top slider. Their inertia enters by
-the implicit Euler rule over the step, so that the system stays regular where contacts open. The
-start of the search is what the level 'pendulum' says; where none leads to a static state, softer
-friction does. docs/theory.md, section 7.
+The quick search of `chord` comes first. Where it finds nothing Newton's method does, from where the
+sliders go with the plates, then from what the level 'pendulum' says; where none leads to a static
+state, softer friction does. docs/theory.md, section 7.
 """
 
 from __future__ import annotations

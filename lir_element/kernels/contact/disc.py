@@ -111,13 +111,6 @@ def rubbing(x: float, y: float, s: float) -> tuple[float, float, float, float, f
 
 
 @inlined
-def size_of(z: Floats) -> float:
-    """Return the norm of a hysteretic variable with spin."""
-    q, _, _, _, _, _ = rubbing(z[0], z[1], z[2])
-    return math.sqrt(q)
-
-
-@inlined
 def slid_on(
     z: Floats, before: float, d_1: float, d_2: float, d_3: float, u_y: float
 ) -> tuple[float, float, float, float]:
@@ -177,9 +170,10 @@ def rub(
     """Return the friction of a disc that slides by `d` (2) and spins by `d_3` over its radius.
 
     Friction over mu N (2), torque over mu N a, the sliding past the old z, and the norm of the new
-    hysteretic variable `z` (3,); `old_size` is that of the old one. With `derive` also ``w.rub`` (3, 4), the derivative of the first three by
-    `d` and by the axial force, and ``w.slid_by`` (3,), that of the sliding by `d`. Laws as in
-    `slip.friction_map`; the norm of section 7 takes the place of the length.
+    hysteretic variable `z` (3,); `old_size` is that of the old one. With `derive` also ``w.rub``
+    (3, 4), the derivative of the first three by `d` and by the axial force, and ``w.slid_by`` (3,),
+    that of the sliding by `d`. Laws as in `slip.friction_map`; the norm of section 7 takes the
+    place of the length.
     """
     inv = 0.5 * (1.0 + kept) / u_y
     h_1, h_2, h_3 = d_1 * inv, d_2 * inv, d_3 * inv

@@ -113,7 +113,7 @@ def rest_disc(w: Scratch, old: Touch, new: Touch, friction: float) -> None:
     """Set the state of a disc that carries nothing."""
     for a in range(3):
         new.memory[a] = old.memory[a]
-    new.size = old.size
+    new.norm = old.norm
     for a in range(2):
         new.hysteresis[a], new.increment[a] = 0.0, 0.0
     new.friction, new.slid, new.speed = friction, 0.0, 0.0
@@ -188,12 +188,12 @@ def sphere_disc(
     way_2 = -radius * (s[0] * o[0] + s[1] * o[1] + s[2] * o[2])
     way_3 = spread * spun(w, old, n_0, n_1, n_2)
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
-    f_1, f_2, f_3, slid, new.size = rub(
+    f_1, f_2, f_3, slid, new.norm = rub(
         w,
         p.bouc_wen,
         p.exponent,
         old.memory,
-        old.size,
+        old.norm,
         way_1,
         way_2,
         way_3,
@@ -250,12 +250,12 @@ def plane_disc(
     way_2 = w.d[1] - old.spot[1] - e_1 * old.axes[0, 1] - e_2 * old.axes[1, 1]
     way_3 = spread * spun(w, old, 0.0, 0.0, 1.0)
     kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
-    f_1, f_2, f_3, slid, new.size = rub(
+    f_1, f_2, f_3, slid, new.norm = rub(
         w,
         p.bouc_wen,
         p.exponent,
         old.memory,
-        old.size,
+        old.norm,
         way_1,
         way_2,
         way_3,

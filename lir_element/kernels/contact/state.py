@@ -198,8 +198,8 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         if side < 2:
             mu *= s.sliders.grip[side]
         if s.points[j].disc > 0.0:
-            gain = stored(mu, after.push, u_y, after.size, 0.0)
-            gain -= stored(mu, before.push, u_y, before.size, 0.0)
+            gain = stored(mu, after.push, u_y, after.norm, 0.0)
+            gain -= stored(mu, before.push, u_y, before.norm, 0.0)
         else:
             gain = stored(mu, after.push, u_y, z[0], z[1])
             gain -= stored(mu, before.push, u_y, y[0], y[1])
