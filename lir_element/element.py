@@ -225,6 +225,8 @@ class Element:
         if not self._pending:
             return
         self._pending = False
+        if self._contacts is not None:
+            self.tangent_stiffness()  # which may be asked for after the commit
         levels.bearing_commit(
             self._props, self._committed, self._trial, *self._words, self._heat, self._contacts, 0
         )

@@ -3,7 +3,8 @@
 Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (what is
 committed) and `WORK` (scratch of one state determination; nothing in it survives). Where the
 sliders are bodies with contact points, `SLIDERS` and `POINT` hold their constants, `BODIES` and
-`TOUCH` their state, `SCRATCH` the rest.
+`TOUCH` their state, `SEARCH` what is committed to speed up the next search for them, `SCRATCH` the
+rest.
 """
 
 from __future__ import annotations
@@ -289,9 +290,19 @@ TOUCH_FIELDS = (
     Field("speed", "m/s", "v", "speed of sliding"),
     Field("increment", "m", "dw", "tangential sliding of the last step", (2,)),
     Field("memory", "-", "z", "hysteretic variable of a disc, its spin last", (3,)),
+    Field("norm", "-", "", "norm of that (7.12)"),
     Field("axes", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("centre", "m", "e", "centre of pressure of a disc, axes of its face", (2,)),
     Field("core", "m", "", "the same without damping", (2,)),
+)
+
+SEARCH_FIELDS = (
+    Field("leads", "-", "", "last steps whose lead is known: none, one, two equal ones", (), "i8"),
+    Field("lead", "m, rad", "", "where sliders rest beyond the start of their search", (2, 6)),
+    Field("lead_before", "m, rad", "", "the same in the step before", (2, 6)),
+    Field("renewed", "-", "", "1 where the trial has taken a new inverse", (), "i8"),
+    Field("inverse_step", "s", "", "time step that the inverse belongs to, zero if there is none"),
+    Field("inverse", "m/N", "", "inverse of Newton's matrix of both sliders, by columns", (12, 12)),
 )
 
 SCRATCH_FIELDS = (
@@ -304,6 +315,7 @@ SCRATCH_FIELDS = (
     Field("q", "-", "", "their rotations", (4, 3, 3)),
     Field("g", "N, N m", "", "forces and moments on them", (24,)),
     Field("k", "N/m", "", "derivative of g by displacement and spin", (24, 24)),
+    Field("derived", "-", "", "1 where k belongs to g", (), "i8"),
     Field("d", "m", "", "contact point in axes of its carrier", (3,)),
     Field("normal", "N", "", "normal force of a contact, axes of its carrier", (3,)),
     Field("tangential", "N", "", "friction force of a contact, axes of its carrier", (3,)),
@@ -325,36 +337,41 @@ SCRATCH_FIELDS = (
     Field("try_turn", "-", "", "rotations before a step", (3, 4)),
     Field("spin_i", "-", "T_i", "spin per rate of the rotation vector, bottom", (3, 3)),
     Field("spin_j", "-", "T_j", "spin per rate of the rotation vector, top", (3, 3)),
-    Field("axis", "-", "n", "axis that a slider is put at", (3,)),
+    Field("start_displacement", "m", "", "displacements at the start of a search", (2, 3)),
+    Field("start_turn", "-", "", "rotations there", (2, 4)),
+    Field("axis", "-", "n", "axis that a slider is put at, normal of a cap", (3,)),
     Field("spare_matrix", "", "", "spare", (3, 3)),
     Field("spare_vector", "", "", "spare", (3,)),
     Field("load", "N, N m", "", "load on the top plate", (6,)),
     Field("moves", "m, rad", "", "displacement and turn of each body over the step", (24,)),
-    Field("joint", "", "", "matrix of both sliders, right-hand sides", (12, 24)),
+    Field("joint", "", "", "matrix of both sliders, right-hand side or inverse", (12, 24)),
+    Field("order", "", "", "rows exchanged as it is inverted", (12,), "i8"),
+    Field("follow", "", "", "motion of the sliders by the nodes' displacements", (12, 12)),
     Field("face", "-", "", "axes of a disc's face, axes of the carrier", (2, 3)),
     Field("tilt", "-", "g", "slope of its penetration along them", (2,)),
-    Field("bed", "m", "V, e", "its mean penetration, centre of pressure, derivatives", (3, 4)),
+    Field("bed", "", "", "derivative of mean penetration, centre of pressure by both", (3, 3)),
     Field("bed_by", "", "", "derivative of penetration and slope by shift and turn", (3, 6)),
     Field("push_by", "", "", "derivative of load and centre of pressure by them", (3, 6)),
-    Field("rho", "m", "", "from the centre of the face to the centre of pressure", (3,)),
     Field("old_place", "-", "", "where the material there was, from the sphere's centre", (3,)),
-    Field("way", "m", "", "sliding (2), spin times radius of a disc", (3,)),
+    Field("way", "m", "", "sliding of a disc", (2,)),
     Field("spin_by", "", "", "derivative of the spin by normal and turn", (6,)),
-    Field("rub", "", "", "friction of a disc over mu N, with its derivatives", (3, 5)),
+    Field("home", "N/m", "", "force of a bond on its face's axes where they were", (2, 3)),
+    Field("rub", "", "", "derivative of a disc's friction over mu N", (3, 4)),
     Field("rub_b", "-", "b", "trial value of its hysteretic variable", (3,)),
     Field("rub_g", "-", "", "half the gradient of its norm's square", (3,)),
     Field("rub_n", "1/N", "", "derivative of b by the axial force", (3,)),
-    Field("rub_e", "1/N", "", "derivative of the sliding over the way to slip by it", (3,)),
+    Field("rub_d", "m", "", "sliding (2), spin times radius", (3,)),
     Field("rub_h", "-", "", "half the second derivative of its norm's square", (3, 3)),
     Field("rub_hd", "-", "", "that times the sliding", (3,)),
     Field("rub_c", "-", "", "derivative of what the return map leaves of b", (4,)),
     Field("slid_by", "-", "", "derivative of the sliding past the old z", (3,)),
     Field("slip_by", "-", "", "derivative of the slip", (4,)),
     Field("couple", "N m", "", "couple of a pair, axes of its carrier", (3,)),
-    Field("couple_global", "N m", "", "the same in global axes", (3,)),
+    Field("held", "", "", "of discs, rims: two arms, normal force, friction, couple", (5, 5, 3)),
+    Field("momentum", "N m s", "", "sliders' angular momentum at the committed state", (2, 3)),
+    Field("axes", "-", "", "axes of a face where they were, turned with the carrier", (2, 3)),
     Field("six", "", "", "derivative of force and couple by shift and turn", (6, 6)),
-    Field("six_global", "", "", "the same in global axes", (6, 6)),
-    Field("pair_row", "", "", "the same by both bodies", (6, 12)),
+    Field("pair_row", "", "", "the same by one body", (6, 6)),
 )
 
 
@@ -371,6 +388,7 @@ SLIDERS = dtype_of(SLIDER_FIELDS)
 POINT = dtype_of(POINT_FIELDS)
 BODIES = dtype_of(BODY_FIELDS)
 TOUCH = dtype_of(TOUCH_FIELDS)
+SEARCH = dtype_of(SEARCH_FIELDS)
 SCRATCH = dtype_of(SCRATCH_FIELDS)
 
 STATE_BY_NAME = {f.name: f for f in STATE_FIELDS}
@@ -399,6 +417,9 @@ Sliders: TypeAlias = Any
 
 Bodies: TypeAlias = Any
 """One record of dtype BODIES."""
+
+Search: TypeAlias = Any
+"""One record of dtype SEARCH."""
 
 Scratch: TypeAlias = Any
 """One record of dtype SCRATCH."""

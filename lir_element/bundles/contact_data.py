@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from lir_element.device.sliders import face_records, initial_bodies, slider_record
-from lir_element.layout import SCRATCH, Records, Words
+from lir_element.layout import SCRATCH, SEARCH, Records, Words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,6 +39,8 @@ class Contacts(NamedTuple):
     bodies_new_words: Words
     touch_old_words: Words
     touch_new_words: Words
+    search_old: Records  # (n,)
+    search_new: Records
     scratch: Records  # (n,)
 
 
@@ -55,6 +57,8 @@ class BodyStep(NamedTuple):
     new: Any
     touch_old: Records  # (m,)
     touch_new: Records
+    search_old: Any  # record of SEARCH; None in a rigid-body run
+    search_new: Any
     scratch: Any  # record of SCRATCH
 
 
@@ -102,6 +106,8 @@ def contact_arrays(
         bodies_new_words=as_rows(others),
         touch_old_words=as_rows(touches),
         touch_new_words=as_rows(news),
+        search_old=np.zeros(len(picked), dtype=SEARCH),
+        search_new=np.zeros(len(picked), dtype=SEARCH),
         scratch=np.zeros(len(picked), dtype=SCRATCH),
     )
 
@@ -109,6 +115,7 @@ def contact_arrays(
 def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
     """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
     contacts.bodies_old[:] = initial_bodies(len(bearings))
+    contacts.search_old[:] = np.zeros(1, dtype=SEARCH)
     for k, bearing in enumerate(bearings):
         start = face_records(bearing)[1][0]
         contacts.touch_old[k, : len(start)] = start

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
+from lir_element.kernels.contact.chord import keep_search
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
 from lir_element.kernels.heating import heat_up
@@ -33,6 +34,8 @@ def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
         contacts.bodies_new[at],
         contacts.touch_old[at],
         contacts.touch_new[at],
+        contacts.search_old[at],
+        contacts.search_new[at],
         contacts.scratch[at],
     )
 
@@ -71,7 +74,7 @@ def bearing_tangent(
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:
-            contact_tangent(bodies_of(props, contacts, k, at), work[k].dt, tangent)
+            contact_tangent(bodies_of(props, contacts, k, at), work[k], tangent)
             return
     fill_tangent(props[k], work[k], new[k].force, tangent)
 
@@ -94,6 +97,7 @@ def bearing_commit(
             contact_accumulate(bodies_of(props, contacts, k, at), old[k], new[k], 2)
             if props[k].heats:
                 heat_up(props[k], heat[k], old[k], new[k])
+            keep_search(contacts.search_old[at], contacts.search_new[at])
             copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
             copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
             copy_words(new_words[k], old_words[k])

@@ -253,6 +253,8 @@ class ElementMemory:
             "bodies_new",
             "touch_old",
             "touch_new",
+            "search_old",
+            "search_new",
             "scratch",
         ):
             self._keep(name, getattr(bundle, name))

@@ -4,6 +4,7 @@ Numbers are relative to the largest force, or stiffness, of the case. `lab` (con
 bearings and the motions.
 """
 
+import copy
 import json
 import math
 import os
@@ -21,7 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, RunStatus
 from lir_element.device.sliders import slider_record
-from lir_element.layout import STATE_BY_NAME
+from lir_element.layout import SEARCH, STATE_BY_NAME
 
 STILL = np.zeros(12)
 NAMES = (
@@ -80,7 +81,8 @@ def snapshot(element: Element) -> bytes:
 def committed(element: Element) -> bytes:
     """Return the bits of what is committed."""
     c = contacts(element)
-    return element._committed.tobytes() + c.bodies_old.tobytes() + c.touch_old.tobytes()
+    parts = element._committed, c.bodies_old, c.touch_old, c.search_old
+    return b"".join(part.tobytes() for part in parts)
 
 
 def blocks(matrix: np.ndarray) -> np.ndarray:
@@ -351,6 +353,30 @@ def test_trials_repeat_and_leave_the_committed_state(name: str, lab: SimpleNames
         element.set_trial(u[k], STILL, when)
         assert (snapshot(element), element.tangent_stiffness().tobytes()) == first
         assert committed(element) == kept
+
+
+@EACH
+def test_what_a_search_keeps_only_saves_derivatives(name: str, lab: SimpleNamespace) -> None:
+    """Without it a trial finds the same state, to the tolerance of the search."""
+    bearing = lab.make(name)
+    u, time = lab.smooth_path(bearing, 4, 1600)
+    element = walk(bearing, u[:60], time[:60]).element
+    renewed, count = 0, 0
+    for k in range(60, 200):
+        element.set_trial(u[k], STILL, time[k])
+        if contacts(element).search_new["leads"][0] > 0:
+            other = copy.deepcopy(element)
+            other.revert_to_last_commit()
+            contacts(other).search_old[:] = np.zeros(1, dtype=SEARCH)
+            other.set_trial(u[k], STILL, time[k])
+            count += 1
+            renewed += int(contacts(element).search_new["renewed"][0])
+            load = max(element.response("axial_force"), other.response("axial_force"))
+            forces, found = element.resisting_force(), other.resisting_force()
+            assert_allclose(found, forces, rtol=0.0, atol=1e-8 * load)
+        element.commit()
+    assert count > 100
+    assert renewed < 0.5 * count
 
 
 def test_revert_to_last_commit(lab: SimpleNamespace) -> None:
@@ -816,6 +842,8 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
         common | {"interface_friction": 0.15, "contact_points": 5},
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen", "contact_points": 4},
         common | {"interface_friction": math.inf, "contact_points": 4},
+        common | {"interface_friction": 0.15},
+        common | {"interface_friction": math.inf, "friction_law": "bouc-wen"},
     ]
     given = json.dumps({"bearings": bearings, "u": u[steps].tolist(), "t": time[steps].tolist()})
     results = []

@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.device.sliders import face_records, slider_record
+from lir_element.kernels.contact.elimination import invert
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import locate, matrix_of, turn_between, turn_by
@@ -402,7 +403,16 @@ class Bodies:
     def press(self, *, derive: bool = False) -> np.ndarray:
         self.w.x[:], self.w.q[:] = self.x, self.q
         bodies = BodyStep(
-            self.p, self.c, self.points, self.old, self.new, self.touch_old, self.touch_new, self.w
+            self.p,
+            self.c,
+            self.points,
+            self.old,
+            self.new,
+            self.touch_old,
+            self.touch_new,
+            None,
+            None,
+            self.w,
         )
         press(bodies, self.dt, 0.03, 0.04, derive)
         return self.w.g.copy().reshape(4, 6)
@@ -524,6 +534,22 @@ def test_weak_derivatives_of_the_turning_arms() -> None:
     assert (bodies.touch_new["push"] > 0.0).all()
     expected = fourth_order(forces, np.zeros(24), 1e-4)
     assert_allclose(k, expected, rtol=0.0, atol=1e-9 * np.abs(k).max())
+
+
+def test_inverse_of_the_sliders_matrix() -> None:
+    """With exchanged rows, by columns; a singular matrix has none."""
+    rng = np.random.default_rng(5)
+    w = one(SCRATCH)
+    for _ in range(20):
+        matrix = rng.normal(size=(12, 12)) * 10.0 ** rng.uniform(-3.0, 3.0, size=(12, 1))
+        matrix[0, 0], matrix[3, 4] = 0.0, 0.0
+        w.joint[:, :12] = matrix
+        assert invert(w)
+        assert_allclose(w.joint[:, 12:].T @ matrix, np.eye(12), rtol=0.0, atol=1e-9)
+    matrix[7] = matrix[2]
+    matrix[:, 5] = 0.0
+    w.joint[:, :12] = matrix
+    assert not invert(w)
 
 
 # ------------------------------------------------------------------------------- small tools

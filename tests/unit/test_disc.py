@@ -8,7 +8,13 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from lir_element.kernels.contact.disc import disc_load, rub, rubbing, segment, size_of
+from lir_element.kernels.contact.disc import (
+    disc_load,
+    disc_load_slope,
+    rub,
+    rubbing,
+    segment,
+)
 from lir_element.kernels.contact.disc_pair import torsion_radius
 from lir_element.kernels.slip import friction_map, kept_share
 from lir_element.layout import SCRATCH, TOUCH
@@ -21,10 +27,44 @@ def scratch() -> Any:
 
 
 def bed(p: float, g: tuple[float, float], a: float = RADIUS) -> np.ndarray:
-    """Return the (3, 4) table of a disc; zero where it is open."""
+    """Return load and place of a disc with their derivatives, (3, 4); zero where it is open."""
     w = scratch()
-    disc_load(w, p, g[0], g[1], a)
-    return np.array(w.bed)
+    table = np.zeros((3, 4))
+    table[:, 0] = disc_load(p, g[0], g[1], a)
+    if table[0, 0] > 0.0:
+        disc_load_slope(w, p, g[0], g[1], a)
+        table[:, 1:] = w.bed
+    return table
+
+
+def size_of(z: np.ndarray) -> float:
+    """Return the norm of a hysteretic variable."""
+    return math.sqrt(rubbing(z[0], z[1], z[2])[0])
+
+
+def rubbed(
+    law: int,
+    exponent: float,
+    old: np.ndarray,
+    d: np.ndarray,
+    u_y: float,
+    kept: tuple[float, float] = (1.0, 0.0),
+    before: np.ndarray | None = None,
+    share: float = 0.0,
+) -> tuple[np.ndarray, np.ndarray, float, Any]:
+    """Return friction with its derivatives (3, 5), the new z, the sliding past the old, scratch."""
+    w, z, table = scratch(), np.zeros(3), np.zeros((3, 5))
+    last = np.zeros(2) if before is None else before
+    *friction, slid, size = rub(
+        w, law, exponent, old, size_of(old), *d, u_y, *kept, last, share, z, True
+    )
+    table[:, 0], table[:, 1:] = friction, w.rub
+    assert_allclose(size, size_of(z), rtol=1e-14)
+    without = np.zeros(3)  # without derivatives: the same
+    again = rub(w, law, exponent, old, size_of(old), *d, u_y, *kept, last, share, without, False)
+    assert again == (*friction, slid, size)
+    assert (without == z).all()
+    return table, z, slid, w
 
 
 @pytest.mark.parametrize("u", [-0.99, -0.5, 0.0, 0.3, 0.999])
@@ -105,9 +145,8 @@ def test_norm_is_the_mean_speed_of_the_disc(w: float) -> None:
 def test_norm_is_convex() -> None:
     """Its square has a positive definite second derivative: one friction for every sliding."""
     for angle in np.linspace(0.0, math.pi / 2.0, 91):
-        w, z = scratch(), np.zeros(3)
         d = 1e-4 * np.array([math.cos(angle), 0.0, math.sin(angle)])
-        rub(w, 0, 2.0, np.zeros(3), d, 1.0, 1.0, 0.0, np.zeros(2), 0.0, z)
+        *_, w = rubbed(0, 2.0, np.zeros(3), d, 1.0)
         assert np.linalg.eigvalsh(np.array(w.rub_h)).min() > 0.2
 
 
@@ -125,18 +164,17 @@ def test_without_spin_it_is_the_law_of_a_point(law: int, exponent: float, size: 
         d = size * u_y * rng.normal(size=2)
         before = d + 0.3 * size * u_y * rng.normal(size=2)
         kept, by_push = kept_share(1.0e6, float(rng.uniform(0.7, 1.4)) * 1e6, 0.0)
-        w, z = scratch(), np.zeros(3)
         old, way = np.array([*z_old, 0.0]), np.array([*d, 0.0])
-        slid = rub(w, law, exponent, old, way, u_y, kept, by_push, before, share, z)
+        table, z, slid, w = rubbed(law, exponent, old, way, u_y, (kept, by_push), before, share)
         plain = friction_map(
             law, exponent, *z_old, *d, u_y, kept, by_push, before[0], before[1], share
         )
         assert_allclose(z[:2], plain[:2], rtol=1e-12, atol=1e-14)
-        assert_allclose(w.rub[:2, 0], plain[:2], rtol=1e-12, atol=1e-14)
-        assert_allclose(w.rub[:2, 1:3].ravel(), plain[2:6], rtol=1e-9, atol=1e-9 / u_y)
+        assert_allclose(table[:2, 0], plain[:2], rtol=1e-12, atol=1e-14)
+        assert_allclose(table[:2, 1:3].ravel(), plain[2:6], rtol=1e-9, atol=1e-9 / u_y)
         assert_allclose(slid, plain[6], rtol=1e-12, atol=1e-18)
         assert_allclose(w.slid_by[:2], plain[7:9], rtol=1e-12, atol=1e-14)
-        assert_allclose(w.rub[:2, 4], plain[9:11], rtol=1e-8, atol=1e-14)
+        assert_allclose(table[:2, 4], plain[9:11], rtol=1e-8, atol=1e-14)
 
 
 @pytest.mark.parametrize(("law", "exponent"), LAWS)
@@ -153,11 +191,9 @@ def test_derivatives_of_friction_with_spin(law: int, exponent: float, size: floa
         def friction(
             x: np.ndarray, push: float, old: Any = old, before: Any = before, u_y: float = u_y
         ) -> np.ndarray:
-            w = scratch()
-            kept, by_push = kept_share(1e6, push, 0.0)
-            z = np.zeros(3)
-            slid = rub(w, law, exponent, old, x, u_y, kept, by_push, before, 0.4, z)
-            return np.concatenate([np.array(w.rub).ravel(), [slid], np.array(w.slid_by)])
+            kept = kept_share(1e6, push, 0.0)
+            table, _, slid, w = rubbed(law, exponent, old, x, u_y, kept, before, 0.4)
+            return np.concatenate([table.ravel(), [slid], np.array(w.slid_by)])
 
         at = friction(d, n)
         table, slid_by = at[:15].reshape(3, 5), at[16:]
@@ -177,10 +213,9 @@ def test_friction_with_spin_never_exceeds_the_disc() -> None:
     z, u_y = np.zeros(3), 1e-4
     for _ in range(400):
         d = 3.0 * u_y * rng.normal(size=3)
-        w, new = scratch(), np.zeros(3)
-        rub(w, 0, 2.0, z, d, u_y, 1.0, 0.0, np.zeros(2), 0.0, new)
+        table, new, *_ = rubbed(0, 2.0, z, d, u_y)
         assert size_of(new) <= 1.0 + 1e-12
-        force = np.array(w.rub[:, 0])
+        force = table[:, 0]
         gain = 0.5 * u_y * (size_of(new) ** 2 - size_of(z) ** 2)
         assert force @ d >= gain - 1e-12 * u_y
         z = new

@@ -1,9 +1,8 @@
-"""Kernels of the level 'contact': both sliders as bodies, solved inside the element by Newton.
+"""Kernels of the level 'contact': both sliders as bodies, their equilibrium found in the element.
 
-Twelve unknowns: displacement and spin of the bottom and of the top slider. Their inertia enters by
-the implicit Euler rule over the step, so that the system stays regular where contacts open. The
-start of the search is what the level 'pendulum' says; where none leads to a static state, softer
-friction does. docs/theory.md, section 7.
+The quick search of `chord` comes first. Where it finds nothing Newton's method does, from where the
+sliders go with the plates, then from what the level 'pendulum' says; where none leads to a static
+state, softer friction does. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -13,10 +12,12 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.elimination import solve_all, solve_one
+from lir_element.kernels.contact.chord import begin_search, keep_lead, lead_on, seek
+from lir_element.kernels.contact.elimination import invert, solve_one
 from lir_element.kernels.contact.pairs import press
-from lir_element.kernels.contact.places import OWN, place_bodies, turn_by
-from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
+from lir_element.kernels.contact.places import place_bodies, turn_by
+from lir_element.kernels.contact.residual import HOLD, set_system, small_forces, unbalanced
+from lir_element.kernels.contact.slider_motion import set_momentum
 from lir_element.kernels.contact.start import (
     carry_on,
     fly_on,
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
         Bodies,
         Floats,
         Props,
-        Records,
         Scratch,
         Sliders,
         State,
@@ -49,9 +49,6 @@ _NO_EQUILIBRIUM = int(RunStatus.NO_EQUILIBRIUM)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _MAX_ITERATIONS = 40
 _PATIENCE = 10  # iterations in which the residual must halve
-_TOLERANCE = 1e-10  # of the normal forces
-_HOLD = 1e-10  # of the contact stiffness, in static states
-ROUND_OFF = 4e-16  # of lengths and turns
 LARGEST_TURN = 0.1  # rad, of a body in one iteration
 SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
@@ -59,61 +56,6 @@ _LEAPS = 3  # whole steps taken although the residual grows (a choice)
 _GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
 _SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, where it is softened first
 _STIFFER = 0.3  # by which it is brought down: some three iterations a stage (a choice)
-
-
-@kernel
-def unbalanced(s: BodyStep, dt: float, speeds: Floats) -> float:
-    """Set all forces at the sliders' places and ``w.residual``; return its size.
-
-    Forces, and moments over the slider's radius, against the largest normal force and weight.
-    """
-    c, w = s.sliders, s.scratch
-    place_bodies(c, w, s.new, 1, 3)
-    press(s, dt, speeds[0], speeds[1], True)
-    own_forces(s, dt, 1)
-    own_forces(s, dt, 2)
-    part = s.new.parts[OWN]
-    total = 0.0
-    for row in range(12):
-        w.residual[row] = w.g[6 + row] + part[6 + row]
-        size = w.residual[row] if row % 6 < 3 else w.residual[row] / c.radius
-        total += size * size
-    return math.sqrt(total)
-
-
-@kernel
-def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
-    """Return the residual to reach: a share of the forces, and round-off under stiff laws."""
-    total = p.axial_floor
-    for j in range(touch.shape[0]):
-        total += touch[j].push
-    stiff = c.stiffness + total * (
-        p.friction_max[0] / p.yield_displacement[0] + p.friction_max[1] / p.yield_displacement[1]
-    )
-    if not p.fused:
-        stiff += total * p.interface_friction / p.interface_yield
-    if dt > 0.0:
-        stiff += c.damping / dt + (c.mass[0] + c.mass[1]) / (dt * dt)
-    return _TOLERANCE * total + ROUND_OFF * stiff * (p.radius[0] + p.radius[1])
-
-
-@kernel
-def set_system(s: BodyStep, dt: float) -> None:
-    """Set Newton's matrix (12 x 12) in ``w.joint``: minus the derivative of the residual."""
-    c, w = s.sliders, s.scratch
-    a = w.joint
-    for row in range(12):
-        for col in range(12):
-            a[row, col] = -w.k[6 + row, 6 + col]
-    if dt == 0.0:  # sliders that nothing holds stay where they are
-        for row in range(12):
-            a[row, row] += _HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
-        return
-    for k in range(2):
-        first = 6 * k
-        for e in range(3):
-            a[first + e, first + e] += c.mass[k] / (dt * dt)
-        add_gyration(s, dt, k, first + 3)
 
 
 @kernel
@@ -162,7 +104,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
     new, touch_new = s.new, s.touch_new
-    size = unbalanced(s, dt, speeds)
+    size = unbalanced(s, dt, speeds, True)
     mark, leaps = size, 0
     most = _LEAPS if dt > 0.0 and s.points[0].disc > 0.0 else 0
     for count in range(_MAX_ITERATIONS):
@@ -184,7 +126,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         best, kept, whole = math.inf, factor, factor
         for _ in range(_TRIES):
             move_sliders(new, w, factor)
-            attempt = unbalanced(s, dt, speeds)
+            attempt = unbalanced(s, dt, speeds, True)
             if attempt < best:
                 best, kept = attempt, factor
             if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
@@ -196,7 +138,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             mark = math.inf
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
-            best = unbalanced(s, dt, speeds)
+            best = unbalanced(s, dt, speeds, True)
         size = best
     return -1
 
@@ -245,6 +187,20 @@ def set_losses(p: Props, old: State, w: Scratch) -> None:
 
 
 @kernel
+def go_on(s: BodyStep, old: State, dt: float, speeds: Floats) -> int:
+    """Bring the sliders into equilibrium from where they go with the plates; see `carry_on`."""
+    lead_on(s, dt)
+    count = seek(s, dt, speeds)
+    if count < 0:
+        begin_search(s.search_new)
+        carry_on(s, old, dt)
+        count = balance_sliders(s, dt, speeds)
+    if count >= 0:
+        keep_lead(s, dt)
+    return count
+
+
+@kernel
 def contact_trial(
     s: BodyStep, old: State, new: State, pen: Work, u: Floats, v: Floats, time: float
 ) -> int:
@@ -261,8 +217,10 @@ def contact_trial(
     set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
+    begin_search(s.search_new)
+    set_momentum(s)
     if dt > 0.0 and s.points[0].disc > 0.0 and carry_on(s, old, dt):
-        count = balance_sliders(s, dt, pen.static_speed)
+        count = go_on(s, old, dt, pen.static_speed)
     if count < 0:
         code = trial(p, old, new, pen, u, v, time)
         if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
@@ -307,29 +265,49 @@ def look_at_committed(s: BodyStep, old: State) -> None:
 
 
 @kernel
-def contact_tangent(s: BodyStep, dt: float, k: Floats) -> None:
+def condense(w: Scratch, k: Floats) -> None:
+    """Add what the sliders' motion takes from the nodes' stiffness `k` (7.6).
+
+    The inverse stands in ``w.joint``. A node touches one slider: ``w.follow`` (12, 12) is the
+    motion of both sliders for one of its nodes' displacements.
+    """
+    inverse, follow = w.joint, w.follow
+    for b in range(2):
+        k_yu = w.k[6 + 6 * b : 12 + 6 * b, 18 * b : 18 * b + 6]
+        for row in range(12):
+            for col in range(6):
+                total = 0.0
+                for e in range(6):
+                    total += inverse[6 * b + e, 12 + row] * k_yu[e, col]
+                follow[row, 6 * b + col] = total
+    for b in range(2):
+        k_uy = w.k[18 * b : 18 * b + 6, 6 + 6 * b : 12 + 6 * b]
+        for a in range(6):
+            for col in range(12):
+                total = 0.0
+                for e in range(6):
+                    total += k_uy[a, e] * follow[6 * b + e, col]
+                k[6 * b + a, col] -= total
+
+
+@kernel
+def contact_tangent(s: BodyStep, pen: Work, k: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed.
 
     Plates on surfaces without friction meet nothing as they turn about the vertical: in a static
     state they are held as loose sliders are, else round-off would say how far they turn.
     """
-    c, w = s.sliders, s.scratch
+    c, w, dt = s.sliders, s.scratch, pen.dt
+    if w.derived == 0:
+        unbalanced(s, dt, pen.static_speed, True)
     set_system(s, dt)
-    a = w.joint
-    for row in range(12):
-        for col in range(6):
-            a[row, 12 + col] = w.k[6 + row, col]
-            a[row, 18 + col] = w.k[6 + row, 18 + col]
-    solve_all(w)
     for row in range(12):
         at = row if row < 6 else row + 12
         for col in range(6):
             k[row, col], k[row, 6 + col] = -w.k[at, col], -w.k[at, 18 + col]
-        for e in range(12):
-            factor = w.k[at, 6 + e]
-            for col in range(12):
-                k[row, col] -= factor * a[e, 12 + col]  # (7.6)
+    if invert(w):
+        condense(w, k)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:
-        add_twist(k, _HOLD * c.stiffness * c.radius**2)
+        add_twist(k, HOLD * c.stiffness * c.radius**2)

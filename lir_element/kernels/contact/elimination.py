@@ -1,7 +1,7 @@
-"""Kernels that eliminate the sliders: Newton's direction, and what the nodes see of them.
+"""Kernels that solve for the sliders: Newton's direction, the inverse of its matrix.
 
-The matrix stands in the first twelve columns of ``w.joint`` (12, 24), right-hand sides in the
-others. Rows are eliminated over their whole width, which processors do in wide registers.
+The matrix stands in the first twelve columns of ``w.joint`` (12, 24), the right-hand side in the
+next one. Rows are eliminated over a whole width, which processors do in wide registers.
 """
 
 from __future__ import annotations
@@ -48,17 +48,35 @@ def solve_one(w: Scratch, x: Floats) -> bool:
 
 
 @kernel
-def solve_all(w: Scratch) -> bool:
-    """Bring the solutions for the columns 12 to 23 to their place; False where it is singular."""
-    a = w.joint
-    if not eliminate(a, 24):
-        return False
-    for row in range(11, -1, -1):
-        for col in range(row + 1, 12):
-            factor = a[row, col]
+def invert(w: Scratch) -> bool:
+    """Set the second twelve columns of ``w.joint`` to its inverse, column by column in rows.
+
+    By Gauss and Jordan in place, with pivoted rows; False where the matrix is singular.
+    """
+    a, order = w.joint, w.order
+    for col in range(12):
+        pivot = pivot_of(a, col, 12)
+        if pivot < 0:
+            return False
+        order[col] = pivot
+        if pivot != col:
+            for k in range(12):
+                a[col, k], a[pivot, k] = a[pivot, k], a[col, k]
+        inv = 1.0 / a[col, col]
+        a[col, col] = 1.0
+        for k in range(12):
+            a[col, k] *= inv
+        for row in range(12):
+            if row != col:
+                factor = a[row, col]
+                a[row, col] = 0.0
+                for k in range(12):
+                    a[row, k] -= factor * a[col, k]
+    for row in range(12):
+        for col in range(12):
+            a[col, 12 + row] = a[row, col]
+    for col in range(11, -1, -1):
+        if order[col] != col:
             for k in range(12, 24):
-                a[row, k] -= factor * a[col, k]
-        inv = 1.0 / a[row, row]
-        for k in range(12, 24):
-            a[row, k] *= inv
+                a[col, k], a[order[col], k] = a[order[col], k], a[col, k]
     return True

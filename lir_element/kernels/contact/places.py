@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Bodies, Floats, Scratch, Sliders
 
 NORMAL, LOW_BOTTOM, HIGH, LOW_TOP, RIM_BOTTOM, RIM_TOP, OWN = 0, 1, 2, 3, 4, 5, 6
-ORIGINS = 7
+_SMALL = 1e-4  # square of half a turn, below which a few terms of a series are exact to round-off
 
 
 @kernel
@@ -29,9 +29,14 @@ def matrix_of(turn: Floats, q: Floats) -> None:
 @kernel
 def turn_by(start: Floats, x: float, y: float, z: float, out: Floats) -> None:
     """Set `out` (4,) to the rotation vector (x, y, z) in global axes after the turn `start`."""
-    half = 0.5 * math.sqrt(x * x + y * y + z * z)
-    share = 0.5 * (1.0 - half * half / 6.0) if half < 1e-4 else 0.5 * math.sin(half) / half
-    a, b, c, d = math.cos(half), share * x, share * y, share * z
+    square = 0.25 * (x * x + y * y + z * z)
+    if square < _SMALL:
+        share = 0.5 - square * (1.0 / 12.0 - square * (1.0 / 240.0 - square * (1.0 / 10080.0)))
+        a = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
+    else:
+        half = math.sqrt(square)
+        share, a = 0.5 * math.sin(half) / half, math.cos(half)
+    b, c, d = share * x, share * y, share * z
     e, f, g, h = start[0], start[1], start[2], start[3]
     t_0, t_1 = a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g
     t_2, t_3 = a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e
@@ -51,8 +56,13 @@ def turn_between(old: Floats, new: Floats) -> tuple[float, float, float]:
         (a * h + b * g - c * f + d * e),
     )
     sign = 1.0 if s >= 0.0 else -1.0
-    size = math.sqrt(x * x + y * y + z * z)
-    factor = 2.0 if size < 1e-9 else 2.0 * math.atan2(size, abs(s)) / size
+    square = x * x + y * y + z * z
+    if square < _SMALL:
+        high = 3.0 / 40.0 + square * (5.0 / 112.0 + square * (35.0 / 1152.0))
+        factor = 2.0 + 2.0 * square * (1.0 / 6.0 + square * high)
+    else:
+        size = math.sqrt(square)
+        factor = 2.0 * math.atan2(size, abs(s)) / size
     return sign * factor * x, sign * factor * y, sign * factor * z
 
 

@@ -26,27 +26,40 @@ def momentum(
 
 
 @kernel
+def set_momentum(s: BodyStep) -> None:
+    """Set the sliders' angular momentum at the committed state, ``w.momentum`` (2, 3)."""
+    w = s.scratch
+    for k in range(2):
+        for a in range(3):
+            w.momentum[k, a] = 0.0
+        matrix_of(s.old.turn[k], w.spare_matrix)
+        momentum(s.sliders.inertia[k], w.spare_matrix, s.old.spin[k], w.momentum[k], 0, 1.0)
+
+
+@kernel
 def own_forces(s: BodyStep, dt: float, b: int) -> None:
     """Set weight and inertia forces of slider `b` (1, 2) in ``s.new.parts``, and its velocity."""
     c, old, new = s.sliders, s.old, s.new
     w = s.scratch
     part = new.parts[OWN]
     first, k = 6 * b, b - 1
-    part[first + 2] = -c.mass[k] * c.gravity
+    for a in range(6):
+        part[first + a] = 0.0
     if dt == 0.0:
+        part[first + 2] = -c.mass[k] * c.gravity
         for a in range(3):
             new.velocity[k, a], new.spin[k, a] = 0.0, 0.0
         return
+    rate = 1.0 / dt
     x, y, z = turn_between(old.turn[k], new.turn[k])
-    new.spin[k, 0], new.spin[k, 1], new.spin[k, 2] = x / dt, y / dt, z / dt
+    new.spin[k, 0], new.spin[k, 1], new.spin[k, 2] = rate * x, rate * y, rate * z
     for a in range(3):
-        new.velocity[k, a] = (new.displacement[k, a] - old.displacement[k, a]) / dt
-        change = new.velocity[k, a] - old.velocity[k, a]
-        new.acceleration[k, a] = change / dt
-        part[first + a] -= c.mass[k] * change / dt  # (7.5)
-    momentum(c.inertia[k], w.q[b], new.spin[k], part, first + 3, -1.0 / dt)
-    matrix_of(old.turn[k], w.spare_matrix)
-    momentum(c.inertia[k], w.spare_matrix, old.spin[k], part, first + 3, 1.0 / dt)
+        new.velocity[k, a] = rate * (new.displacement[k, a] - old.displacement[k, a])
+        new.acceleration[k, a] = rate * (new.velocity[k, a] - old.velocity[k, a])
+        part[first + a] = -c.mass[k] * new.acceleration[k, a]  # (7.5)
+        part[first + 3 + a] = rate * w.momentum[k, a]
+    part[first + 2] -= c.mass[k] * c.gravity
+    momentum(c.inertia[k], w.q[b], new.spin[k], part, first + 3, -rate)
 
 
 @kernel

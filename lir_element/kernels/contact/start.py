@@ -160,7 +160,7 @@ def carry_on(s: BodyStep, old: State, dt: float) -> bool:
     set_axes_of(bottom.axes, w.half)
     share = dt / s.old.step if s.old.step > 0.0 and plane.slid > 0.0 else 0.0
     slip_1, slip_2 = share * plane.increment[0], share * plane.increment[1]
-    go, aim, place = w.axis, w.spare_vector, w.way
+    go, aim, place = w.axis, w.spare_vector, w.d
     for a in range(3):
         go[a] = old.centres[a] + w.half[a, 0] * slip_1 + w.half[a, 1] * slip_2
         place[a] = w.x[3, a] - w.x[0, a] - p.lever[1] * w.q[3][a, 2] - p.lever[0] * q[a, 2]

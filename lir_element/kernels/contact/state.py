@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.disc import size_of
 from lir_element.kernels.contact.pair import set_tangents
 from lir_element.kernels.contact.places import (
     HIGH,
@@ -199,8 +198,8 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         if side < 2:
             mu *= s.sliders.grip[side]
         if s.points[j].disc > 0.0:
-            gain = stored(mu, after.push, u_y, size_of(after.memory), 0.0)
-            gain -= stored(mu, before.push, u_y, size_of(before.memory), 0.0)
+            gain = stored(mu, after.push, u_y, after.norm, 0.0)
+            gain -= stored(mu, before.push, u_y, before.norm, 0.0)
         else:
             gain = stored(mu, after.push, u_y, z[0], z[1])
             gain -= stored(mu, before.push, u_y, y[0], y[1])

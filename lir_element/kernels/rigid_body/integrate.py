@@ -89,6 +89,8 @@ def body_step(run: RigidRun, before: int, after: int) -> BodyStep:
         run.bodies[after],
         run.touches[before],
         run.touches[after],
+        None,
+        None,
         run.scratch[0],
     )
 
@@ -245,6 +247,8 @@ def start(run: RigidRun, given: RigidInput) -> None:
         run.bodies[0],
         run.touches[0],
         run.touches[1],
+        None,
+        None,
         w,
     )
     press(begin, 0.0, 0.0, 0.0, False)

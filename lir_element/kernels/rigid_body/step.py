@@ -12,14 +12,10 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.condensed import (
-    ROUND_OFF,
-    SHORTER,
-    first_share,
-    small_forces,
-)
+from lir_element.kernels.contact.condensed import SHORTER, first_share
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import OWN, matrix_of, place_bodies, turn_between, turn_by
+from lir_element.kernels.contact.residual import ROUND_OFF, small_forces
 from lir_element.kernels.contact.slider_motion import momentum
 from lir_element.kernels.linear import solve_many
 

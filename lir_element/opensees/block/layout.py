@@ -79,6 +79,8 @@ SHARED_FIELDS = (
     Field("bodies_new", "", "", "", (), _ADDRESS),
     Field("touch_old", "", "", "", (), _ADDRESS),
     Field("touch_new", "", "", "", (), _ADDRESS),
+    Field("search_old", "", "", "", (), _ADDRESS),
+    Field("search_new", "", "", "", (), _ADDRESS),
     Field("scratch", "", "", "", (), _ADDRESS),
     Field("bodies_first", "", "", "bodies and contacts at the start", (), _ADDRESS),
     Field("touch_first", "", "", "", (), _ADDRESS),

@@ -14,6 +14,7 @@ from numba import carray
 from lir_element._compile.jit import counting as kernel
 from lir_element.bundles.contact_data import Contacts
 from lir_element.errors import RunStatus
+from lir_element.kernels.contact.chord import forget
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
 from lir_element.kernels.linear import gather, scatter
 from lir_element.kernels.pendulum.trial import copy_words, has_no_state
@@ -23,6 +24,7 @@ from lir_element.layout import (
     POINT,
     PROPS,
     SCRATCH,
+    SEARCH,
     SLIDERS,
     STATE,
     TOUCH,
@@ -74,6 +76,8 @@ def contacts_at(h: Host) -> Contacts:
         carray(pointer(h.bodies_new), (1, BODY_WORDS), WORDS),
         carray(pointer(h.touch_old), (1, m * _TOUCH_WORDS), WORDS),
         carray(pointer(h.touch_new), (1, m * _TOUCH_WORDS), WORDS),
+        carray(pointer(h.search_old), 1, SEARCH),
+        carray(pointer(h.search_new), 1, SEARCH),
         carray(pointer(h.scratch), 1, SCRATCH),
     )
 
@@ -300,6 +304,7 @@ def host_restart(h: Host) -> None:
             carray(pointer(h.touch_first), count, WORDS),
             carray(pointer(h.touch_old), count, WORDS),
         )
+        forget(carray(pointer(h.search_old), 1, SEARCH)[0])
     h.time, h.committed_time, h.loaded = 0.0, 0.0, 0
     h.record_count, h.commits = 0, 0
     h.refused, h.unfinished, h.failures, h.load_seen = _OK, 0, 0, 0

@@ -1,0 +1,190 @@
+"""Kernels of the quick search for the sliders: a chord method from where the last steps lead.
+
+The inverse of Newton's matrix is kept from step to step, so that most iterations need forces alone;
+derivatives are taken anew where the time step differs or the residual falls too slowly. What is
+kept is part of the committed state: a trial is a function of that and of its displacements. Where
+it finds nothing, `condensed` searches by Newton's method. docs/theory.md, section 7.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from lir_element._compile.jit import kernel
+from lir_element.kernels.contact.elimination import invert
+from lir_element.kernels.contact.pairs import add_up, clear_parts, hold_pairs, push_sliders
+from lir_element.kernels.contact.places import OWN, place_bodies, turn_between, turn_by
+from lir_element.kernels.contact.residual import (
+    set_system,
+    size_of_residual,
+    small_forces,
+    unbalanced,
+)
+from lir_element.kernels.contact.slider_motion import own_forces
+
+if TYPE_CHECKING:
+    from lir_element.bundles.contact_data import BodyStep
+    from lir_element.layout import Bodies, Floats, Scratch, Search, Sliders
+
+_SAME = 1e-6  # of the time step: round-off of times
+_LIKE = 0.2  # of the time step, by which it may differ from that of the inverse (a choice)
+_FALL = 0.1  # of the residual in an iteration, else derivatives are taken anew (a choice)
+_MOST = 8  # iterations
+_LARGEST_TURN = 0.01  # rad, of a body in one iteration, or times the slider's radius (a choice)
+
+
+@kernel
+def begin_search(new: Search) -> None:
+    """Begin a trial: the inverse is that of the committed state, and no lead is known."""
+    new.leads, new.renewed = 0, 0
+
+
+@kernel
+def forget(kept: Search) -> None:
+    """Forget what was kept."""
+    kept.leads, kept.inverse_step = 0, 0.0
+
+
+@kernel
+def keep_search(old: Search, new: Search) -> None:
+    """Commit what a trial leaves for the next search."""
+    old.leads = new.leads
+    if new.leads > 0:
+        for k in range(2):
+            for a in range(6):
+                old.lead[k, a], old.lead_before[k, a] = new.lead[k, a], new.lead_before[k, a]
+    if new.renewed != 0:
+        old.inverse_step = new.inverse_step
+        for col in range(12):
+            for row in range(12):
+                old.inverse[col, row] = new.inverse[col, row]
+
+
+@kernel
+def step_on(new: Bodies, w: Scratch) -> None:
+    """Move the sliders by ``w.step``."""
+    step = w.step
+    for k in range(2):
+        at = 6 * k
+        for a in range(3):
+            new.displacement[k, a] += step[at + a]
+        turn_by(new.turn[k], step[at + 3], step[at + 4], step[at + 5], new.turn[k])
+
+
+@kernel
+def lead_on(s: BodyStep, dt: float) -> None:
+    """Move the sliders on from the start of a search by what it missed in the last steps.
+
+    That of the last step, which goes on changing as it did where three steps are equal.
+    """
+    old, new, w = s.search_old, s.new, s.scratch
+    for k in range(2):
+        for a in range(3):
+            w.start_displacement[k, a] = new.displacement[k, a]
+        for a in range(4):
+            w.start_turn[k, a] = new.turn[k, a]
+    if old.leads == 0:
+        return
+    bend = 1.0 if old.leads > 1 and abs(dt - s.old.step) <= _SAME * dt else 0.0
+    way = w.step
+    for k in range(2):
+        for a in range(6):
+            last = old.lead[k, a]
+            way[6 * k + a] = last + bend * (last - old.lead_before[k, a])
+    step_on(new, w)
+
+
+@kernel
+def keep_lead(s: BodyStep, dt: float) -> None:
+    """Keep where the sliders have come to rest, as seen from the start of the search."""
+    old, new, w, bodies = s.search_old, s.search_new, s.scratch, s.new
+    for k in range(2):
+        for a in range(3):
+            new.lead[k, a] = bodies.displacement[k, a] - w.start_displacement[k, a]
+        x, y, z = turn_between(w.start_turn[k], bodies.turn[k])
+        new.lead[k, 3], new.lead[k, 4], new.lead[k, 5] = x, y, z
+        for a in range(6):
+            new.lead_before[k, a] = old.lead[k, a]
+    new.leads = 1
+    if old.leads > 0 and abs(dt - s.old.step) <= _SAME * dt:
+        new.leads = 2
+
+
+@kernel
+def renew_inverse(s: BodyStep, dt: float) -> bool:
+    """Take the inverse anew from the derivative at hand; False where there is none."""
+    w, new = s.scratch, s.search_new
+    set_system(s, dt)
+    if not invert(w):
+        return False
+    for col in range(12):
+        for row in range(12):
+            new.inverse[col, row] = w.joint[col, 12 + row]
+    new.renewed, new.inverse_step = 1, dt
+    return True
+
+
+@kernel
+def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
+    """Set ``w.step`` from the residual; False where it is too long to trust."""
+    step, r = w.step, w.residual
+    for row in range(12):
+        step[row] = 0.0
+    for col in range(12):
+        for row in range(12):
+            step[row] += inverse[col, row] * r[col]
+    largest = 0.0
+    for row in range(12):
+        size = abs(step[row])
+        largest = max(largest, size if row % 6 >= 3 else size / c.radius)
+    return largest <= _LARGEST_TURN
+
+
+@kernel
+def weigh(s: BodyStep, dt: float) -> float:
+    """Set what is held of discs and rims, and ``w.residual``; return its size.
+
+    As `unbalanced`, whose forces by origin are left as they are.
+    """
+    c, w = s.sliders, s.scratch
+    place_bodies(c, w, s.new, 1, 3)
+    hold_pairs(s, dt, 0.0, 0.0, False)
+    own_forces(s, dt, 1)
+    own_forces(s, dt, 2)
+    part = s.new.parts[OWN]
+    for row in range(12):
+        w.residual[row] = part[6 + row]
+    push_sliders(s, w.residual)
+    return size_of_residual(c, w)
+
+
+@kernel
+def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
+    """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
+    p, c, w = s.props, s.sliders, s.scratch
+    kept = s.search_old
+    fresh = abs(kept.inverse_step - dt) > _LIKE * dt
+    inverse = kept.inverse
+    before = math.inf
+    size = unbalanced(s, dt, speeds, True) if fresh else weigh(s, dt)
+    for count in range(_MOST):
+        if not size < before:
+            return -1
+        if size <= small_forces(p, c, s.touch_new, dt):
+            if w.derived == 0:
+                clear_parts(s.new.parts)
+                add_up(s)
+            return count
+        if fresh or size > _FALL * before:
+            if w.derived == 0:
+                unbalanced(s, dt, speeds, True)
+            if not renew_inverse(s, dt):
+                return -1
+            inverse, fresh = s.search_new.inverse, False
+        if not chord_direction(c, w, inverse):
+            return -1
+        step_on(s.new, w)
+        before = size
+        size = weigh(s, dt)
+    return -1
