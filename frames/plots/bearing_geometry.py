@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -53,6 +53,25 @@ class Posture:
         return np.array([self.axis[1], -self.axis[0]])
 
 
+class Movement(NamedTuple):
+    """A bearing's bodies over time, in space.
+
+    Attributes
+    ----------
+    axis, plate_axis : ndarray, shape (n_steps, 3)
+        Unit vectors of the slider n and of the top plate e_j, upwards.
+    slip : ndarray, shape (n_steps, 3)
+        Interface slip of the top slider on the bottom one [m].
+    lift : ndarray, shape (n_steps,)
+        Gap between the top slider and the top plate, along `axis` [m].
+    """
+
+    axis: FloatArray
+    plate_axis: FloatArray
+    slip: FloatArray
+    lift: FloatArray
+
+
 def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
     """Return the slider's axis of a bearing over time, from its sliding on the bottom plate.
 
@@ -74,6 +93,45 @@ def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
     """
     sliding = data["slider_displacement"].sel(bearing=name, surface="bottom").to_numpy()
     return np.array([0.0, 0.0, 1.0]) - sliding / bearing.radii[0]
+
+
+def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
+    """Return how the bodies of a bearing move.
+
+    Parameters
+    ----------
+    data : Dataset
+        Result of `frames.time_history`.
+    bearing : Device or LIRBearing
+        The device.
+    name : str
+        Its name in the Dataset.
+
+    Returns
+    -------
+    Movement
+        Axes, slip and lift over time.
+
+    Notes
+    -----
+    The gap of a bearing that carries nothing is what its string l is shorter than L:
+    ``c = C2 - C1 = -l n + s`` (docs/theory.md, section 1), with c from the nodes' displacement.
+    """
+    own = data.sel(bearing=name)
+    axis = slider_axis(data, bearing, name)
+    top = own["slider_displacement"].sel(surface="top").transpose("time", "axis").to_numpy()
+    plate = axis + top / bearing.radii[1]  # d2 = -R2 (n - e_j)
+    lift = np.zeros(len(axis))
+    lifted = ~(own["axial_force"].to_numpy() > 0.0)
+    if lifted.any():
+        length = sum(bearing.radii) - bearing.slider_height
+        up, lever = np.array([0.0, 0.0, 1.0]), float(own["lever"].sel(surface="top"))
+        u = own["bearing_displacement"].transpose("time", "axis").to_numpy()
+        centres = u - length * up - lever * (plate - up)
+        along = np.einsum("ta,ta->t", centres, axis)
+        lift[lifted] = np.maximum(0.0, length + along)[lifted]
+    slip = own["interface_slip"].transpose("time", "axis").to_numpy()
+    return Movement(axis, plate, slip, lift)
 
 
 def posture(
@@ -98,29 +156,14 @@ def posture(
     -------
     Posture
         Axes, slip and lift in the plane.
-
-    Notes
-    -----
-    The gap of a bearing that carries nothing is what its string l is shorter than L:
-    ``c = C2 - C1 = -l n + s`` (docs/theory.md, section 1), with c from the nodes' displacement.
     """
-    now = data.sel(time=time, method="nearest")
     place = int(np.argmin(np.abs(data["time"].to_numpy() - time)))
-    axis = slider_axis(data, bearing, name)[place]
-    top = now["slider_displacement"].sel(bearing=name, surface="top").to_numpy()
-    plate = axis + top / bearing.radii[1]  # d2 = -R2 (n - e_j)
-    flat = _in_plane(axis, direction)
-    slip = now["interface_slip"].sel(bearing=name).to_numpy()
+    now = movement(data.isel(time=[place]), bearing, name)
+    flat, slip = _in_plane(now.axis[0], direction), now.slip[0]
     across = np.array([flat[1], -flat[0]])
     inside = np.array([slip[:2] @ direction, slip[2]])
-    lift = 0.0
-    if not float(now["axial_force"].sel(bearing=name)) > 0.0:
-        length = sum(bearing.radii) - bearing.slider_height
-        up, lever = np.array([0.0, 0.0, 1.0]), float(now["lever"].sel(bearing=name, surface="top"))
-        u = now["bearing_displacement"].sel(bearing=name).to_numpy()
-        centres = u - length * up - lever * (plate - up)
-        lift = max(0.0, length + float(centres @ axis))
-    return Posture(flat, _in_plane(plate, direction), float(inside @ across), lift)
+    plate = _in_plane(now.plate_axis[0], direction)
+    return Posture(flat, plate, float(inside @ across), float(now.lift[0]))
 
 
 def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
@@ -274,6 +317,29 @@ def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dic
         "top slider": points["top"] + _placed(half[1] * (1.0, -1.0), normal),
         "top plate": points["vertex"] + _placed(sides[1] * (1.0, -1.0), plate),
     }
+
+
+def surface_reach(data: xr.Dataset, bearing: Geometry) -> float:
+    """Return half the width of the concave surfaces as drawn [m], also where there are no rims.
+
+    Parameters
+    ----------
+    data : Dataset
+        Holds `slider_displacement`, which the surfaces of a bearing without rims shall hold.
+    bearing : Device or LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        To the face of the wider rim; without rims to the edge of the slider where it went farthest.
+    """
+    face = max(rim_face(bearing, 0), rim_face(bearing, 1))
+    if math.isfinite(face):
+        return face
+    sliding = data["slider_displacement"].sel(axis=["x", "y"]).to_numpy()
+    far = 1.05 * float(np.linalg.norm(sliding, axis=-1).max()) + bearing.slider_radius
+    return min(far, 0.95 * min(bearing.radii))
 
 
 def area_of(outline: FloatArray) -> float:
