@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.plots.bearing_movement import movement
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -40,98 +41,21 @@ class Posture:
         Interface slip of the top slider on the bottom one, along `across` [m].
     lift : float
         Gap that has opened between the top slider and the top plate, along `axis` [m].
+    aside : float
+        How far the top plate of a bearing that has lifted has gone on without the slider, along
+        `across` [m].
     """
 
     axis: FloatArray
     plate_axis: FloatArray
     slip: float
     lift: float = 0.0
+    aside: float = 0.0
 
     @property
     def across(self) -> FloatArray:
         """Unit vector in the interface, to the right."""
         return np.array([self.axis[1], -self.axis[0]])
-
-
-class Movement(NamedTuple):
-    """A bearing's bodies over time, in space.
-
-    Attributes
-    ----------
-    axis, plate_axis : ndarray, shape (n_steps, 3)
-        Unit vectors of the slider n and of the top plate e_j, upwards.
-    slip : ndarray, shape (n_steps, 3)
-        Interface slip of the top slider on the bottom one [m].
-    lift : ndarray, shape (n_steps,)
-        Gap between the top slider and the top plate, along `axis` [m].
-    """
-
-    axis: FloatArray
-    plate_axis: FloatArray
-    slip: FloatArray
-    lift: FloatArray
-
-
-def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
-    """Return the slider's axis of a bearing over time, from its sliding on the bottom plate.
-
-    With ``d1 = -R1 (n - e_i)`` and a bottom plate that stays level, ``n = (0, 0, 1) - d1 / R1``.
-
-    Parameters
-    ----------
-    data : Dataset
-        Holds `slider_displacement`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    ndarray, shape (n_steps, 3)
-        Unit vectors n.
-    """
-    sliding = data["slider_displacement"].sel(bearing=name, surface="bottom").to_numpy()
-    return np.array([0.0, 0.0, 1.0]) - sliding / bearing.radii[0]
-
-
-def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
-    """Return how the bodies of a bearing move.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    Movement
-        Axes, slip and lift over time.
-
-    Notes
-    -----
-    The gap of a bearing that carries nothing is what its string l is shorter than L:
-    ``c = C2 - C1 = -l n + s`` (docs/theory.md, section 1), with c from the nodes' displacement.
-    """
-    own = data.sel(bearing=name)
-    axis = slider_axis(data, bearing, name)
-    top = own["slider_displacement"].sel(surface="top").transpose("time", "axis").to_numpy()
-    plate = axis + top / bearing.radii[1]  # d2 = -R2 (n - e_j)
-    lift = np.zeros(len(axis))
-    lifted = ~(own["axial_force"].to_numpy() > 0.0)
-    if lifted.any():
-        length = sum(bearing.radii) - bearing.slider_height
-        up, lever = np.array([0.0, 0.0, 1.0]), float(own["lever"].sel(surface="top"))
-        u = own["bearing_displacement"].transpose("time", "axis").to_numpy()
-        centres = u - length * up - lever * (plate - up)
-        along = np.einsum("ta,ta->t", centres, axis)
-        lift[lifted] = np.maximum(0.0, length + along)[lifted]
-    slip = own["interface_slip"].transpose("time", "axis").to_numpy()
-    return Movement(axis, plate, slip, lift)
 
 
 def posture(
@@ -162,8 +86,10 @@ def posture(
     flat, slip = _in_plane(now.axis[0], direction), now.slip[0]
     across = np.array([flat[1], -flat[0]])
     inside = np.array([slip[:2] @ direction, slip[2]])
-    plate = _in_plane(now.plate_axis[0], direction)
-    return Posture(flat, plate, float(inside @ across), float(now.lift[0]))
+    plate, gone = _in_plane(now.plate_axis[0], direction), now.opening[0]
+    apart = np.array([gone[:2] @ direction, gone[2]])
+    lift, aside = max(0.0, float(apart @ flat)), float(apart @ across)
+    return Posture(flat, plate, float(inside @ across), lift, aside)
 
 
 def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
@@ -189,7 +115,7 @@ def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
     middle = bottom + plane_height(bearing) * now.axis
     middle_top = middle + now.slip * now.across
     top = middle_top + (bearing.slider_height - plane_height(bearing)) * now.axis
-    centre_top = top + (now.lift - r_2) * now.axis
+    centre_top = top + (now.lift - r_2) * now.axis + now.aside * now.across
     return {
         "centre bottom": centre,
         "centre top": centre_top,

@@ -7,15 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.plots.bearing_geometry import (
-    movement,
-    plane_height,
-    rim_face,
-    rim_height,
-    surface_reach,
-)
+from frames.plots.bearing_geometry import plane_height, rim_face, rim_height, surface_reach
+from frames.plots.bearing_movement import movement
 from frames.plots.drawn_device import device_of
 from frames.plots.plot_choice import need
+from frames.results.measures import uplift_gap
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -57,7 +53,9 @@ class Movements(NamedTuple):
     slip : ndarray, (..., 3)
         Interface slip [m].
     gap : ndarray
-        Gap of a bearing that has lifted [m].
+        Gap of uplift [m].
+    opening : ndarray, (..., 3)
+        Where the top plate of a bearing that has lifted is, against its place on the slider [m].
     rim_force : ndarray, (..., 2)
         Of the bottom and the top rim [N].
     contacts : ndarray of uint8
@@ -71,6 +69,7 @@ class Movements(NamedTuple):
     plate_axis: FloatArray
     slip: FloatArray
     gap: FloatArray
+    opening: FloatArray
     rim_force: FloatArray
     contacts: npt.NDArray[np.uint8]
 
@@ -113,7 +112,8 @@ def movements(data: xr.Dataset) -> Movements:
         slider_axis=np.stack([one.axis[:, :2] for one in bodies], axis=1),
         plate_axis=np.stack([one.plate_axis[:, :2] for one in bodies], axis=1),
         slip=slip,
-        gap=np.stack([one.lift for one in bodies], axis=1),
+        gap=uplift_gap(data).transpose("time", "bearing").to_numpy(),
+        opening=np.stack([one.opening for one in bodies], axis=1),
         rim_force=rims,
         contacts=contacts.astype(np.uint8),
     )

@@ -10,6 +10,7 @@ from frames.assembly.assemble import assemble
 from frames.plots.plot_choice import choose_bearing, in_window
 from frames.recording.recovery import require_own
 from frames.results.assumption_checks import doubts_of
+from frames.results.recorded import EVERY_STEP
 from frames.viewer.bearings import Movements, devices, movements, peaks_of
 from frames.viewer.instants import kept_steps, line_error
 from frames.viewer.packing import exact, scaled
@@ -125,7 +126,7 @@ def payload_of(
     shapes = as_shapes(nodes[steps].astype(np.float64), _ARM, SHAPE_ERROR)
     names = [str(name) for name in data["bearing"].to_numpy()]
     content: dict[str, object] = {
-        "title": model.name,
+        "title": str(data.attrs.get("title", model.name)).removeprefix("time history of "),
         "facts": _facts(data),
         "warnings": list(doubts_of(data)),
         "time": exact(time[steps], "float64"),
@@ -180,8 +181,9 @@ def _facts(data: xr.Dataset) -> dict[str, str]:
         "source": "computed with",
     }
     found = {label or key: str(data.attrs[key]) for key, label in named.items() if key in data.attrs}
-    if found.get("status") == "ok":
-        found.pop("message", None)
+    for name, usual in (("status", "ok"), ("message", "completed"), ("recording", EVERY_STEP)):
+        if found.get(name) == usual:
+            found.pop(name)
     return found
 
 

@@ -4,8 +4,13 @@
 const Figure = (() => {
   const SMALL = "12px system-ui, sans-serif";
 
+  const found = new Map(); // colours of the theme that holds
+
   function colour(name) {
-    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    if (!found.has(name)) {
+      found.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+    }
+    return found.get(name);
   }
 
   // A canvas that is drawn anew where its size or the theme changes; draw(context, width, height).
@@ -33,8 +38,11 @@ const Figure = (() => {
     return figure;
   }
 
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", () => found.clear());
+
   function onTheme(act) {
-    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", act);
+    dark.addEventListener("change", act);
   }
 
   // Round numbers from low to high, some `count` of them.

@@ -37,7 +37,7 @@
     const bits = bearings.contacts[nearest * count + k];
     return {
       displacement: of("displacement", 3), force: of("force", 2), axialForce: of("axial_force", 1)[0],
-      sliderAxis: of("slider_axis", 2), plateAxis: of("plate_axis", 2), slip: of("slip", 3), gap: of("gap", 1)[0],
+      sliderAxis: of("slider_axis", 2), plateAxis: of("plate_axis", 2), slip: of("slip", 3), gap: of("gap", 1)[0], opening: of("opening", 3),
       rimForce: of("rim_force", 2),
       rims: [(bits & 1) > 0, (bits & 2) > 0], slips: (bits & 4) > 0, lifted: (bits & 8) > 0,
     };
@@ -105,9 +105,22 @@
     model.update();
     Tables.readings(byId("readings"), view);
     byId("now").textContent = `${view.now.toFixed(3)} s`;
+    byId("response-said").textContent = saidOf(chosenResponse());
     byId("timeline").setAttribute("aria-valuenow", view.now.toFixed(3));
     byId("play").textContent = clock.playing ? "❚❚" : "▶";
     byId("play").setAttribute("aria-label", clock.playing ? "pause" : "play");
+  }
+
+  // A response now, and its largest: extremes of each curve are among the steps kept.
+  function saidOf({ quantity, place, axis }) {
+    const places = quantity.places.length;
+    const value = (step) => quantity.factor * quantity.values[(step * places + place) * 2 + axis];
+    let far = 0;
+    for (let step = 1; step < time.length; step++) if (Math.abs(value(step)) > Math.abs(value(far))) far = step;
+    const now = value(view.place.step) + view.place.share * (value(view.place.step + 1) - value(view.place.step));
+    const digits = Math.abs(value(far)) < 10 ? 3 : 1;
+    const text = (number) => `${Figure.said(number, digits)} ${quantity.unit}`;
+    return `${quantity.places[place]}: ${text(now)} now, largest ${text(value(far))} at ${time[far].toFixed(2)} s`;
   }
 
   function choose(k) {
@@ -150,11 +163,13 @@
     }));
     Figure.legend(byId("model-legend"), [
       ["member", "model"], ["faint", "at rest"], ["rim", "rim contact"], ["slip", "interface slides"], ["gap", "lifted"],
+      ...(model.bodySize > 1.05 ? [["plate", `bearings drawn × ${model.bodySize.toFixed(1)}`]] : []),
     ]);
     Figure.legend(byId("section-legend"), [
       ["touch", "surfaces in contact"], ["rim", "rim contact"], ["slip", "interface slides"], ["gap", "gap of uplift"],
     ]);
-    Figure.legend(byId("orbit-legend"), [["rim", "rim contact; dashed: displacement capacity"]]);
+    Figure.legend(byId("orbit-legend"), [["rim", "rim contact; dashed circle: rims without slip"], ["soft", "dotted: the cut"]]);
+    Figure.legend(byId("loop-legend"), [["rim", "rim contact"]]);
     Tables.checks(byId("checks"), content.checks, choose);
     Tables.kept(byId("kept"), content.kept);
   }

@@ -3,6 +3,7 @@
 
 const Model = (() => {
   const LARGEST = 0.08; // drawn size of the largest displacement over the extent, to begin with
+  const BODY = 0.03; // least radius of a bearing as drawn, over the extent of the model
   const NICE = [1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000];
   const { colour } = Figure;
 
@@ -127,13 +128,13 @@ const Model = (() => {
       note.textContent = "The model is not shown: this browser has no WebGL. Switch hardware acceleration on, or open " +
         "the page in another browser. The other views work.";
       canvas.replaceWith(note);
-      return { update() {}, home() {}, setFactor() {}, factor: 1 };
+      return { update() {}, home() {}, setFactor() {}, factor: 1, bodySize: 1 };
     }
     const scene = build(content);
     const camera = new THREE.PerspectiveCamera(32, 1, 0.05, 1e4);
     camera.up.set(0, 0, 1);
     const controls = new THREE.OrbitControls(camera, canvas);
-    const model = { factor: niceFactor(scene.bounds.extent, content.largest), scene };
+    const model = { factor: niceFactor(scene.bounds.extent, content.largest), bodySize: scene.bodySize, scene };
     const render = () => renderer.render(scene.root, camera);
 
     model.home = () => {
@@ -183,10 +184,12 @@ const Model = (() => {
     const floors = structure.floors.filter((nodes) => nodes.length > 2).map((nodes) => floorMesh(nodes, places));
     const bodies = bearingBodies(content);
     const level = Math.min(...structure.bearings.map(([i]) => structure.nodes[3 * i + 2]), bounds.low[2]);
-    const ground = groundOf(bounds, level - 0.35 * Math.max(...content.devices.map((one) => one.sliderHeight)));
-    const supports = supportsOf(structure, bounds);
     const masses = massesOf(structure, bounds);
     const ring = new THREE.Mesh(new THREE.TorusGeometry(1, 0.05, 8, 60), new THREE.MeshBasicMaterial());
+    const supports = supportsOf(structure, bounds);
+    const thick = Math.max(...content.devices.map((one) => one.sliderHeight));
+    const bodySize = Math.max(1, (BODY * bounds.extent) / Math.max(...content.devices.map(plateRadius)));
+    const ground = groundOf(bounds, level + thick - 1.35 * bodySize * thick);
     const sky = new THREE.HemisphereLight(0xffffff, 0x9aa4b0, 2.2);
     sky.position.set(0, 0, 1);
     const sun = new THREE.DirectionalLight(0xffffff, 1.3);
@@ -195,7 +198,7 @@ const Model = (() => {
     root.add(...floors, ...Object.values(bodies));
     const scene = { root, bounds, members, pairs, rest, places, floors, bodies, ring, masses };
     scene.moves = new Float64Array(content.shapes.shape[1]);
-    scene.nearest = 0.012 * bounds.extent;
+    scene.bodySize = bodySize;
     scene.paint = () => {
       members.lines.material.color.set(colour("member"));
       pairs.lines.material.color.set(colour("accent"));
@@ -210,12 +213,12 @@ const Model = (() => {
   }
 
   function groundOf(bounds, level) {
-    const side = 1.7 * Math.max(bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], 0.4 * bounds.extent);
+    const side = 1.35 * Math.max(bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], 0.4 * bounds.extent);
     const grid = new THREE.GridHelper(side, 16);
     grid.geometry.deleteAttribute("color");
     grid.material = new THREE.LineBasicMaterial();
     grid.rotateX(Math.PI / 2);
-    const disc = new THREE.Mesh(new THREE.CylinderGeometry(side * 0.72, side * 0.72, 0.001, 64).rotateX(Math.PI / 2),
+    const disc = new THREE.Mesh(new THREE.CylinderGeometry(side * 0.71, side * 0.71, 0.001, 64).rotateX(Math.PI / 2),
       new THREE.MeshBasicMaterial());
     disc.position.z = -0.004 * bounds.extent;
     const ground = new THREE.Group();
@@ -277,20 +280,24 @@ const Model = (() => {
     });
   }
 
+  const plateRadius = (device) =>
+    Math.max(...device.rimFaces.map((face) => face ?? device.reach)) + 0.3 * device.sliderHeight;
+
   // Bodies of a bearing between its nodes, and what goes on in it by colour.
   function moveBearing(content, scene, view, factor, k) {
     const device = content.devices[k];
     const state = view.stateOf(k);
     const [i, j] = content.structure.bearings[k].map((node) => scene.places.slice(3 * node, 3 * node + 3));
-    const [h, a] = [device.sliderHeight, device.sliderRadius];
-    const plate = Math.max(...device.rimFaces.map((face) => face ?? device.reach)) + 0.3 * h;
+    const size = scene.bodySize;
+    const [h, a] = [size * device.sliderHeight, size * device.sliderRadius];
+    const plate = size * plateRadius(device);
     const bottom = [0, 1].map((c) => i[c] - factor * device.radii[0] * state.sliderAxis[c]);
     const top = [0, 1].map((c) => bottom[c] + factor * state.slip[c]);
     const edge = Math.max(0, ...device.rimFaces.map((face, s) => (face === null ? 0 :
-      device.radii[s] - Math.sqrt(device.radii[s] ** 2 - face ** 2) + 0.5 * device.rimHeight)));
-    const low = i[2];
-    const high = low + Math.max(h, j[2] - i[2]);
-    const middle = low + device.planeHeight;
+      size * (device.radii[s] - Math.sqrt(device.radii[s] ** 2 - face ** 2) + 0.5 * device.rimHeight))));
+    const high = Math.max(j[2], i[2] + device.sliderHeight);
+    const low = high - h;
+    const middle = low + size * device.planeHeight;
     place(scene.bodies.bottomPlate, k, [i[0], i[1], low - 0.175 * h + edge / 2], plate, 0.35 * h + edge,
       state.rims[0] ? "rim" : "plate");
     place(scene.bodies.bottomSlider, k, [...bottom, (low + middle) / 2], a, middle - low, state.slips ? "slip" : "low");
@@ -300,7 +307,7 @@ const Model = (() => {
       state.lifted ? "gap" : state.rims[1] ? "rim" : "plate");
     if (k === view.bearing) {
       scene.ring.position.set(i[0], i[1], low);
-      scene.ring.scale.setScalar(Math.max(1.35 * plate, 1.5 * scene.nearest));
+      scene.ring.scale.setScalar(1.35 * plate);
     }
   }
 
@@ -315,7 +322,7 @@ const Model = (() => {
     const radius = 0.5 * bounds.extent + 0.35 * farther;
     const half = (camera.fov * Math.PI) / 360;
     const narrow = Math.min(half, Math.atan(Math.tan(half) * camera.aspect));
-    const distance = (0.95 * radius) / Math.sin(narrow);
+    const distance = radius / Math.sin(narrow);
     const [azimuth, elevation] = [(-62 * Math.PI) / 180, (16 * Math.PI) / 180];
     controls.target.set(...bounds.middle);
     camera.position.set(

@@ -16,9 +16,11 @@ const Plots = (() => {
     const past = every.slice(0, view.place.step + 1);
     const here = [axes.x(at(xs, view.place)), axes.y(at(ys, view.place))];
     Figure.line(context, [...past, here], colour("accent"), 1.4);
-    for (let k = 1; k < every.length; k++) {
-      if (contact(k) && contact(k - 1)) Figure.line(context, [every[k - 1], every[k]], colour("rim"), 2);
-    }
+    context.beginPath();
+    every.forEach((there, k) => (k > 0 && contact(k) && contact(k - 1) ? context.lineTo(...there) : context.moveTo(...there)));
+    context.strokeStyle = colour("rim");
+    context.lineWidth = 2;
+    context.stroke();
     Figure.dot(context, ...here, 5, colour("ink"));
     context.restore();
     return every;

@@ -126,6 +126,8 @@ const Section = (() => {
   function frameText(context, view, direction, frame, width, height) {
     const bar = [500, 200, 100, 50, 20, 10].find((mm) => (mm / 1e3) * frame.scale < 0.3 * width);
     const long = (bar / 1e3) * frame.scale;
+    context.fillStyle = colour("panel");
+    context.fillRect(0, 0, width, 24);
     Figure.line(context, [[8, 12], [8 + long, 12]], colour("soft"), 3);
     context.fillStyle = colour("soft");
     context.textAlign = "left";

@@ -17,13 +17,14 @@ const SectionGeometry = (() => {
   // A unit vector that points upwards, from its horizontal parts.
   const upright = (x, y) => [x, y, Math.sqrt(Math.max(0, 1 - x * x - y * y))];
 
-  // Axes, slip and lift in the plane, from what the payload holds of a bearing at an instant.
+  // Axes, slip and opening in the plane, from what the payload holds of a bearing at an instant.
   function posture(state, direction) {
     const axis = inPlane(upright(...state.sliderAxis), direction);
     const plateAxis = inPlane(upright(...state.plateAxis), direction);
     const across = [axis[1], -axis[0]];
-    const along = state.slip[0] * direction[0] + state.slip[1] * direction[1];
-    return { axis, plateAxis, across, slip: along * across[0] + state.slip[2] * across[1], lift: state.gap };
+    const part = ([x, y, z], [u, w]) => (x * direction[0] + y * direction[1]) * u + z * w;
+    const lift = Math.max(0, part(state.opening, axis));
+    return { axis, plateAxis, across, slip: part(state.slip, across), lift, aside: part(state.opening, across) };
   }
 
   // Points that fix the bodies, from the vertex of the bottom surface [m].
@@ -33,7 +34,7 @@ const SectionGeometry = (() => {
     const middle = plus(bottom, now.axis, device.planeHeight);
     const middleTop = plus(middle, now.across, now.slip);
     const top = plus(middleTop, now.axis, device.sliderHeight - device.planeHeight);
-    const centreTop = plus(top, now.axis, now.lift - topRadius);
+    const centreTop = plus(plus(top, now.axis, now.lift - topRadius), now.across, now.aside);
     return { bottom, middle, middleTop, top, vertex: plus(centreTop, now.plateAxis, topRadius) };
   }
 
@@ -112,5 +113,5 @@ const SectionGeometry = (() => {
     };
   }
 
-  return { posture, bodies, rimGap };
+  return { posture, bodies };
 })();

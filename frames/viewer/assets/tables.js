@@ -25,7 +25,7 @@ const Tables = (() => {
   function quantities(state, device, peak) {
     const found = [
       ["displacement", Math.hypot(state.displacement[0], state.displacement[1]), mm, "displacement",
-        device.capacity === null ? "no rims" : `rims at ${mm(device.capacity)}`, ""],
+        device.capacity === null ? "no rims" : `rims at ${mm(device.capacity)} without slip`, ""],
       ["horizontal force", Math.hypot(...state.force), kN, "force", "", ""],
       ["axial force", state.axialForce, kN, "axial", `least ${kN(peak("axialLeast")[0])}`, ""],
       ["bottom rim", state.rimForce[0], kN, "rimBottom", "", state.rims[0] ? "is-rim" : ""],
@@ -84,7 +84,7 @@ const Tables = (() => {
       concerns.addEventListener("click", () => choose(check.bearing));
     }
     return row([
-      cell("td", check.verdict), title, cell("td", concerns), cell("td", check.demand), cell("td", check.relation),
+      cell("td", check.verdict), title, cell("td", concerns), cell("td", check.demand), cell("td", { "<=": "≤", ">=": "≥" }[check.relation]),
       cell("td", check.limit), cell("td", check.ratio), cell("td", check.clause),
     ], { FAILS: "FAILS", ok: "ok" }[check.verdict] ?? "beyond");
   }
