@@ -62,7 +62,7 @@ def as_shapes(moves: FloatArray, arm: float, tolerance: float) -> Shapes:
         else:
             low = middle + 1
     chosen = basis[:low]
-    shapes = (chosen.reshape(low, -1, 6) / weights).reshape(low, -1)
+    shapes = (chosen.reshape(low, moves.shape[1], 6) / weights).reshape(chosen.shape)
     return Shapes(table @ chosen.T, shapes, _error(table, chosen))
 
 
