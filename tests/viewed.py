@@ -4,6 +4,7 @@ import base64
 import functools
 import json
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,20 @@ BEARING = LIRBearing(
     friction=CoulombFriction(0.05),
     interface_friction=0.13,
 )
+
+
+@dataclass
+class Judged:
+    """A check as the page takes it."""
+
+    title: str
+    note: str
+    verdict: str = "FAILS"
+    concerns: str = "lower"
+    relation: str = "<="
+    said: tuple[str, str, str] = ("1 kN", "2 kN", "0.5")
+    ratio: float = float("inf")
+    cited: str = "a code 1.2 *"
 
 
 @functools.cache

@@ -19,7 +19,7 @@ def view(
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = Path("results"),
     size: Annotated[float, typer.Option(help="What the histories may take [MB].")] = 3.0,
 ) -> None:
-    """Write view.html: the governing run in motion, model, bearings, checks, on a page of its own."""
+    """Write view.html: model and bearings of the governing run in motion, on one page."""
     from frames.design.report.files import read_histories
     from frames.design.report.kept_checks import read_checks
     from frames.viewer import write_view  # with figures

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 RIM_BOTTOM, RIM_TOP, SLIPS, LIFTED = 1, 2, 4, 8
 """Bits of what goes on in a bearing at a step."""
 
-SLIP_SPEED = 1e-3
-"""Speed from which on an interface is shown as sliding [m/s]."""
+SLIP_SPEED = 5e-3
+"""Speed from which on an interface is shown as sliding [m/s]: below, friction is elastic."""
 
 _NEEDED = (
     "bearing_displacement",
@@ -98,7 +98,8 @@ def movements(data: xr.Dataset) -> Movements:
     slip = np.stack([one.slip for one in bodies], axis=1)
     axial = _of(data, "axial_force")
     rims = _of(data, "rim_force", "surface")
-    speed = np.linalg.norm(np.gradient(slip, data["time"].to_numpy(), axis=0), axis=-1)
+    axis = np.stack([one.axis for one in bodies], axis=1)
+    speed = _slip_speed(data["time"].to_numpy(), slip, axis)
     contacts = (
         RIM_BOTTOM * (rims[..., 0] > 0.0)
         + RIM_TOP * (rims[..., 1] > 0.0)
@@ -109,7 +110,7 @@ def movements(data: xr.Dataset) -> Movements:
         displacement=_of(data, "bearing_displacement", "axis"),
         force=_of(data, "bearing_force", "axis")[..., :2],
         axial_force=axial,
-        slider_axis=np.stack([one.axis[:, :2] for one in bodies], axis=1),
+        slider_axis=axis[..., :2],
         plate_axis=np.stack([one.plate_axis[:, :2] for one in bodies], axis=1),
         slip=slip,
         gap=uplift_gap(data).transpose("time", "bearing").to_numpy(),
@@ -183,11 +184,16 @@ def peaks_of(time: FloatArray, moved: Movements) -> dict[str, list[list[float]]]
     sizes["axialLeast"] = moved.axial_force
     steps["axialLeast"] = moved.axial_force.argmin(axis=0)
     return {
-        name: [
-            [float(values[step, k]), float(time[step])] for k, step in enumerate(steps[name])
-        ]
+        name: [[float(values[step, k]), float(time[step])] for k, step in enumerate(steps[name])]
         for name, values in sizes.items()
     }
+
+
+def _slip_speed(time: FloatArray, slip: FloatArray, axis: FloatArray) -> FloatArray:
+    # In the interface, whose plane turns with the sliders: a slip that stays is no speed.
+    rate = np.gradient(slip, time, axis=0)
+    along = np.einsum("tba,tba->tb", rate, axis) / np.einsum("tba,tba->tb", axis, axis)
+    return np.asarray(np.linalg.norm(rate - along[..., None] * axis, axis=-1))
 
 
 def _of(data: xr.Dataset, name: str, *rest: str) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,9 +18,7 @@ WINDOW = 0.02
 """Time before and after it in which that holds [s]."""
 
 
-def kept_steps(
-    time: FloatArray, curves: FloatArray, contact: BoolArray, count: int
-) -> IntArray:
+def kept_steps(time: FloatArray, curves: FloatArray, contact: BoolArray, count: int) -> IntArray:
     """Return the steps between which straight lines follow the curves best.
 
     The first and the last step and the extremes of each curve are kept. Then, again and again,
@@ -46,11 +45,11 @@ def kept_steps(
     weights = np.where(_widened(time, contact), CONTACT, 1.0)
     kept = set(_extremes(curves).tolist())
     order = sorted(kept)
-    heap = [_farthest(time, curves, weights, *ends) for ends in zip(order, order[1:], strict=False)]
+    heap = [_farthest(time, curves, weights, *ends) for ends in pairwise(order)]
     heapq.heapify(heap)
     while heap and len(kept) < count:
         error, first, step, last = heapq.heappop(heap)
-        if error == 0.0:
+        if not error < 0.0:
             break
         kept.add(step)
         for ends in ((first, step), (step, last)):

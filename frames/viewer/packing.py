@@ -31,8 +31,8 @@ def scaled(values: npt.ArrayLike, *, along: int = 0) -> Packed:
     -------
     dict
         "type" "int16", "shape", "along", "scale" (packed as `exact` does, the shape without that
-        axis) and "data", base64 of the little-endian numbers in C order. A value is its number times its
-        scale, within half a scale: 1.5e-5 of the largest.
+        axis) and "data", base64 of the little-endian numbers in C order. A value is its number
+        times its scale, within half a scale: 1.5e-5 of the largest.
     """
     array = np.asarray(values, dtype=np.float64)
     largest = np.abs(array).max(axis=along, keepdims=True)

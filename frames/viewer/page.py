@@ -115,7 +115,9 @@ def page_of(content: dict[str, object]) -> str:
     """
     folder = files("frames.viewer") / "assets"
     held = json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
-    scripts = [f"<script>\n{(folder / name).read_text(encoding='utf-8')}</script>" for name in SCRIPTS]
+    scripts = [
+        f"<script>\n{(folder / name).read_text(encoding='utf-8')}</script>" for name in SCRIPTS
+    ]
     parts = {
         "title": html.escape(str(content["title"])),
         "style": f"<style>\n{(folder / 'view.css').read_text(encoding='utf-8')}</style>",

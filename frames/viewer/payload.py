@@ -11,7 +11,7 @@ from frames.plots.plot_choice import choose_bearing, in_window
 from frames.recording.recovery import require_own
 from frames.results.assumption_checks import doubts_of
 from frames.results.recorded import EVERY_STEP
-from frames.viewer.bearings import Movements, devices, movements, peaks_of
+from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
 from frames.viewer.instants import kept_steps, line_error
 from frames.viewer.packing import exact, scaled
 from frames.viewer.responses import Response, responses
@@ -137,23 +137,19 @@ def payload_of(
         "worst": names.index(worst),
         "bearings": _packed(moved, steps),
         "peaks": peaks_of(time, moved),
-        "responses": [
-            {**one._asdict(), "values": scaled(one.values[steps])} for one in shown
-        ],
+        "responses": [{**one._asdict(), "values": scaled(one.values[steps])} for one in shown],
         "checks": [_line(check, names) for check in checks],
         "kept": _said_of(time, moved, shown, steps, shapes.error),
     }
     return Payload(content, len(steps), len(time))
 
 
-def _steps(
-    time: FloatArray, moved: Movements, shown: list[Response], size: float
-) -> IntArray:
+def _steps(time: FloatArray, moved: Movements, shown: list[Response], size: float) -> IntArray:
     # As many as the size allows, of all numbers that a step has.
     numbers = sum(values[0].size for values in moved[:-1]) + sum(r.values[0].size for r in shown)
     a_step = (2 * (numbers + _SHAPES) + moved.contacts[0].size + 8) * 4.0 / 3.0
     curves = np.hstack([_over_largest(v) for v in (*moved[:-1], *(r.values for r in shown))])
-    contact = (moved.contacts & ~np.uint8(4)).any(axis=1)
+    contact = np.asarray((moved.contacts & ~np.uint8(SLIPS)).any(axis=1))
     return kept_steps(time, curves, contact, max(_FEWEST, int(1e6 * size / a_step)))
 
 
@@ -164,11 +160,9 @@ def _over_largest(values: FloatArray) -> FloatArray:
 
 
 def _packed(moved: Movements, steps: IntArray) -> dict[str, object]:
-    histories = moved._asdict()
-    contacts = exact(histories.pop("contacts")[steps], "uint8")
-    return {name: scaled(values[steps]) for name, values in histories.items()} | {
-        "contacts": contacts
-    }
+    histories = {name: values[steps] for name, values in moved._asdict().items()}
+    contacts = exact(histories.pop("contacts"), "uint8")
+    return {"contacts": contacts, **{name: scaled(one) for name, one in histories.items()}}
 
 
 def _facts(data: xr.Dataset) -> dict[str, str]:
@@ -180,7 +174,9 @@ def _facts(data: xr.Dataset) -> dict[str, str]:
         "recording": "recording",
         "source": "computed with",
     }
-    found = {label or key: str(data.attrs[key]) for key, label in named.items() if key in data.attrs}
+    found = {
+        label or key: str(data.attrs[key]) for key, label in named.items() if key in data.attrs
+    }
     for name, usual in (("status", "ok"), ("message", "completed"), ("recording", EVERY_STEP)):
         if found.get(name) == usual:
             found.pop(name)
@@ -237,8 +233,7 @@ def _require_finite(moved: Movements, shown: list[Response], nodes: FloatArray) 
         if not good.all():
             step = int(np.argmin(good))
             msg = (
-                f"{name.replace('_', ' ')} of step {step} of {len(values)} is not finite, and cannot "
-                "be drawn: view the part before it, data.isel(time=slice(0, "
-                f"{step}))"
+                f"{name.replace('_', ' ')} of step {step} of {len(values)} is not finite, and "
+                f"cannot be drawn: view the part before it, data.isel(time=slice(0, {step}))"
             )
             raise ValueError(msg)

@@ -68,9 +68,7 @@ def responses(data: xr.Dataset) -> list[Response]:
     return found
 
 
-def _response(
-    name: str, unit: str, factor: float, values: xr.DataArray, place: str
-) -> Response:
+def _response(name: str, unit: str, factor: float, values: xr.DataArray, place: str) -> Response:
     if not place:
         values, place = values.expand_dims("place"), "place"
     numbers = values.transpose("time", place, "axis").to_numpy().astype(np.float64)

@@ -40,10 +40,8 @@ def structure_of(model: FrameData, system: System) -> dict[str, object]:
     table = system.members
     kinds, of_kind = _bending(system)
     ends = system.coordinates[table.nodes] + table.offsets
-    joined = [
-        [index[part.i], index[part.j]]
-        for part in (*model.springs.values(), *model.links.values())
-    ]
+    joined = [[index[one.i], index[one.j]] for one in model.springs.values()]
+    joined += [[index[one.i], index[one.j]] for one in model.links.values()]
     mass = system.node_mass[:, :3].max(axis=1)
     largest = float(mass.max()) if len(mass) else 0.0
     supports = [index[name] for name, held in model.fixed_dofs.items() if {"ux", "uy", "uz"} & held]

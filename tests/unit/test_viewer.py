@@ -1,7 +1,6 @@
-"""The page to look at a run in motion: its numbers are those of the Dataset, and what is refused."""
+"""The page of a run in motion: its numbers are those of the Dataset, and what is refused."""
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ from frames.viewer import write_view
 from frames.viewer.instants import kept_steps
 from frames.viewer.payload import SHAPE_ERROR
 from frames.viewer.shapes import as_shapes
-from tests.viewed import BEARING, building, payload
+from tests.viewed import BEARING, Judged, building, payload
 
 pytestmark = pytest.mark.meant("eccentricity|settles by|gap|slip")
 HALF = 0.51 / 32767  # of the largest: half a step of 16 bits, and rounding
@@ -89,12 +88,17 @@ def test_contacts_are_those_of_the_dataset(
     for k, surface in enumerate(("bottom", "top")):
         assert_array_equal(bits & (1 << k) > 0, data["rim_force"].sel(surface=surface) > 0.0)
     assert_array_equal(bits & 8 > 0, data["axial_force"] <= 0.0)
-    slides = bits & 4 > 0
-    # where it slides the slip goes on between the neighbours, where not it stays (1 mm/s, 5 ms)
-    slip = data["interface_slip"].to_numpy()
-    gone = np.linalg.norm(slip[2:] - slip[:-2], axis=-1)
-    assert_array_equal(slides[1:-1], gone > 1e-3 * 2.0 * 0.005)
-    assert slides.any() and not slides.all()
+    # where it slides its friction is used up, where not there is some left: in all but the steps
+    # at which one turns into the other
+    load, static = data["axial_force"], data["static_axial_force"]
+    share = (data["interface_force"] / (data["interface_friction"] * load)).to_numpy()
+    loaded, slides = (load > 0.2 * static).to_numpy(), bits & 4 > 0
+    assert 0.02 < slides[loaded].mean() < 0.5
+    assert np.mean(slides[loaded] == (share[loaded] > 0.999)) > 0.97
+    # a residual slip that the turning sliders carry along is none (90 % would slide in space)
+    left = (data["interface_slip_size"] > 0.01).to_numpy() & (share < 0.5) & loaded
+    assert left.sum() > 100
+    assert slides[left].mean() < 0.1
 
 
 def test_extremes_and_geometry_are_exact(
@@ -152,9 +156,8 @@ def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(
         lifted = data["axial_force"].sel(bearing=name).to_numpy() <= 0.0
         apart = vertex - (u + device.slider_height * up)
         assert_allclose(apart[lifted], 0.0, atol=1e-9)
-        # under load by the closure of the contact: up to 2 MN on some 5 GN/m
-        load = data["axial_force"].sel(bearing=name).to_numpy()
-        assert_allclose(apart[load > 0.3 * load[0]], 0.0, atol=1e-3)
+        # before the ground drops: but for the closure of the contact under its load
+        assert_allclose(apart[:30], 0.0, atol=1e-3)
         assert not moved.opening[~lifted].any()
         gap = uplift_gap(data).sel(bearing=name).to_numpy()
         assert gap.max() > 0.01
@@ -225,18 +228,6 @@ def test_other_models_have_a_page(kind: str, tmp_path: Path) -> None:
     named = [one["name"] for one in held["responses"]]
     assert ("storey drift" in named) == (kind == "stick")
     require_close(held["bearings"]["displacement"], data["bearing_displacement"])
-
-
-@dataclass
-class Judged:
-    title: str
-    note: str
-    verdict: str = "FAILS"
-    concerns: str = "lower"
-    relation: str = "<="
-    said: tuple[str, str, str] = ("1 kN", "2 kN", "0.5")
-    ratio: float = float("inf")
-    cited: str = "a code 1.2 *"
 
 
 def test_texts_stay_texts_and_nothing_is_fetched(

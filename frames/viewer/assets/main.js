@@ -92,16 +92,16 @@
 
   content.largest = content.peaks.displacement.reduce((most, [size]) => Math.max(most, size), 0);
   const model = Model.make(canvasOf("model"), content, view, choose);
-  const figures = [
-    Section.make(canvasOf("section"), view),
-    Plots.loop(canvasOf("loop"), view, loopDirection),
-    Plots.orbit(canvasOf("orbit"), view),
-    Plots.response(canvasOf("response"), view, chosenResponse),
-    Timeline.make(byId("timeline"), view),
-  ];
+  const figures = {
+    section: Section.make(canvasOf("section"), view),
+    loop: Plots.loop(canvasOf("loop"), view, loopDirection),
+    orbit: Plots.orbit(canvasOf("orbit"), view),
+    response: Plots.response(canvasOf("response"), view, chosenResponse),
+    timeline: Timeline.make(byId("timeline"), view),
+  };
 
   function draw() {
-    figures.forEach((figure) => figure.draw());
+    Object.values(figures).forEach((figure) => figure.draw());
     model.update();
     Tables.readings(byId("readings"), view);
     byId("now").textContent = `${view.now.toFixed(3)} s`;
@@ -230,5 +230,5 @@
   head();
   controls();
   draw();
-  window.view = { content, clock, view, model }; // for a console, and for tests
+  window.view = { content, clock, view, model, figures }; // for a console, and for tests
 })();

@@ -149,6 +149,7 @@ const Model = (() => {
       model.factor = factor;
       model.update();
     };
+    model.onScreen = (k) => placeOnScreen(canvas, camera, scene.bodies.topPlate, k);
     const resize = () => {
       const box = canvas.parentElement.getBoundingClientRect();
       if (!box.width) return;
@@ -336,6 +337,15 @@ const Model = (() => {
     controls.update();
   }
 
+  // Where a body of a bearing is in the window [px].
+  function placeOnScreen(canvas, camera, mesh, k) {
+    const box = canvas.getBoundingClientRect();
+    const matrix = new THREE.Matrix4();
+    mesh.getMatrixAt(k, matrix);
+    const point = new THREE.Vector3().setFromMatrixPosition(matrix).project(camera);
+    return [box.left + ((point.x + 1) / 2) * box.width, box.top + ((1 - point.y) / 2) * box.height];
+  }
+
   // A click that is no drag chooses the bearing nearest to it on the screen.
   function choose(canvas, camera, scene, said) {
     const REACH = 36; // px
@@ -343,18 +353,11 @@ const Model = (() => {
     canvas.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; });
     canvas.addEventListener("pointerup", (event) => {
       if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 5) return;
-      const box = canvas.getBoundingClientRect();
-      const point = new THREE.Vector3();
-      const matrix = new THREE.Matrix4();
       let nearest = { away: REACH, k: null };
       for (const mesh of [scene.bodies.bottomPlate, scene.bodies.topPlate]) {
         for (let k = 0; k < mesh.count; k++) {
-          mesh.getMatrixAt(k, matrix);
-          point.setFromMatrixPosition(matrix).project(camera);
-          const away = Math.hypot(
-            box.left + ((point.x + 1) / 2) * box.width - event.clientX,
-            box.top + ((1 - point.y) / 2) * box.height - event.clientY,
-          );
+          const [x, y] = placeOnScreen(canvas, camera, mesh, k);
+          const away = Math.hypot(x - event.clientX, y - event.clientY);
           if (away < nearest.away) nearest = { away, k };
         }
       }

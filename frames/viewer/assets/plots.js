@@ -95,6 +95,7 @@ const Plots = (() => {
       context.setLineDash([]);
       context.restore();
       drawn = curve(context, axes, xs, ys, view, series.touches);
+      figure.axes = axes;
     });
     onPress(canvas, (x, y) => view.setStep(nearest(drawn, x, y)));
     return figure;
