@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.frame import Frame
 
-SHAPE_ERROR = 5e-4
+SHAPE_ERROR = 1e-3
 """Allowed error of nodal displacements by their shapes, over the largest displacement [-]."""
 
 _FEWEST = 200  # steps that are kept, however large the model
@@ -174,13 +174,11 @@ def _facts(data: xr.Dataset) -> dict[str, str]:
         "recording": "recording",
         "source": "computed with",
     }
-    found = {
-        label or key: str(data.attrs[key]) for key, label in named.items() if key in data.attrs
-    }
+    found = {label or key: str(data.attrs.get(key, "")) for key, label in named.items()}
     for name, usual in (("status", "ok"), ("message", "completed"), ("recording", EVERY_STEP)):
-        if found.get(name) == usual:
+        if found[name] == usual:
             found.pop(name)
-    return found
+    return {name: text for name, text in found.items() if text}
 
 
 def _said_of(

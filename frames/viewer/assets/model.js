@@ -12,13 +12,16 @@ const Model = (() => {
     return [...NICE].reverse().find((factor) => factor <= wanted) ?? 1;
   }
 
-  function boundsOf(nodes) {
+  // The box around all nodes, and around the plates of bearings in plan.
+  function boundsOf({ structure, devices }) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
-    nodes.forEach((value, k) => {
-      low[k % 3] = Math.min(low[k % 3], value);
-      high[k % 3] = Math.max(high[k % 3], value);
+    const include = (place, radius) => place.forEach((value, c) => {
+      low[c] = Math.min(low[c], value - (c < 2 ? radius : 0));
+      high[c] = Math.max(high[c], value + (c < 2 ? radius : 0));
     });
+    for (let k = 0; k < structure.nodes.length; k += 3) include(structure.nodes.slice(k, k + 3), 0);
+    structure.bearings.forEach(([i], k) => include(structure.nodes.slice(3 * i, 3 * i + 3), plateRadius(devices[k])));
     const middle = low.map((value, k) => (value + high[k]) / 2);
     return { low, high, middle, extent: Math.hypot(...low.map((value, k) => high[k] - value)) || 1 };
   }
@@ -176,7 +179,7 @@ const Model = (() => {
   function build(content) {
     const { structure } = content;
     const root = new THREE.Scene();
-    const bounds = boundsOf(structure.nodes);
+    const bounds = boundsOf(content);
     const stations = structure.members.bending.shape[1] || 2;
     const members = fatLines(structure.members.kind.length * (stations - 1), 2.2);
     const pairs = fatLines(structure.pairs.length, 1.4);
@@ -186,10 +189,10 @@ const Model = (() => {
     const bodies = bearingBodies(content);
     const level = Math.min(...structure.bearings.map(([i]) => structure.nodes[3 * i + 2]), bounds.low[2]);
     const masses = massesOf(structure, bounds);
-    const ring = new THREE.Mesh(new THREE.TorusGeometry(1, 0.05, 8, 60), new THREE.MeshBasicMaterial());
+    const ring = new THREE.Mesh(new THREE.TorusGeometry(1, 0.035, 8, 60), new THREE.MeshBasicMaterial());
     const supports = supportsOf(structure, bounds);
     const thick = Math.max(...content.devices.map((one) => one.sliderHeight));
-    const bodySize = Math.max(1, (BODY * bounds.extent) / Math.max(...content.devices.map(plateRadius)));
+    const bodySize = sizeOfBodies(content, bounds);
     const ground = groundOf(bounds, level + thick - 1.35 * bodySize * thick);
     const sky = new THREE.HemisphereLight(0xffffff, 0x9aa4b0, 2.2);
     sky.position.set(0, 0, 1);
@@ -281,6 +284,19 @@ const Model = (() => {
     });
   }
 
+  // How many times as large as they are bearings are drawn: to be seen, and apart from each other.
+  function sizeOfBodies(content, bounds) {
+    const { nodes, bearings } = content.structure;
+    const places = bearings.map(([i]) => nodes.slice(3 * i, 3 * i + 2));
+    let spacing = Infinity;
+    places.forEach(([x, y], k) => places.slice(0, k).forEach(([u, w]) => {
+      const apart = Math.hypot(x - u, y - w);
+      if (apart > 0) spacing = Math.min(spacing, apart);
+    }));
+    const wanted = Math.min(BODY * bounds.extent, 0.2 * spacing);
+    return Math.max(1, wanted / Math.max(...content.devices.map(plateRadius)));
+  }
+
   const plateRadius = (device) =>
     Math.max(...device.rimFaces.map((face) => face ?? device.reach)) + 0.3 * device.sliderHeight;
 
@@ -296,13 +312,14 @@ const Model = (() => {
     const top = [0, 1].map((c) => bottom[c] + factor * state.slip[c]);
     const edge = Math.max(0, ...device.rimFaces.map((face, s) => (face === null ? 0 :
       size * (device.radii[s] - Math.sqrt(device.radii[s] ** 2 - face ** 2) + 0.5 * device.rimHeight))));
-    const high = Math.max(j[2], i[2] + device.sliderHeight);
-    const low = high - h;
-    const middle = low + size * device.planeHeight;
+    const low = i[2] + device.sliderHeight - h;
+    const high = Math.max(j[2], low + h);
+    const foot = (low + high - h) / 2; // sliders go half of what the top plate rises
+    const middle = foot + size * device.planeHeight;
     place(scene.bodies.bottomPlate, k, [i[0], i[1], low - 0.175 * h + edge / 2], plate, 0.35 * h + edge,
       state.rims[0] ? "rim" : "plate");
-    place(scene.bodies.bottomSlider, k, [...bottom, (low + middle) / 2], a, middle - low, state.slips ? "slip" : "low");
-    place(scene.bodies.topSlider, k, [...top, (middle + low + h) / 2], a, h - (middle - low),
+    place(scene.bodies.bottomSlider, k, [...bottom, (foot + middle) / 2], a, middle - foot, state.slips ? "slip" : "low");
+    place(scene.bodies.topSlider, k, [...top, (middle + foot + h) / 2], a, h - (middle - foot),
       state.slips ? "slip" : device.rigid ? "low" : "high");
     place(scene.bodies.topPlate, k, [j[0], j[1], high + 0.175 * h - edge / 2], plate, 0.35 * h + edge,
       state.lifted ? "gap" : state.rims[1] ? "rim" : "plate");
@@ -320,7 +337,7 @@ const Model = (() => {
 
   // A view on the whole model from the front left, whatever the shape of the canvas.
   function fit(camera, controls, bounds, farther) {
-    const radius = 0.5 * bounds.extent + 0.35 * farther;
+    const radius = 0.5 * bounds.extent + 0.5 * farther;
     const half = (camera.fov * Math.PI) / 360;
     const narrow = Math.min(half, Math.atan(Math.tan(half) * camera.aspect));
     const distance = radius / Math.sin(narrow);
