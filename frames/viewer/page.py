@@ -88,7 +88,7 @@ def write_view(
     >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     said = write_view(time_history(frame, pulse), frame, f"{folder}/view.html")
-    >>> "view.html" in said, "101 of 101 steps" in said
+    >>> "view.html" in said, "401 of 401 steps" in said
     (True, True)
     """
     if not 0.0 < size < math.inf:

@@ -327,6 +327,8 @@ def test_a_run_is_viewed_in_motion(done: Path) -> None:
     thin = run(app, ["view", str(small), "--results", str(out), "--size", "0.2"])
     assert thin.exit_code == 0, thin.output
     assert payload(written)["kept"]["steps"] < held["kept"]["steps"]
+    run(app, ["report", "--no-figures", str(small), "--results", str(out)])
+    assert not written.exists()  # its checks may be others by now
 
 
 def test_what_cannot_be_viewed_says_what_to_run(done: Path) -> None:
