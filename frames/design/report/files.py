@@ -40,7 +40,8 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
     run : ProjectRun
         The run.
     folder : Path
-        Made if it is not there; files of an earlier run are written over, its histories and view.html removed.
+        Made if it is not there; files of an earlier run are written over, its histories and the
+        page of `lir view` removed.
     source : str
         Text of the project's file, which is kept beside the results.
     figures : bool
