@@ -156,6 +156,10 @@ def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(
         lifted = data["axial_force"].sel(bearing=name).to_numpy() <= 0.0
         apart = vertex - (u + device.slider_height * up)
         assert_allclose(apart[lifted], 0.0, atol=1e-9)
+        turned = data["body_rotation"].sel(bearing=name, body="top_plate").to_numpy()[lifted]
+        leans = np.column_stack([turned[:, 1], -turned[:, 0]])
+        assert np.abs(leans).max() > 1e-3
+        assert_allclose(moved.plate_axis[lifted, :2], leans, atol=1e-6)
         # before the ground drops: but for the closure of the contact under its load
         assert_allclose(apart[:30], 0.0, atol=1e-3)
         assert not moved.opening[~lifted].any()
@@ -196,6 +200,10 @@ def test_steps_go_where_lines_miss_most() -> None:
     assert {0, 50, 100} <= set(kept)
     assert len(kept) == 12
     assert np.sum((kept >= 44) & (kept <= 56)) >= 8
+    two = np.exp(-(((time - 0.25) / 0.03) ** 2)) + np.exp(-(((time - 0.75) / 0.03) ** 2))
+    touched = np.abs(time - 0.75) < 0.1
+    weighed = kept_steps(time, two[:, None], touched, 24)
+    assert np.sum(weighed > 50) >= 1.4 * np.sum(weighed < 50)
     straight = kept_steps(time, time[:, None], np.zeros(101, dtype=bool), 12)
     assert len(straight) <= 12  # a line needs its ends alone
     assert_array_equal(kept_steps(time, bump, np.zeros(101, dtype=bool), 200), np.arange(101))

@@ -15,6 +15,7 @@ pytest.importorskip("playwright", reason="playwright is not installed")
 from playwright.sync_api import sync_playwright
 
 from frames.plots.bearing_geometry import outlines, posture
+from frames.plots.bearing_movement import movement
 from frames.plots.drawn_device import device_of
 from frames.viewer import write_view
 from tests.patience import patience
@@ -122,11 +123,14 @@ def test_numbers_are_those_of_the_run(page: Any) -> None:
 def test_bodies_are_where_figures_draw_them(page: Any) -> None:
     data = building()[1]
     names = list(map(str, data["bearing"].to_numpy()))
-    rims = data["rim_force"].sum(["bearing", "surface"]).to_numpy()
-    gaps = (data["axial_force"] <= 0.0).sum("bearing").to_numpy()
-    for step in (0, int(rims.argmax()), int(gaps.argmax())):
-        for name in (names[0], names[-1]):
-            time, device = float(data["time"][step]), device_of(data, name)
+    for name in (names[0], names[-1]):
+        device = device_of(data, name)
+        pressed = data["rim_force"].sel(bearing=name)
+        gone = np.linalg.norm(movement(data, device, name).opening[:, :2], axis=1)
+        assert gone.max() > 2e-3
+        rims = [int(pressed.sel(surface=each).argmax("time")) for each in ("bottom", "top")]
+        for step in (0, *rims, int(gone.argmax())):
+            time = float(data["time"][step])
             found = page.evaluate(
                 """([time, k]) => {
                   view.clock.set(time);
@@ -135,7 +139,7 @@ def test_bodies_are_where_figures_draw_them(page: Any) -> None:
                   const state = view.view.bearingNow();
                   const direction = view.view.direction();
                   const now = SectionGeometry.posture(state, direction);
-                  return { direction, ...SectionGeometry.bodies(view.view.device(), now) };
+                  return { direction, state, ...SectionGeometry.bodies(view.view.device(), now) };
                 }""",
                 [time, names.index(name)],
             )
@@ -147,6 +151,11 @@ def test_bodies_are_where_figures_draw_them(page: Any) -> None:
                 assert_allclose(
                     found[body][-corners:], wanted[words][-corners:], rtol=0.0, atol=2.5e-4
                 )
+            for k, face in enumerate(("bottomFace", "topFace")):
+                if found["state"]["rims"][k]:  # the rim that is marked stands at the slider's edge
+                    edges, mark = np.array(found[face])[[0, -1]], np.array(found["rims"][k])
+                    apart = np.linalg.norm(edges[:, None] - mark[None], axis=-1).min()
+                    assert apart < 0.02 < device.slider_radius
 
 
 def test_the_cut_follows_the_displacement_without_a_jump(page: Any) -> None:
