@@ -1,4 +1,4 @@
-"""The command ``lir``: new, check, design, run, report, compare, bench, campaign, schema."""
+"""The command ``lir``: new, check, design, run, report, view, compare, bench, campaign, schema."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.console import FAILED_CHECKS, err, out, say, told
+from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
@@ -167,6 +168,9 @@ def report(
         source = file.read_text(encoding="utf-8")
         written = write_judgement(found, results, source, figures=figures)
         _told_of(found, written, results)
+
+
+app.command()(view)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:

@@ -17,7 +17,7 @@ from frames.plots.bearing_geometry import (
     contact_points,
     outlines,
     posture,
-    rim_face,
+    surface_reach,
 )
 from frames.plots.drawn_device import device_of, require_own
 
@@ -190,7 +190,7 @@ def _draw_panels(
 ) -> Figure:
     columns = 1 if len(chosen) == 1 else 2
     rows = math.ceil(len(chosen) / columns)
-    reach = _reach(data, device)
+    reach = surface_reach(data, device)
     frame = _window([outlines(device, now, reach) for now in postures])
     share = (frame[3] - frame[2]) / (frame[1] - frame[0])
     figure = ps.new_figure(0.75 + rows * (0.62 + share * (ps.PAGE_WIDTH / columns - 0.15)))
@@ -306,16 +306,6 @@ def _plane(data: xr.Dataset, name: str, instants: Mapping[str, float]) -> FloatA
     u = data["bearing_displacement"].sel(bearing=name, axis=list(ps.PLANE))
     sizes = np.linalg.norm(u.sel(time=times, method="nearest").to_numpy(), axis=1)
     return impact_direction(data, name, times[int(np.argmax(sizes))])
-
-
-def _reach(data: xr.Dataset, device: Geometry) -> float:
-    # Half the width of the surfaces, also where there are no rims [m].
-    face = max(rim_face(device, 0), rim_face(device, 1))
-    if math.isfinite(face):
-        return face
-    sliding = data["slider_displacement"].sel(axis=list(ps.PLANE)).to_numpy()
-    far = 1.05 * float(np.linalg.norm(sliding, axis=-1).max()) + device.slider_radius
-    return min(far, 0.95 * min(device.radii))
 
 
 def _window(drawn: Sequence[Mapping[str, FloatArray]]) -> tuple[float, float, float, float]:

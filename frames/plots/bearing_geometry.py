@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.plots.bearing_movement import movement
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -40,40 +41,21 @@ class Posture:
         Interface slip of the top slider on the bottom one, along `across` [m].
     lift : float
         Gap that has opened between the top slider and the top plate, along `axis` [m].
+    aside : float
+        How far the top plate of a bearing that has lifted has gone on without the slider, along
+        `across` [m].
     """
 
     axis: FloatArray
     plate_axis: FloatArray
     slip: float
     lift: float = 0.0
+    aside: float = 0.0
 
     @property
     def across(self) -> FloatArray:
         """Unit vector in the interface, to the right."""
         return np.array([self.axis[1], -self.axis[0]])
-
-
-def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
-    """Return the slider's axis of a bearing over time, from its sliding on the bottom plate.
-
-    With ``d1 = -R1 (n - e_i)`` and a bottom plate that stays level, ``n = (0, 0, 1) - d1 / R1``.
-
-    Parameters
-    ----------
-    data : Dataset
-        Holds `slider_displacement`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    ndarray, shape (n_steps, 3)
-        Unit vectors n.
-    """
-    sliding = data["slider_displacement"].sel(bearing=name, surface="bottom").to_numpy()
-    return np.array([0.0, 0.0, 1.0]) - sliding / bearing.radii[0]
 
 
 def posture(
@@ -98,29 +80,16 @@ def posture(
     -------
     Posture
         Axes, slip and lift in the plane.
-
-    Notes
-    -----
-    The gap of a bearing that carries nothing is what its string l is shorter than L:
-    ``c = C2 - C1 = -l n + s`` (docs/theory.md, section 1), with c from the nodes' displacement.
     """
-    now = data.sel(time=time, method="nearest")
     place = int(np.argmin(np.abs(data["time"].to_numpy() - time)))
-    axis = slider_axis(data, bearing, name)[place]
-    top = now["slider_displacement"].sel(bearing=name, surface="top").to_numpy()
-    plate = axis + top / bearing.radii[1]  # d2 = -R2 (n - e_j)
-    flat = _in_plane(axis, direction)
-    slip = now["interface_slip"].sel(bearing=name).to_numpy()
+    now = movement(data.isel(time=[place]), bearing, name)
+    flat, slip = _in_plane(now.axis[0], direction), now.slip[0]
     across = np.array([flat[1], -flat[0]])
     inside = np.array([slip[:2] @ direction, slip[2]])
-    lift = 0.0
-    if not float(now["axial_force"].sel(bearing=name)) > 0.0:
-        length = sum(bearing.radii) - bearing.slider_height
-        up, lever = np.array([0.0, 0.0, 1.0]), float(now["lever"].sel(bearing=name, surface="top"))
-        u = now["bearing_displacement"].sel(bearing=name).to_numpy()
-        centres = u - length * up - lever * (plate - up)
-        lift = max(0.0, length + float(centres @ axis))
-    return Posture(flat, _in_plane(plate, direction), float(inside @ across), lift)
+    plate, gone = _in_plane(now.plate_axis[0], direction), now.opening[0]
+    apart = np.array([gone[:2] @ direction, gone[2]])
+    lift, aside = max(0.0, float(apart @ flat)), float(apart @ across)
+    return Posture(flat, plate, float(inside @ across), lift, aside)
 
 
 def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
@@ -146,7 +115,7 @@ def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
     middle = bottom + plane_height(bearing) * now.axis
     middle_top = middle + now.slip * now.across
     top = middle_top + (bearing.slider_height - plane_height(bearing)) * now.axis
-    centre_top = top + (now.lift - r_2) * now.axis
+    centre_top = top + (now.lift - r_2) * now.axis + now.aside * now.across
     return {
         "centre bottom": centre,
         "centre top": centre_top,
@@ -274,6 +243,29 @@ def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dic
         "top slider": points["top"] + _placed(half[1] * (1.0, -1.0), normal),
         "top plate": points["vertex"] + _placed(sides[1] * (1.0, -1.0), plate),
     }
+
+
+def surface_reach(data: xr.Dataset, bearing: Geometry) -> float:
+    """Return half the width of the concave surfaces as drawn [m], also where there are no rims.
+
+    Parameters
+    ----------
+    data : Dataset
+        Holds `slider_displacement`, which the surfaces of a bearing without rims shall hold.
+    bearing : Device or LIRBearing
+        The device.
+
+    Returns
+    -------
+    float
+        To the face of the wider rim; without rims to the edge of the slider where it went farthest.
+    """
+    face = max(rim_face(bearing, 0), rim_face(bearing, 1))
+    if math.isfinite(face):
+        return face
+    sliding = data["slider_displacement"].sel(axis=["x", "y"]).to_numpy()
+    far = 1.05 * float(np.linalg.norm(sliding, axis=-1).max()) + bearing.slider_radius
+    return min(far, 0.95 * min(bearing.radii))
 
 
 def area_of(outline: FloatArray) -> float:

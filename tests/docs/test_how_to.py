@@ -47,3 +47,12 @@ def test_sections_are_those_of_the_report() -> None:
     table = page.partition("## Section by section")[2].partition("##")[0]
     assert heads
     assert re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)[1:] == heads
+
+
+def test_panels_are_those_of_the_view() -> None:
+    template = ROOT / "frames" / "viewer" / "assets" / "view.html"
+    heads = re.findall(r"<h2>([^<]+)</h2>", template.read_text(encoding="utf-8"))
+    page = (ROOT / "docs" / "view.md").read_text(encoding="utf-8")
+    table = page.partition("## What is to be seen")[2].partition("\n\n")[2].partition("\n\n")[0]
+    assert heads
+    assert re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)[1:] == heads

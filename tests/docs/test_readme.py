@@ -24,6 +24,7 @@ PAGES = (
     "docs/fragility.md",
     "docs/campaigns.md",
     "docs/test_programme.md",
+    "docs/view.md",
 )
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)

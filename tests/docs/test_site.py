@@ -28,6 +28,7 @@ MODULES = (
     "frames",
     "frames.laws",
     "frames.plots",
+    "frames.viewer",
     "frames.design",
     "frames.design.plots",
     "frames.risk",

@@ -89,6 +89,7 @@ FLOORS = (
     "frames.solve",
     "frames.batch",
     "frames.plots",
+    "frames.viewer",
     "frames.design.calculation",
     "frames.design.hazard",
     "frames.design.codes",

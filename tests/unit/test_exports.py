@@ -16,6 +16,7 @@ PACKAGES = [
     "frames",
     "frames.laws",
     "frames.plots",
+    "frames.viewer",
     "frames.design",
     "frames.design.plots",
     "frames.risk",

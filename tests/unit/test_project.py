@@ -29,6 +29,7 @@ from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way
 from frames.design.report import files, writing
+from tests.viewed import payload
 
 SMALL = """
 [project]
@@ -305,6 +306,49 @@ def test_a_run_writes_what_its_parts_give(run_once: tuple[Path, Any]) -> None:
     each = runs["reached_displacement"].max("run")
     upper = next(name for name in demands.columns if name.startswith("upper, "))
     assert demands.loc["isolator displacement", upper] == pytest.approx(float(each.max()))
+
+
+def test_a_run_is_viewed_in_motion(done: Path) -> None:
+    """The page has the governing run, and the checks as the run's table has them."""
+    small, out = done / "small.toml", done / "out"
+    found = run(app, ["view", str(small), "--results", str(out)])
+    assert found.exit_code == 0, found.output
+    written = out / "view.html"
+    assert f"{written}: {written.stat().st_size / 1e6:.1f} MB" in found.output
+    facts = json.loads((out / "run.json").read_text(encoding="utf-8"))
+    assert facts["governing_case"] in found.output
+    held, table = payload(written), pd.read_csv(out / "checks.csv", keep_default_na=False)
+    assert [check["title"] for check in held["checks"]] == list(table["title"])
+    assert [check["verdict"] for check in held["checks"]] == list(table["verdict"])
+    governing = load(out / "governing.nc")
+    u = governing["bearing_displacement"].to_numpy()
+    largest = np.linalg.norm(u[..., :2].astype(float), axis=-1).max(axis=0)
+    assert [value for value, _ in held["peaks"]["displacement"]] == pytest.approx(largest)
+    thin = run(app, ["view", str(small), "--results", str(out), "--size", "0.2"])
+    assert thin.exit_code == 0, thin.output
+    assert payload(written)["kept"]["steps"] < held["kept"]["steps"]
+    run(app, ["report", "--no-figures", str(small), "--results", str(out)])
+    assert not written.exists()  # its checks may be others by now
+
+
+def test_what_cannot_be_viewed_says_what_to_run(done: Path) -> None:
+    small, out = done / "small.toml", done / "out"
+
+    def refused(results: Path, *more: str) -> str:
+        found = run(app, ["view", str(small), "--results", str(results), *more])
+        assert found.exit_code == 2, found.output
+        return " ".join(found.output.split())
+
+    assert "holds no run: `lir run` makes one" in refused(done / "nothing")
+    assert "size = 0 MB must be positive" in refused(out, "--size", "0")
+    checks = (out / "checks.csv").read_text(encoding="utf-8")
+    (out / "checks.csv").write_text(checks.replace(",verdict", ",word"), encoding="utf-8")
+    assert "checks.csv has no column verdict: `lir report` writes it anew" in refused(out)
+    (out / "checks.csv").unlink()
+    assert "checks.csv is missing: `lir report` writes it" in refused(out)
+    small.write_text(small.read_text().replace('storey_height = "3 m"', 'storey_height = "4 m"'))
+    assert "are of another input (structure differ): `lir run` makes new ones" in refused(out)
+    assert not (out / "view.html").exists()
 
 
 def test_nch2745_is_run_at_both_levels(folder: Path) -> None:

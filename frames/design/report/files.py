@@ -40,7 +40,8 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
     run : ProjectRun
         The run.
     folder : Path
-        Made if it is not there; files of an earlier run are written over, its histories removed.
+        Made if it is not there; files of an earlier run are written over, its histories and the
+        page of `lir view` removed.
     source : str
         Text of the project's file, which is kept beside the results.
     figures : bool
@@ -76,6 +77,7 @@ def write_judgement(
     run: ProjectRun, folder: Path, source: str, *, figures: bool = True
 ) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
+    (folder / "view.html").unlink(missing_ok=True)  # of `lir view`, with the checks of before
     tables = run_tables(run)
     texts = {
         "project.toml": source,

@@ -1,0 +1,37 @@
+"""The command that writes the page on which a run is looked at in motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from frames.command.console import say, told
+from frames.design._errors import ProjectError
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.reading import read_project
+
+
+def view(
+    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    results: Annotated[Path, typer.Option(help="Folder with the results.")] = Path("results"),
+    size: Annotated[float, typer.Option(help="What the histories may take [MB].")] = 3.0,
+) -> None:
+    """Write view.html: model and bearings of the governing run in motion, on one page."""
+    from frames.design.report.files import read_histories
+    from frames.design.report.kept_checks import read_checks
+    from frames.viewer import write_view  # with figures
+
+    with told():
+        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        histories = read_histories(results, inputs_of(parts, preliminary(parts)))
+        checks = read_checks(results)
+        try:
+            said = write_view(
+                histories.governing, parts.frame(), results / "view.html", checks=checks, size=size
+            )
+        except (OSError, ValueError) as cause:
+            raise ProjectError(str(cause)) from cause
+        say(f"{said}; the run: {histories.governing_case}")

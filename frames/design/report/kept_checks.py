@@ -1,0 +1,66 @@
+"""The checks of a run, read again from the table among its results."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from frames.design._errors import ProjectError
+from frames.design.calculation.check import Check, Checks
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_TEXTS = (
+    "clause",
+    "title",
+    "symbol",
+    "unit",
+    "relation",
+    "standing",
+    "bound",
+    "subject",
+    "note",
+    "void",
+    "level",
+)
+_SHOWN = {"m": "mm"}
+
+
+def read_checks(folder: Path) -> Checks:
+    """Return the checks that ``checks.csv`` holds, without their calculations.
+
+    Parameters
+    ----------
+    folder : Path
+        Results of `write_run`.
+
+    Returns
+    -------
+    Checks
+        With the numbers and verdicts of the table; lengths are shown in mm.
+
+    Raises
+    ------
+    ProjectError
+        If there is no such table, or it is not one that `lir run` wrote.
+    """
+    path = folder / "checks.csv"
+    if not path.is_file():
+        msg = f"{path} is missing: `lir report` writes it from the histories of the run"
+        raise ProjectError(msg)
+    table = pd.read_csv(path, dtype=dict.fromkeys(_TEXTS, str), keep_default_na=False)
+    missing = sorted({*_TEXTS, "demand", "limit", "verdict"} - {*map(str, table.columns)})
+    if missing:
+        msg = f"{path} has no column {', '.join(missing)}: `lir report` writes it anew"
+        raise ProjectError(msg)
+    return Checks(_check(row) for row in table.to_dict("records"))
+
+
+def _check(row: dict[Any, Any]) -> Check:
+    texts = {name: row[name] for name in _TEXTS}
+    scope = "procedure" if row["verdict"] == "does not apply" else "any"
+    shown = _SHOWN.get(row["unit"], "")
+    numbers = {name: float(row[name]) for name in ("demand", "limit")}
+    return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them

@@ -1,0 +1,237 @@
+"""From a result and its model to what the page holds: thinned, packed, told how."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+
+from frames.assembly.assemble import assemble
+from frames.plots.plot_choice import choose_bearing, in_window
+from frames.recording.recovery import require_own
+from frames.results.assumption_checks import doubts_of
+from frames.results.recorded import EVERY_STEP
+from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
+from frames.viewer.instants import kept_steps, line_error
+from frames.viewer.packing import exact, scaled
+from frames.viewer.responses import Response, responses
+from frames.viewer.shapes import as_shapes
+from frames.viewer.structure import structure_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import xarray as xr
+
+    from frames._types import FloatArray, IntArray
+    from frames.frame import Frame
+
+SHAPE_ERROR = 1e-3
+"""Allowed error of nodal displacements by their shapes, over the largest displacement [-]."""
+
+_FEWEST = 200  # steps that are kept, however large the model
+_SHAPES = 40  # that a step is reckoned to have, before they are found
+_ARM = 3.0  # m, by which rotations of nodes count
+
+
+class ShownCheck(Protocol):
+    """A check as a page shows it: `frames.design.Check` is one."""
+
+    @property
+    def verdict(self) -> str:
+        """Outcome: "ok", "FAILS" or "does not apply"."""
+
+    @property
+    def title(self) -> str:
+        """What is checked."""
+
+    @property
+    def concerns(self) -> str:
+        """Of which part, bound and level."""
+
+    @property
+    def relation(self) -> str:
+        """What the demand must be to the limit: "<=" or ">="."""
+
+    @property
+    def said(self) -> tuple[str, str, str]:
+        """Demand, limit and ratio as text."""
+
+    @property
+    def ratio(self) -> float:
+        """Utilisation."""
+
+    @property
+    def cited(self) -> str:
+        """The clause."""
+
+    @property
+    def note(self) -> str:
+        """What else there is to know."""
+
+
+class Payload(NamedTuple):
+    """What the page holds, and how many steps of how many.
+
+    Attributes
+    ----------
+    content : dict
+        As JSON takes it.
+    kept, recorded : int
+        Numbers of steps.
+    """
+
+    content: dict[str, object]
+    kept: int
+    recorded: int
+
+
+def payload_of(
+    data: xr.Dataset, model: Frame, checks: Iterable[ShownCheck], size: float
+) -> Payload:
+    """Return what the page of a time history holds.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Result of `frames.time_history`.
+    model : Frame
+        Its model.
+    checks : iterable of ShownCheck
+        Checks to be shown.
+    size : float
+        What the histories may take [MB].
+
+    Returns
+    -------
+    Payload
+        Histories at the steps kept, extremes of all.
+
+    Raises
+    ------
+    ModelError
+        If the result is not one of this model.
+    ValueError
+        If a variable was not recorded, or is not finite.
+    """
+    data = in_window(data, None, None)
+    system = assemble(model)
+    require_own(model, system, data)
+    time = np.asarray(data["time"].to_numpy(), dtype=np.float64)
+    worst = choose_bearing({"the Dataset": data}, None)
+    moved, shown = movements(data), responses(data)
+    nodes = data["node_displacement"].transpose("time", "node", "dof").to_numpy()
+    _require_finite(moved, shown, nodes)
+    steps = _steps(time, moved, shown, size)
+    shapes = as_shapes(nodes[steps].astype(np.float64), _ARM, SHAPE_ERROR)
+    names = [str(name) for name in data["bearing"].to_numpy()]
+    content: dict[str, object] = {
+        "title": str(data.attrs.get("title", model.name)).removeprefix("time history of "),
+        "facts": _facts(data),
+        "warnings": list(doubts_of(data)),
+        "time": exact(time[steps], "float64"),
+        "structure": structure_of(model, system),
+        "shapes": scaled(shapes.shapes, along=1),
+        "shapeHistories": scaled(shapes.histories),
+        "devices": devices(data),
+        "worst": names.index(worst),
+        "bearings": _packed(moved, steps),
+        "peaks": peaks_of(time, moved),
+        "responses": [{**one._asdict(), "values": scaled(one.values[steps])} for one in shown],
+        "checks": [_line(check, names) for check in checks],
+        "kept": _said_of(time, moved, shown, steps, shapes.error),
+    }
+    return Payload(content, len(steps), len(time))
+
+
+def _steps(time: FloatArray, moved: Movements, shown: list[Response], size: float) -> IntArray:
+    # As many as the size allows, of all numbers that a step has.
+    numbers = sum(values[0].size for values in moved[:-1]) + sum(r.values[0].size for r in shown)
+    a_step = (2 * (numbers + _SHAPES) + moved.contacts[0].size + 8) * 4.0 / 3.0
+    curves = np.hstack([_over_largest(v) for v in (*moved[:-1], *(r.values for r in shown))])
+    contact = np.asarray((moved.contacts & ~np.uint8(SLIPS)).any(axis=1))
+    return kept_steps(time, curves, contact, max(_FEWEST, int(1e6 * size / a_step)))
+
+
+def _over_largest(values: FloatArray) -> FloatArray:
+    # Curves (n_steps, m) over the largest of all of them.
+    largest = float(np.abs(values).max(initial=0.0))
+    return values.reshape(len(values), -1) / (largest if largest > 0.0 else 1.0)
+
+
+def _packed(moved: Movements, steps: IntArray) -> dict[str, object]:
+    histories = {name: values[steps] for name, values in moved._asdict().items()}
+    contacts = exact(histories.pop("contacts"), "uint8")
+    return {"contacts": contacts, **{name: scaled(one) for name, one in histories.items()}}
+
+
+def _facts(data: xr.Dataset) -> dict[str, str]:
+    named = {
+        "motion": "motion",
+        "level": "level of model fidelity",
+        "status": "status",
+        "message": "",
+        "recording": "recording",
+        "source": "computed with",
+    }
+    found = {label or key: str(data.attrs.get(key, "")) for key, label in named.items()}
+    for name, usual in (("status", "ok"), ("message", "completed"), ("recording", EVERY_STEP)):
+        if found[name] == usual:
+            found.pop(name)
+    return {name: text for name, text in found.items() if text}
+
+
+def _said_of(
+    time: FloatArray,
+    moved: Movements,
+    shown: list[Response],
+    steps: IntArray,
+    shape_error: float,
+) -> dict[str, object]:
+    # How much the page leaves out: numbers of steps, and errors over the largest value [-].
+    groups = {
+        "displacement": moved.displacement,
+        "force": moved.force,
+        "rim force": moved.rim_force,
+        "interface slip": moved.slip,
+    } | {one.name: one.values for one in shown}
+    errors = {
+        name: line_error(time, _over_largest(values), steps) for name, values in groups.items()
+    }
+    return {
+        "steps": len(steps),
+        "recorded": len(time),
+        "errors": errors,
+        "shapeError": shape_error,
+    }
+
+
+def _line(check: ShownCheck, bearings: list[str]) -> dict[str, object]:
+    demand, limit, ratio = check.said
+    named = [k for k, name in enumerate(bearings) if name in check.concerns.split(", ")]
+    return {
+        "verdict": check.verdict,
+        "title": check.title,
+        "concerns": check.concerns,
+        "demand": demand,
+        "relation": check.relation,
+        "limit": limit,
+        "ratio": ratio,
+        "rank": min(check.ratio, 1e9),
+        "clause": check.cited,
+        "note": check.note,
+        "bearing": named[0] if named else None,
+    }
+
+
+def _require_finite(moved: Movements, shown: list[Response], nodes: FloatArray) -> None:
+    named = {**moved._asdict(), "node_displacement": nodes} | {r.name: r.values for r in shown}
+    for name, values in named.items():
+        good = np.isfinite(values).reshape(len(values), -1).all(axis=1)
+        if not good.all():
+            step = int(np.argmin(good))
+            msg = (
+                f"{name.replace('_', ' ')} of step {step} of {len(values)} is not finite, and "
+                f"cannot be drawn: view the part before it, data.isel(time=slice(0, {step}))"
+            )
+            raise ValueError(msg)

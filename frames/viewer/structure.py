@@ -1,0 +1,88 @@
+"""What a page shows of the model: nodes, lines that bend, floors, bearings, supports, masses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from frames.plots.model_geometry import STATIONS, member_lines
+from frames.viewer.packing import exact
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray, IntArray
+    from frames.assembly.system import System
+    from frames.model.frame_data import FrameData
+
+
+def structure_of(model: FrameData, system: System) -> dict[str, object]:
+    """Return the model as it stands, and how its members follow the nodes.
+
+    Parameters
+    ----------
+    model : Frame
+        The model.
+    system : System
+        It assembled.
+
+    Returns
+    -------
+    dict
+        "nodes", (n, 3) coordinates [m]; "members" with "nodes" (m, 2), "ends" (m, 2, 3),
+        "kind" (m,) and "bending" (k, stations, 3, 12), what a member of each kind adds to its
+        straight line for a unit of each displacement of its nodes; "pairs", node indices of
+        springs and links; "bearings", of the bearings; "floors", node indices around each level;
+        "supports", node indices; "masses", (n,) shares of the largest.
+    """
+    index = {name: k for k, name in enumerate(system.node_names)}
+    table = system.members
+    kinds, of_kind = _bending(system)
+    ends = system.coordinates[table.nodes] + table.offsets
+    joined = [[index[one.i], index[one.j]] for one in model.springs.values()]
+    joined += [[index[one.i], index[one.j]] for one in model.links.values()]
+    mass = system.node_mass[:, :3].max(axis=1)
+    largest = float(mass.max()) if len(mass) else 0.0
+    supports = [index[name] for name, held in model.fixed_dofs.items() if {"ux", "uy", "uz"} & held]
+    return {
+        "nodes": exact(system.coordinates, "float32"),
+        "members": {
+            "nodes": exact(table.nodes, "int32"),
+            "ends": exact(ends, "float32"),
+            "kind": exact(of_kind, "int32"),
+            "bending": exact(kinds, "float32"),
+        },
+        "pairs": joined,
+        "bearings": [[one.i, one.j] for one in system.bearings],
+        "floors": [_around(system, [index[n] for n in level.nodes]) for level in model.levels],
+        "supports": supports,
+        "masses": exact(mass / largest if largest > 0.0 else mass, "float32"),
+    }
+
+
+def _bending(system: System) -> tuple[FloatArray, IntArray]:
+    # Unlike members' lines for a unit of each of the twelve displacements, (k, stations, 3, 12),
+    # and which of these each member has.
+    table, count = system.members, len(system.members.names)
+    alone = replace(
+        table, nodes=np.arange(2 * count).reshape(count, 2), offsets=np.zeros((count, 2, 3))
+    )
+    places = np.zeros((2 * count, 3))
+    found = np.zeros((count, STATIONS, 3, 12))
+    for dof in range(12):
+        u = np.zeros((count, 12))
+        u[:, dof] = 1.0
+        found[..., dof] = member_lines(alone, places, u.reshape(-1, 6))
+    flat = np.round(found.reshape(count, STATIONS * 36), 9) + 0.0
+    _, first, kinds = np.unique(flat, axis=0, return_index=True, return_inverse=True)
+    return found[first], kinds.reshape(count)
+
+
+def _around(system: System, nodes: list[int]) -> list[int]:
+    # The nodes around a level, in order; none where they do not span an area.
+    try:
+        hull = ConvexHull(system.coordinates[nodes][:, :2])
+    except (QhullError, ValueError):
+        return []
+    return [nodes[k] for k in hull.vertices]
