@@ -49,7 +49,6 @@ if TYPE_CHECKING:
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
 _ERROR_TOLERANCE = 1e-3  # of histories over the displacement reached, where the program chooses
-_CONTACT_TOLERANCE = 1e-3  # the same with a bearing at the level 'contact': its sliders' own motion
 _HALVED_FROM = 5e-4  # tolerance below whose half the largest step is halved, below a fourth twice
 _ERROR_SHARE = 0.045  # of what a lasting force does to the pendulum: it does not last (calibrated)
 _ERROR_TIME = 8.0  # times sqrt(L / g), over which what rings gets out of phase (calibrated)
@@ -113,9 +112,9 @@ def time_history(
         Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
     tolerance : float, optional
         Error that the bearings' displacement histories may have, over the displacement reached,
-        where the program controls it: 1e-3 by default, 3e-4 where a bearing is at the level
-        "contact". Between 5e-5 and 5e-4 the error is within a factor of three of it
-        (docs/choices.md). At the level "rigid_body" that of a step over the effective radius: 1e-8.
+        where the program controls it: 1e-3 by default. Between 5e-5 and 5e-4 the error is within a
+        factor of three of it (docs/choices.md). At the level "rigid_body" that of a step over the
+        effective radius: 1e-8.
     reduction_tolerance : float, optional
         Of the method "reduced": largest difference of two runs in the peaks of bearing
         displacement and base shear, 1e-3 by default; ten times that in axial forces, floor
@@ -329,9 +328,7 @@ def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
     if options.integrator == "generalised-alpha":
         alpha_m, alpha_f = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
     length = min(placed.bearing.effective_radius for placed in state.system.bearings)
-    tolerance = options.tolerance
-    if tolerance is None:
-        tolerance = _ERROR_TOLERANCE if state.contacts is None else _CONTACT_TOLERANCE
+    tolerance = _ERROR_TOLERANCE if options.tolerance is None else options.tolerance
     return IntegratorSettings(
         dt=float(options.base),
         alpha_m=float(alpha_m),

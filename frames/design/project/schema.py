@@ -173,7 +173,7 @@ class Target(Table):
 class Analysis(Table):
     """``[analysis]``: how time histories are run, and whether uplift voids them."""
 
-    level: Literal["pendulum", "contact"] = "pendulum"
+    level: Literal["pendulum", "contact"] = "contact"
     dt: Annotated[Time, Positive] | None = None
     workers: int | None = Field(default=None, ge=1)
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
