@@ -14,6 +14,7 @@ import xarray as xr
 
 from frames.peak_data import FULL_SLIP
 from frames.results.energy_balance import Remark, equilibrium, time_step
+from frames.results.level_doubts import level_doubts, levels_of_bearings
 from frames.results.peak_response import Extreme, largest, total
 from frames.results.quantities import left_out
 from lir_element.argument_checks import require_type
@@ -50,18 +51,13 @@ SPUN = 0.5
 depends on it (docs/validation/slip.md)."""
 
 EDGE = 0.5
-"""Eccentricity over slider radius beyond which one edge carries nearly all: the level 'contact' is
-asked for."""
-
-CONTACT = 0.33
-"""The same where rims are met, from which on the level 'contact' is asked for: of such test cases
-forces of one in eight are off by more than 5 % (docs/validation/slip.md)."""
+"""Eccentricity over slider radius beyond which one edge carries nearly all."""
 
 TURNED = 0.05
 """Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
 strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
 
-_ASKING = frozenset({"uplift", "full_contact", "slip_stability"})
+_ASKING = frozenset({"full_contact", "slip_stability"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,6 +81,8 @@ class Finding:
         For people.
     doubtful : bool
         Whether what came into play asks to be looked at.
+    bearings : tuple of str
+        At the level "pendulum", for which it asks for the level "contact".
 
     Examples
     --------
@@ -104,6 +102,7 @@ class Finding:
     number: float
     sentence: str
     doubtful: bool = False
+    bearings: tuple[str, ...] = ()
 
 
 class Findings(tuple[Finding, ...]):
@@ -234,16 +233,16 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
     Returns
     -------
     str
-        "contact" where a bearing lifted off; where the resultant between the sliders came further
-        than half a radius off an axis (a third where rims are met); where the sliders spun by more
-        than half a radian; where a slip is so large that a few per cent decide whether it holds.
+        "contact" where a bearing met its rims or lifted off (`level_doubts`); where the sliders
+        spun by more than half a radian; where a slip is so large that a few per cent decide whether
+        it holds.
     """
     return "contact" if asking_for_contact(findings) else "pendulum"
 
 
 def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the findings that ask for the level "contact"."""
-    return tuple(f for f in findings if f.mattered and f.feature in _ASKING)
+    """Return the findings that ask for the level "contact" for some bearings."""
+    return tuple(f for f in findings if f.bearings and f.feature in _ASKING)
 
 
 def _rims(data: xr.Dataset, out: bool) -> Finding:
@@ -343,7 +342,7 @@ def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
 
 def _full_contact(data: xr.Dataset) -> Finding:
     offsets = largest(data, "eccentricity").values
-    where = data.variables["bearing"].to_numpy()[int(np.argmax(offsets))]
+    names = data.variables["bearing"].to_numpy()
     share = float(offsets.max())
     if share <= KERN:
         verdict = "holds"
@@ -351,25 +350,24 @@ def _full_contact(data: xr.Dataset) -> Finding:
         verdict = "partial contact, no tipping"
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
-    met = bool(largest(data, "rims_met").values.any())
-    text = f"e/a = {share:.2f} in {where}: {verdict}"
+    text = f"full contact: e/a = {share:.2f} in {names[int(np.argmax(offsets))]}: {verdict}"
+    doubts = level_doubts(data)
+    if doubts.bearings:
+        text += f"; {doubts.sentence}"
     has_spin = "slider_spin" in data or "reached_spin" in data
-    spin = float(largest(data, "spin").values.max()) if has_spin else 0.0
-    if spin > SPUN:
-        text += f"; the sliders spun by {spin:.2g} rad"
-    asked = share > (CONTACT if met else EDGE) or spin > SPUN
-    at_pendulum = str(data.attrs["level"]) == "pendulum"
-    if asked and at_pendulum:
-        head = f"full contact is violated ({text})" if share > KERN else f"full contact: {text}"
-        text = f'{head}; rerun with level="contact"'
-    else:
-        text = f"full contact: {text}"
+    spins = largest(data, "spin").values if has_spin else np.zeros(len(names))
+    spun = (spins > SPUN) & (np.array(levels_of_bearings(data)) == "pendulum")
+    if spun.any():
+        text += f"; the sliders spun by {float(spins.max()):.2g} rad, on which the slip depends"
+    asking = {*doubts.bearings, *(str(name) for name in names[spun])}
+    is_marked = doubts.marked or bool(spun.any())
     return Finding(
         feature="full_contact",
-        left_out=at_pendulum,
-        mattered=asked,
+        left_out=is_marked,
+        mattered=bool(asking),
         number=share,
-        sentence=text,
+        sentence=f'{text}; rerun with level="contact"' if is_marked else text,
+        bearings=tuple(str(name) for name in names if str(name) in asking),
     )
 
 
@@ -405,7 +403,9 @@ def _slip_stability(data: xr.Dataset) -> Finding:
     if np.isinf(friction).all():
         text = "the slider is rigid"
     finding = _finding("slip_stability", False, bool(parts), share, text)
-    return replace(finding, doubtful=bool(parts))
+    at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
+    close = ((shares > HOLDS) | (overlaps > OVERLAPS)) & at_pendulum
+    return replace(finding, doubtful=bool(parts), bearings=tuple(str(n) for n in names[close]))
 
 
 def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:

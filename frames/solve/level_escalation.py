@@ -5,24 +5,26 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from frames.results.assumption_checks import asking_for_contact, audit, is_missing, needed_level
-from lir_element.element import LEVELS
+from frames.results.assumption_checks import asking_for_contact, audit, is_missing
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import xarray as xr
 
     from frames.results.assumption_checks import Finding
     from lir_element import Features
 
+    Level = str | Mapping[str, str]
+    """One for all bearings, or "contact" by name: the others are at the level "pendulum"."""
+
 MOST_RUNS = 5
 """Features and level settle in two or three runs; this bounds what each run may reveal anew."""
 
 
 def escalate_level(
-    analyse: Callable[[Features, str], xr.Dataset], features: Features
+    analyse: Callable[[Features, Level], xr.Dataset], features: Features
 ) -> xr.Dataset:
     """Run with `features`, and again with what was missing.
 
@@ -40,16 +42,21 @@ def escalate_level(
         Of the last run. Its attribute `auto_runs` has a line for each run: level, features left
         out, seconds, and what followed from its assumption check.
     """
-    level, lines = "pendulum", []
+    level: Level = "pendulum"
+    lines: list[str] = []
     for count in range(1, MOST_RUNS + 1):
         began = perf_counter()
         data = analyse(features, level)
         seconds = perf_counter() - began
         findings = audit(data)
-        wider, higher, reason = _next(findings, features, level)
+        names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
+        wider, higher, reason = _next(findings, features, level, names)
         is_last = count == MOST_RUNS or (wider, higher) == (features, level)
         out = ", ".join(features.left_out) or "nothing"
-        lines.append(f"run {count}: {level}, left out {out}, {seconds:.3f} s: {reason}")
+        at = (
+            level if isinstance(level, str) else f"{len(level)} of {len(names)} bearings at contact"
+        )
+        lines.append(f"run {count}: {at}, left out {out}, {seconds:.3f} s: {reason}")
         if is_last:
             break
         features, level = wider, higher
@@ -92,20 +99,27 @@ def _ended(status: RunStatus, time: float) -> str:
 
 
 def _next(
-    findings: tuple[Finding, ...], features: Features, level: str
-) -> tuple[Features, str, str]:
+    findings: tuple[Finding, ...], features: Features, level: Level, names: tuple[str, ...]
+) -> tuple[Features, Level, str]:
     # Features and level of the next run (the same: settled), and why.
-    names = features.left_out
-    missing = [f for f in findings if is_missing(f) and f.feature in names]
+    out = features.left_out
+    missing = [f for f in findings if is_missing(f) and f.feature in out]
     if missing:
         wider = features.including(*(f.feature for f in missing))
         if wider.rims and not features.rims:  # a rigid slider would break the rims that are met
             wider = wider.including("interface")
         return wider, level, "again, for " + "; ".join(f.sentence for f in missing)
-    wanted = needed_level(findings)
-    if wanted == level or level != "pendulum":
+    asking = asking_for_contact(findings)
+    if not asking:
         return features, level, "sufficient"
-    why = "; ".join(f.sentence for f in asking_for_contact(findings))
-    if wanted in LEVELS:
-        return features, wanted, f"again at the level '{wanted}': {why}"
-    return features, level, f"the level '{wanted}' would be needed, and is not there: {why}"
+    raised = _raised(level, names, {name for found in asking for name in found.bearings})
+    who = "all bearings" if raised == "contact" else ", ".join(raised)
+    why = "; ".join(f.sentence for f in asking)
+    return features, raised, f"again with {who} at the level 'contact': {why}"
+
+
+def _raised(level: Level, names: tuple[str, ...], asked: set[str]) -> Level:
+    # The level with more bearings at "contact".
+    at_contact = asked if isinstance(level, str) else asked | set(level)
+    chosen = {name: "contact" for name in names if name in at_contact}
+    return "contact" if len(chosen) == len(names) else chosen

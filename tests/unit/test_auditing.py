@@ -20,6 +20,7 @@ from frames import (
     time_history,
 )
 from frames.results.assumption_checks import doubts_of, is_missing, needed_level
+from frames.results.level_doubts import level_doubts
 from frames.results.measures import centre_shift
 from frames.solve import level_escalation
 from lir_element import (
@@ -281,9 +282,25 @@ def test_full_contact_levels():
         finding = found(other)["full_contact"]
         assert_allclose(finding.number, factor, rtol=1e-9)
         assert text in finding.sentence
-        assert (needed_level(audit(other)) == "contact") == (factor > 0.33)
+        assert finding.bearings == ("bearing",)
+        assert needed_level(audit(other)) == "contact"
+        assert ("force up to 10 %" in finding.sentence) == (0.33 < factor < 0.75)
+        assert is_missing(finding) == (factor > 0.75)
         other["rim_force"] = 0.0 * other["rim_force"]
-        assert (needed_level(audit(other)) == "contact") == (factor > 0.5)
+        assert needed_level(audit(other)) == "pendulum"  # nothing that counts is off
+
+
+def test_unequal_rims_and_uplift_are_classes_of_their_own():
+    data = run(device(capacity=0.08))
+    one = data.copy()
+    one["rim_displacement"] = data["rim_displacement"] * [1.0, 0.9]
+    doubts = level_doubts(one)
+    assert doubts.marked
+    assert doubts.of("interface slip").tolist() == [4.5]
+    assert "interface slip up to 450 %" in found(one)["full_contact"].sentence
+    assert level_doubts(one.assign_attrs(level="contact")).bearings == ()
+    assert level_doubts(one.assign_attrs(level="{'bearing': 'contact'}")).bearings == ()
+    assert level_doubts(run(device())).bearings == ()
 
 
 def test_audit_survives_a_file(tmp_path):
@@ -305,12 +322,12 @@ def test_missing_features_are_marked():
 
 
 def test_auto_settles_at_once_where_nothing_is_missing():
-    data = run(device(capacity=0.08), level="auto")
+    data = run(device(), level="auto")
     assert data.attrs["level"] == "pendulum"
     assert data.attrs["features_left_out"] == "velocity_dependence, second_direction"
     assert data.attrs["auto_runs"].count("\n") == 0
     assert data.attrs["auto_runs"].endswith(": sufficient")
-    plain = run(device(capacity=0.08))
+    plain = run(device())
     gap = data["bearing_displacement"] - plain["bearing_displacement"]
     assert float(np.abs(gap).max()) < 1e-9
 
@@ -326,30 +343,47 @@ def test_cheap_run_is_repeated_where_the_rims_are_met():
     data = settled(device(capacity=0.08), features)
     assert data.attrs["features_left_out"] == "second_direction"
     lines = data.attrs["auto_runs"].splitlines()
-    assert len(lines) == 2
+    assert len(lines) == 3
     assert "again, for rims left out: reached " in lines[0]
-    assert lines[1].endswith("sufficient")
-    plain = run(device(capacity=0.08), features=Features(second_direction=False))
+    assert "again with all bearings at the level 'contact': full contact: e/a" in lines[1]
+    assert lines[2].endswith("sufficient")
+    kept = Features(second_direction=False)
+    plain = run(device(capacity=0.08), features=kept, level="contact")
     xr.testing.assert_equal(data["bearing_displacement"], plain["bearing_displacement"])
     assert settled(device(), features).attrs["auto_runs"].count("\n") == 0  # not met: one run
 
 
-def test_auto_asks_for_another_level(monkeypatch):
-    up = wave(15.0, 0.5)
-    motion = GroundMotion(x=0.2 * up, z=up, dt=DT)
-    monkeypatch.setattr(level_escalation, "LEVELS", ("pendulum",))
-    data = run(device(), motion, level="auto")
-    assert "the level 'contact' would be needed" in data.attrs["auto_runs"]
-    monkeypatch.setattr(level_escalation, "LEVELS", ("pendulum", "contact"))
+def test_auto_takes_contact_for_bearings_that_ask():
+    """By name, more of them run by run; "contact" where it is all."""
+    rows = run(device(capacity=0.08)), run(device())
+    known = rows[0].assign_coords(bearing=["a"])
+    calm = rows[1].assign_coords(bearing=["b"])
+    both = xr.concat(
+        [known, calm],
+        "bearing",
+        data_vars="minimal",
+        coords="minimal",
+        compat="override",
+        combine_attrs="override",
+    )
     levels = []
 
-    def analyse(features: Features, level: str) -> xr.Dataset:
+    def analyse(features: Features, level: object) -> xr.Dataset:
         levels.append(level)
-        return data.assign_attrs(level=level)
+        return both.assign_attrs(level=str(level))
 
     again = level_escalation.escalate_level(analyse, Features())
-    assert levels == ["pendulum", "contact"]
-    assert "again at the level 'contact'" in again.attrs["auto_runs"]
+    assert levels == ["pendulum", {"a": "contact"}]
+    lines = again.attrs["auto_runs"].splitlines()
+    assert "again with a at the level 'contact'" in lines[0]
+    assert lines[1].startswith("run 2: 1 of 2 bearings at contact")
+
+
+def test_auto_lifts_off_at_contact():
+    up = wave(15.0, 0.5)
+    data = run(device(), GroundMotion(x=0.2 * up, z=up, dt=DT), level="auto")
+    assert data.attrs["level"] == "contact"
+    assert "again with all bearings at the level 'contact'" in data.attrs["auto_runs"]
 
 
 def test_auto_names_runs_that_end_otherwise():

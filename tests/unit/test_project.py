@@ -298,7 +298,8 @@ def test_a_run_writes_what_its_parts_give(run_once: tuple[Path, Any]) -> None:
     runs = load(results / "runs-upper.nc")
     parts = ProjectInputs(read_project(folder / "small.toml"), folder)
     motion = parts.motions()["artificial-3"].scaled(0.8)
-    single = time_history(with_property_bounds(parts.frame(), "upper", parts.bounds()), motion)
+    model = with_property_bounds(parts.frame(), "upper", parts.bounds())
+    single = time_history(model, motion, level="contact")
     ours = float(runs["reached_displacement"].isel(run=1).max())
     size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
     assert ours == pytest.approx(size.max(), rel=1e-12)
@@ -364,7 +365,8 @@ def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
     assert [float(data["scale"][0]) for data in runs.values()] == [1.0, 1.2]
     parts = ProjectInputs(read_project(file), folder)
     motion = parts.motions()["artificial-1"].scaled(0.8 * 1.2)
-    single = time_history(with_property_bounds(parts.frame(), "upper", parts.bounds()), motion)
+    model = with_property_bounds(parts.frame(), "upper", parts.bounds())
+    single = time_history(model, motion, level="contact")
     size = np.linalg.norm(single["bearing_displacement"].to_numpy()[..., :2], axis=-1)
     at_most = float(runs["maximum"]["reached_displacement"].isel(run=0).max())
     assert at_most == pytest.approx(size.max(), rel=1e-6)
@@ -396,7 +398,9 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     voids = set()
     for line, is_void in said.items():
         tall = LAST.replace('storey_height = "3 m"', 'storey_height = "8 m"')
-        (folder / "uplift.toml").write_text(f'{tall}\n[analysis]\nbounds = ["lower"]\n{line}\n')
+        (folder / "uplift.toml").write_text(
+            f'{tall}\n[analysis]\nlevel = "pendulum"\nbounds = ["lower"]\n{line}\n'
+        )
         done = ran(folder / "uplift.toml", folder / "up")
         assert done.exit_code == 1, done.output
         demands = pd.read_csv(folder / "up" / "demands.csv", index_col=0)

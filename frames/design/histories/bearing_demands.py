@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +17,12 @@ from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.peak_data import PRESSED
+from frames.results.level_doubts import (
+    DOUBTED,
+    errors_of,
+    levels_of_bearings,
+    rims_are_unequal,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,6 +37,9 @@ _ALONE = (
     "a rim may press alone at the level 'pendulum': where that decides, the level 'contact' lets "
     "the sliders turn until both press (resultant_offsets says when)"
 )
+
+_QUANTITIES = {name.replace(" ", "_"): name for name in DOUBTED}
+"""What the level 'pendulum' may have wrong, by its name among what runs reached."""
 
 Fill = Callable[[int], Calculation]
 """Returns the calculation of the bearing of a place."""
@@ -158,15 +167,15 @@ class BearingDemands:
 
         after = "s_star" if self.limits.slip_left is None else "s_allowed"
         holds = f"{NO_CODE} (2.7)"
-        return [
-            *self._worst(
-                f"{NO_CODE}, section 2", "slip over the overlap", of("s", most, "s_cap"), self._lir
-            ),
+        overlap = of("s", most, "s_cap")
+        found = [
+            *self._worst(f"{NO_CODE}, section 2", "slip over the overlap", overlap, self._lir),
             *self._worst(
                 holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir
             ),
             *self._worst(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
+        return self._doubted(found, "interface slip")
 
     def _enter_slip(self, t: Trace, k: int) -> None:
         # The largest slip; with a factor on the displacement at least what that is beyond the rims.
@@ -258,7 +267,41 @@ class BearingDemands:
             return Calculation(t, symbol, f"{symbol}_lim")
 
         clause = self.limits.clause_of(given)
-        return self._worst(clause, title, fill, self._all, note=note)
+        found = self._worst(clause, title, fill, self._all, note=note)
+        return self._doubted(found, _QUANTITIES.get(name, ""))
+
+    def _doubted(self, checks: list[Check], quantity: str) -> list[Check]:
+        # Those whose margin is less than what the level of the runs may have wrong say so.
+        if not quantity or "pendulum" not in str(self.data.attrs["level"]):
+            return checks
+        errors = self._level_errors[:, DOUBTED.index(quantity)]
+        found = []
+        for check in checks:
+            error = float(errors[self._names.index(check.subject)]) if check.subject else 0.0
+            if check.passed and check.demand * (1.0 + error) > check.limit:
+                said = (
+                    f'at the level "pendulum" the {quantity} may be off by {100.0 * error:.0f} %, '
+                    'more than its margin: run at level = "contact"'
+                )
+                check = replace(check, note="; ".join(part for part in (check.note, said) if part))
+            found.append(check)
+        return found
+
+    @property
+    def _level_errors(self) -> FloatArray:
+        # (n_bearings, 4): what the level 'pendulum' may have wrong, of all runs the most.
+        rims, lifted, share = (
+            np.nan_to_num(peaks_of_runs(self.data, name))
+            for name in ("rim_force", "lifted", "eccentricity")
+        )
+        devices = [self._at(k) for k in self._all]
+        unequal = rims_are_unequal(
+            np.array([device.rim_displacement for device in devices]),
+            np.array([device.radii for device in devices]),
+        )
+        errors, _ = errors_of(rims > 0.0, lifted > 0.0, share, unequal)
+        at = np.array([level == "pendulum" for level in levels_of_bearings(self.data)])
+        return np.asarray(errors.max(axis=0) * at[:, None])
 
     @property
     def _of_resultants(self) -> str:

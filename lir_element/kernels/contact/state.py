@@ -50,7 +50,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
         new.force[k] = -w.g[k if k < 6 else k + 12]
     keep_works(old, new)
     set_axes(p, w, new)
-    set_slip(c, w, old, new)
+    set_slip(p, c, w, old, new)
     set_averages(c, s.points, s.touch_new, new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
@@ -88,8 +88,16 @@ def set_axes(p: Props, w: Scratch, new: State) -> None:
 
 
 @kernel
-def set_slip(c: Sliders, w: Scratch, old: State, new: State) -> None:
-    """Set the slip of the interface: the top slider's axis point from that of the bottom one."""
+def set_slip(p: Props, c: Sliders, w: Scratch, old: State, new: State) -> None:
+    """Set the slip of the interface: the top slider's axis point from that of the bottom one.
+
+    A rigid slider has none: what its bond gives is elastic.
+    """
+    if p.fused:
+        for a in range(2):
+            new.slip[a], new.slip_increment[a], new.slip_total[a] = 0.0, 0.0, 0.0
+        new.slip_total[2] = 0.0
+        return
     n = w.q[1]
     s, along = w.spare_vector, 0.0
     for a in range(3):

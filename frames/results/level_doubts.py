@@ -1,0 +1,167 @@
+"""What the level 'pendulum' may have wrong in a run: which quantity, how much, at which bearings.
+
+Sliders in full contact press on both rims at once and land on their whole face. Real ones rock: one
+rim after the other, one edge before the other. How much that changes was measured on random
+buildings (docs/validation/level_doubts.md); a bearing belongs to the first of `CLASSES` that fits.
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from frames.results.peak_response import largest
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import BoolArray, FloatArray
+
+DOUBTED = ("force", "axial force", "interface slip", "rim force")
+"""Of a bearing; displacements are within 1 % in every class but that of unequal rims (3 %)."""
+
+MARKED = {"force": 0.10, "axial force": 0.10, "interface slip": 0.10}
+"""Error of nine bearings in ten from which a run is marked with "!": what all checks rest on. Rim
+forces are doubtful wherever rims were met: the checks of rims read that for themselves."""
+
+
+LEAST = 0.05
+"""Error that is not worth a word."""
+
+
+class Class(NamedTuple):
+    """Bearings of a kind, and the errors that nine in ten of them stay below."""
+
+    name: str
+    errors: tuple[float, ...]
+    """Over the value, as `DOUBTED`; inf: may be anything."""
+
+
+UNEQUAL = Class("unequal rims that were met", (0.50, 0.30, 4.5, 9.0))
+LIFTED = Class("uplift and rims that were met", (0.15, 0.15, 0.50, 2.0))
+ROCKED = Class("rims met, e/a above 0.75", (0.25, 0.10, 0.10, 1.2))
+TIPPED = Class("rims met, e/a from 0.33 to 0.75", (0.10, 0.05, 0.05, 0.7))
+MET = Class("rims met, e/a below 0.33", (0.05, 0.05, 0.05, 0.25))
+LANDED = Class("uplift, rims not met", (0.10, 0.10, 0.15, 0.0))
+CLASSES = (UNEQUAL, LIFTED, ROCKED, TIPPED, MET, LANDED)
+
+
+class LevelDoubts(NamedTuple):
+    """Bearings whose sliders rocked at the level 'pendulum', and what that may have made wrong."""
+
+    bearings: tuple[str, ...]
+    """That the level 'contact' is asked for."""
+    errors: FloatArray
+    """(n_bearings, 4) [-]: what nine bearings in ten of the class stay below, as `DOUBTED`."""
+    names: tuple[str, ...]
+    """Of all bearings."""
+
+    @property
+    def marked(self) -> bool:
+        """Whether more than rim forces is doubtful."""
+        limits = [MARKED.get(name, np.inf) for name in DOUBTED]
+        return bool((self.errors > np.array(limits)).any())
+
+    @property
+    def sentence(self) -> str:
+        """What may be wrong, by how much."""
+        worst = self.errors.max(axis=0)
+        parts = [
+            f"{name} up to {100.0 * error:.0f} %"
+            for name, error in zip(DOUBTED, worst, strict=True)
+            if error > LEAST
+        ]
+        who = f"{len(self.bearings)} of {len(self.names)} bearings"
+        if not parts:
+            return f'forces of {who} within {100.0 * LEAST:.0f} % at the level "pendulum"'
+        return f'off at the level "pendulum", of {who}: {", ".join(parts)}'
+
+    def of(self, quantity: str) -> FloatArray:
+        """Return by how much a quantity of each bearing may be wrong, over its value."""
+        return np.asarray(self.errors[:, DOUBTED.index(quantity)])
+
+
+def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:
+    """Return the level of each bearing of a result, from its attribute `level`."""
+    text, names = str(data.attrs["level"]), [str(n) for n in data.variables["bearing"].to_numpy()]
+    if not text.startswith("{"):
+        return (text,) * len(names)
+    given = ast.literal_eval(text)
+    return tuple(given.get(name, "pendulum") for name in names)
+
+
+def level_doubts(data: xr.Dataset) -> LevelDoubts:
+    """Return what bearings at the level 'pendulum' may have wrong in a run.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    LevelDoubts
+        None doubtful where all bearings were at another level, lay still, or met no rim and did
+        not lift.
+    """
+    names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
+    met, lifted, share = (
+        largest(data, name).values for name in ("rims_met", "lifted", "eccentricity")
+    )
+    errors, doubtful = errors_of(met > 0.0, lifted > 0.0, share, _are_unequal(data))
+    at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
+    errors[~at_pendulum] = 0.0
+    asking = zip(names, doubtful & at_pendulum, strict=True)
+    return LevelDoubts(tuple(name for name, asks in asking if asks), errors, names)
+
+
+def errors_of(
+    met: BoolArray, lifted: BoolArray, share: FloatArray, unequal: BoolArray
+) -> tuple[FloatArray, BoolArray]:
+    """Return what nine bearings in ten of the same class stay below, and which are in a class.
+
+    Parameters
+    ----------
+    met, lifted : ndarray of bool, (..., n_bearings)
+        Whether a rim was met, and whether the bearing lifted off.
+    share : ndarray, (..., n_bearings)
+        Largest eccentricity over the slider's radius [-].
+    unequal : ndarray of bool, (n_bearings,)
+        Whether one rim is met before the other.
+
+    Returns
+    -------
+    tuple of ndarray
+        Errors (..., n_bearings, 4) over the value, as `DOUBTED`; whether any is to be expected.
+    """
+    members = (
+        met & unequal,
+        met & lifted,
+        met & (share > 0.75),
+        met & (share > 0.33),
+        met,
+        lifted,
+    )
+    errors = np.zeros((*met.shape, len(DOUBTED)))
+    taken = np.zeros(met.shape, dtype=bool)
+    for kind, those in zip(CLASSES, members, strict=True):
+        errors[those & ~taken] = kind.errors
+        taken |= those
+    return errors, taken
+
+
+def _are_unequal(data: xr.Dataset) -> BoolArray:
+    reach, radius = (
+        data.variables[name].transpose("bearing", ...).to_numpy()
+        for name in ("rim_displacement", "radius")
+    )
+    return rims_are_unequal(reach, radius)
+
+
+def rims_are_unequal(reach: FloatArray, radius: FloatArray) -> BoolArray:
+    """Return whether one rim is met before the other: (n_bearings,) of arrays (n_bearings, 2)."""
+    with np.errstate(invalid="ignore"):  # no rims: both infinite
+        slopes = reach / radius
+        return np.asarray(np.abs(slopes[:, 0] - slopes[:, 1]) > 1e-6 * np.abs(slopes[:, 0]))
