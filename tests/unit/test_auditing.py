@@ -284,7 +284,7 @@ def test_full_contact_levels():
         assert text in finding.sentence
         assert finding.bearings == ("bearing",)
         assert needed_level(audit(other)) == "contact"
-        assert ("force up to 10 %" in finding.sentence) == (0.33 < factor < 0.75)
+        assert ("bearings: force up to 10 %" in finding.sentence) == (0.33 < factor < 0.75)
         assert is_missing(finding) == (factor > 0.75)
         other["rim_force"] = 0.0 * other["rim_force"]
         assert needed_level(audit(other)) == "pendulum"  # nothing that counts is off
