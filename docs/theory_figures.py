@@ -225,15 +225,15 @@ def levels() -> Figure:
         (5.6, "One bearing, and a reference\nto trust other results by?", "yes"),
         (
             4.1,
-            "Do bearings lift off, land on an edge,\nhardly carry, or meet rims one by one?",
+            "A design, in which bearings meet\ntheir rims or lift off?",
             "yes",
         ),
         (2.6, "Not known?", "yes"),
     )
     answers = (
         '"rigid_body"\n150 to 450 times the cost',
-        '"contact", for all bearings or some\nsome 20 times the cost',
-        '"auto": runs, checks its assumptions,\nruns again where one is violated',
+        '"contact", the default of projects\n3 to 5 times the cost',
+        '"auto": runs, then again with those at\n"contact" that met a rim or lifted',
     )
     for (y, question, said), answer in zip(questions, answers, strict=True):
         box(ax, 2.5, y, question, "#FFFFFF", 4.2)
@@ -243,7 +243,7 @@ def levels() -> Figure:
         ax.text(5.1, y + 0.14, said, ha="center", fontsize=9.5)
         ax.annotate("", (2.5, y - 1.0), (2.5, y - 0.5), arrowprops=arrow)
         ax.text(2.62, y - 0.76, "no", fontsize=9.5, va="center")
-    box(ax, 2.5, 1.1, '"pendulum", the default:\nbuildings, design, campaigns', BOTTOM, 4.2)
+    box(ax, 2.5, 1.1, '"pendulum", the default of histories:\ncampaigns, no rim met', BOTTOM, 4.2)
     words = (
         "Every run checks its modelling\nassumptions: a warning names the\nlevel that is needed."
     )

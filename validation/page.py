@@ -244,6 +244,8 @@ def index(folder: Path = FOLDER) -> str:
                 "both programs (`python -m validation.measurements.opensees_public_models`), "
                 "[slip.md](slip.md), the slip of the interface where rims are met "
                 "(`python -m validation.measurements.slip`), "
+                "[level_doubts.md](level_doubts.md), what the level `pendulum` has wrong in "
+                "buildings (`python -m validation.measurements.level_doubts`), "
                 "[random_scenes.md](random_scenes.md), test cases by the thousand with everything unequal "
                 "(`python -m validation.random_scenes`), "
                 "[yielding.md](yielding.md), random buildings that yield, each at two steps "

@@ -39,12 +39,12 @@ class Class(NamedTuple):
     """Over the value, as `DOUBTED`; inf: may be anything."""
 
 
-UNEQUAL = Class("unequal rims that were met", (0.50, 0.30, 4.5, 9.0))
-LIFTED = Class("uplift and rims that were met", (0.15, 0.15, 0.50, 2.0))
-ROCKED = Class("rims met, e/a above 0.75", (0.25, 0.10, 0.10, 1.2))
-TIPPED = Class("rims met, e/a from 0.33 to 0.75", (0.10, 0.05, 0.05, 0.7))
-MET = Class("rims met, e/a below 0.33", (0.05, 0.05, 0.05, 0.25))
-LANDED = Class("uplift, rims not met", (0.10, 0.10, 0.15, 0.0))
+UNEQUAL = Class("unequal rims that were met", (0.27, 0.19, 2.2, 1.3))
+LIFTED = Class("uplift and rims that were met", (0.16, 0.18, 0.20, 1.2))
+ROCKED = Class("rims met, e/a above 0.75", (0.16, 0.09, 0.04, 1.1))
+TIPPED = Class("rims met, e/a from 0.33 to 0.75", (0.07, 0.04, 0.04, 0.72))
+MET = Class("rims met, e/a below 0.33", (0.05, 0.02, 0.03, 0.36))
+LANDED = Class("uplift, rims not met", (0.07, 0.09, 0.07, 0.0))
 CLASSES = (UNEQUAL, LIFTED, ROCKED, TIPPED, MET, LANDED)
 
 
