@@ -105,6 +105,7 @@ STATE_FIELDS = (
     Field("friction_coefficient", "-", "mu", "friction coefficient: bottom, top", (2,)),
     Field("sliding_speed", "m/s", "v", "sliding speed: bottom, top", (2,)),
     Field("eccentricity", "m", "d", "radial sliding in the plane of the plate: bottom, top", (2,)),
+    Field("offset", "m", "e", "of the pressure between sliders that are bodies from their axes"),
     Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
     Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
     Field("twist", "rad", "psi", "relative rotation about the vertical axis"),

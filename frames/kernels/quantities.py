@@ -13,7 +13,7 @@ from numpy import absolute, maximum, sqrt
 
 from frames._jit import inlined
 from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
-from lir_element.kernels.derived import eccentricity, in_plan, in_space
+from lir_element.kernels.derived import eccentricity, in_plan, in_space, resultant_offset
 
 if TYPE_CHECKING:
     from typing import Any
@@ -161,5 +161,6 @@ def show_bearing(
         state.slip[0],
         state.slip[1],
     )
+    e = resultant_offset(e, state.offset)
     now.eccentricity = pressed_eccentricity(e, p.slider_radius, load, static)
     now.spin = size(state.spin)

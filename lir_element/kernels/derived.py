@@ -55,3 +55,13 @@ def eccentricity(
     b_x, b_y = b_x / load, b_y / load
     t_x, t_y = b_x - slip_x, b_y - slip_y
     return sqrt(maximum(b_x * b_x + b_y * b_y, t_x * t_x + t_y * t_y)) * pressed
+
+
+@inlined
+def resultant_offset(by_forces: float, of_pressure: float) -> float:
+    """Return the eccentricity: of the pressure itself where sliders are bodies (not 0) [m].
+
+    The forces on them do not tell, for inertia takes its part when a rim is met.
+    """
+    known = of_pressure > 0.0
+    return of_pressure * known + by_forces * (1.0 - known)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import on_arrays
 from lir_element.device.sliders import interface_height
-from lir_element.kernels.derived import eccentricity
+from lir_element.kernels.derived import eccentricity, resultant_offset
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Records
@@ -21,12 +21,14 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
 
         e_b = ((R_1 - h_b) F_h - R_1 F_1 + R_1 P_1) / N,      e_t = e_b - s.
 
+    Where sliders are bodies with discs as faces it is the centre of pressure between them.
+
     Parameters
     ----------
     props : records, shape (n_bearings,)
         Properties.
     states : records, shape (n_steps, n_bearings)
-        Committed states of the level 'pendulum'.
+        Committed states.
 
     Returns
     -------
@@ -42,11 +44,12 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
         states["friction_force"][..., 0, :],
         states["slip"],
     )
-    larger: Floats = on_arrays(eccentricity)(
+    by_forces: Floats = on_arrays(eccentricity)(
         states["axial_force"],
         props["axial_floor"],
         props["radius"][:, 0],
         interface_height(props["radius"], props["slider_radius"], slider_height),
         *(vector[..., k] for vector in vectors for k in range(vector.shape[-1])),
     )
+    larger: Floats = on_arrays(resultant_offset)(by_forces, states["offset"])
     return larger

@@ -52,6 +52,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     set_axes(p, w, new)
     set_slip(p, c, w, old, new)
     set_averages(c, s.points, s.touch_new, new)
+    new.offset = pressure_offset(p, s.points, s.touch_new)
     set_surfaces(p, c, w, bodies, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis = 0.0
@@ -145,6 +146,20 @@ def set_averages(c: Sliders, points: Records, touch: Records, new: State) -> Non
             new.hysteresis[side, a] += sign * share * t.hysteresis[a]
             new.friction_force[side, a] += sign * t.push * t.friction * t.hysteresis[a]
             new.sliding_increment[side, a] += sign * share * t.increment[a]
+
+
+@kernel
+def pressure_offset(p: Props, points: Records, touch: Records) -> float:
+    """Return how far the pressure between two discs lies off the sliders' axes, the larger.
+
+    0 where nothing presses, of a rigid slider, and with contact points.
+    """
+    if points[0].disc == 0.0 or p.fused or touch[1].push == 0.0:
+        return 0.0
+    t = touch[1]
+    x = t.spot[0] + t.centre[0] * t.axes[0, 0] + t.centre[1] * t.axes[1, 0]
+    y = t.spot[1] + t.centre[0] * t.axes[0, 1] + t.centre[1] * t.axes[1, 1]
+    return max(math.sqrt(x * x + y * y), math.sqrt(t.centre[0] ** 2 + t.centre[1] ** 2))
 
 
 @kernel
