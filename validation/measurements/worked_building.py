@@ -178,6 +178,7 @@ def device_numbers(
         known.frame.with_bearings(plain),
         known.motions,
         parts.bounds(),
+        level=parts.file.analysis.level,
         record=Recording(every=None),
     )
     found = demands_by_bound(history_demands(runs, parts.rules()))
