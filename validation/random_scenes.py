@@ -40,10 +40,12 @@ LIMIT = 300.0
 """Longest time for a test case with all its runs [s]."""
 
 
-def perform(task: Task, *, seed: int) -> dict[str, Any]:
+def perform(task: Task, *, seed: int, level: str | None) -> dict[str, Any]:
     """Run a test case or a building with all its checks and return its report."""
     kind, number = task
-    return (try_building if kind == "building" else try_scene)(seed, number).as_dict()
+    if kind == "building":
+        return try_building(seed, number).as_dict()
+    return try_scene(seed, number, level=level).as_dict()
 
 
 def warm_up() -> None:
@@ -53,13 +55,13 @@ def warm_up() -> None:
         time_history(lumped_mass(static_bearing(), 15e3), calm, level=level)
 
 
-def lost(task: Task, how: str, seed: int) -> dict[str, Any]:
+def lost(task: Task, how: str, seed: int, level: str | None = None) -> dict[str, Any]:
     """Return the report of a test case whose process hung or died."""
     kind, number = task
     if kind == "building":
         report = Report(number, random_building(seed, number)[1], "building", "?")
     else:
-        scene = random_scene(seed, number)
+        scene = random_scene(seed, number, level)
         report = Report(number, scene.describe(), scene.model, scene.level)
     report.outcome, report.seconds = how, LIMIT
     report.found(how, 1.0, f"no report: {how}")
@@ -79,9 +81,9 @@ def tasks(count: int, buildings: int, minutes: float) -> Iterator[Task]:
             given += 1
 
 
-def only(seed: int, number: int, *, building: bool) -> None:
+def only(seed: int, number: int, *, building: bool, level: str | None) -> None:
     """Run one test case here and print all that is known of it."""
-    report = (try_building if building else try_scene)(seed, number)
+    report = try_building(seed, number) if building else try_scene(seed, number, level=level)
     for name, value in report.as_dict().items():
         if name != "findings":
             print(f"{name:>12}: {value}")
@@ -98,6 +100,11 @@ def arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="begin none after")
     parser.add_argument("--only", type=int, metavar="NUMBER", help="run this test case alone")
+    parser.add_argument(
+        "--level",
+        choices=("pendulum", "contact", "auto"),
+        help="of all test cases; drawn unless given",
+    )
     parser.add_argument("--building", action="store_true", help="NUMBER is that of a building")
     parser.add_argument("--page", type=Path, default=TARGET, help="where the page is written")
     parser.add_argument("--keep", type=Path, help="a file for the reports, JSON by line")
@@ -114,15 +121,15 @@ def main(given: Sequence[str] | None = None) -> int:
     """Run the test cases, write the page; return how many have a finding."""
     chosen = arguments(given)
     if chosen.only is not None:
-        only(chosen.seed, chosen.only, building=chosen.building)
+        only(chosen.seed, chosen.only, building=chosen.building, level=chosen.level)
         return 0
     warm_up()
     began = time.monotonic()
     found: dict[str, list[dict[str, Any]]] = {"scene": [], "building": []}
     todo = tasks(chosen.count, chosen.buildings, chosen.minutes)
-    run = partial(perform, seed=chosen.seed)
+    run = partial(perform, seed=chosen.seed, level=chosen.level)
     for task, result, how in in_children(run, todo, chosen.workers, LIMIT):
-        entry = lost(task, how, chosen.seed) if how else result
+        entry = lost(task, how, chosen.seed, chosen.level) if how else result
         found[task[0]].append(entry)
         if chosen.keep:
             with chosen.keep.open("a", encoding="utf-8") as file:
@@ -135,6 +142,8 @@ def main(given: Sequence[str] | None = None) -> int:
     spent = f"{(time.monotonic() - began) / 60.0:.0f} minutes with {workers}"
     count = len(found["scene"])
     call = f"python -m validation.random_scenes --seed {chosen.seed} --count {count}"
+    if chosen.level:
+        call += f" --level {chosen.level}"
     chosen.page.write_text(write(found["scene"], found["building"], call, spent), encoding="utf-8")
     return sum(bool(entry["findings"]) for entries in found.values() for entry in entries)
 

@@ -20,6 +20,7 @@ MEASUREMENTS = (
     "random_scenes",
     "slip",
     "study",
+    "level_doubts",
     "worked_building",
     "yielding",
     "yielding_comparison",

@@ -86,13 +86,15 @@ class Scene:
         )
 
 
-def random_scene(seed: int, number: int) -> Scene:
+def random_scene(seed: int, number: int, level: str | None = None) -> Scene:
     """Return test case `number` of the series `seed`: always the same one.
 
     Parameters
     ----------
     seed, number : int
         Of the series, and of the test case in it; at least 0.
+    level : str or None
+        Of model fidelity, for all bearings; None draws it.
 
     Returns
     -------
@@ -106,6 +108,8 @@ def random_scene(seed: int, number: int) -> Scene:
     rng = np.random.default_rng((seed, number, 2))
     motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / GRAVITY))
     options = random_options(np.random.default_rng((seed, number, 3)), kind, motion, build)
+    if level is not None:
+        options["level"] = level
     return Scene(
         seed=seed,
         number=number,

@@ -53,13 +53,17 @@ def run(
     return model, data, caught
 
 
-def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True) -> Report:
+def try_scene(
+    seed: int, number: int, *, level: str | None = None, again: bool = True, finer: bool = True
+) -> Report:
     """Run a test case with all its checks.
 
     Parameters
     ----------
     seed, number : int
         Which test case.
+    level : str or None
+        Of model fidelity, for all bearings; None draws it.
     again : bool
         Whether it is run again, turned, mirrored.
     finer : bool
@@ -73,7 +77,7 @@ def try_scene(seed: int, number: int, *, again: bool = True, finer: bool = True)
     began = time.process_time()
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
-        scene = random_scene(seed, number)
+        scene = random_scene(seed, number, level)
     report = Report(number, scene.describe(), scene.model, scene.level)
     try:
         model, data, caught = run(scene, scene.motion)

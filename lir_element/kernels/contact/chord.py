@@ -16,6 +16,7 @@ from lir_element.kernels.contact.elimination import invert
 from lir_element.kernels.contact.pairs import add_up, clear_parts, hold_pairs, push_sliders
 from lir_element.kernels.contact.places import OWN, place_bodies, turn_between, turn_by
 from lir_element.kernels.contact.residual import (
+    longest,
     set_system,
     size_of_residual,
     small_forces,
@@ -134,11 +135,7 @@ def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
     for col in range(12):
         for row in range(12):
             step[row] += inverse[col, row] * r[col]
-    largest = 0.0
-    for row in range(12):
-        size = abs(step[row])
-        largest = max(largest, size if row % 6 >= 3 else size / c.radius)
-    return largest <= _LARGEST_TURN
+    return longest(step, 2, c.radius) <= _LARGEST_TURN
 
 
 @kernel

@@ -16,7 +16,7 @@ from lir_element.kernels.contact.chord import begin_search, keep_lead, lead_on, 
 from lir_element.kernels.contact.elimination import invert, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_by
-from lir_element.kernels.contact.residual import HOLD, set_system, small_forces, unbalanced
+from lir_element.kernels.contact.residual import HOLD, longest, set_system, small_forces, unbalanced
 from lir_element.kernels.contact.slider_motion import set_momentum
 from lir_element.kernels.contact.start import (
     carry_on,
@@ -64,10 +64,7 @@ def first_share(new: Bodies, w: Scratch, bodies: int, length: float) -> float:
 
     No body turns by more than `LARGEST_TURN`, or moves by more than that times `length`.
     """
-    largest = 0.0
-    for row in range(6 * bodies):
-        size = abs(w.step[row])
-        largest = max(largest, size if row % 6 >= 3 else size / length)
+    largest = longest(w.step, bodies, length)
     for k in range(bodies):
         for a in range(4):
             w.try_turn[k, a] = new.turn[k, a]

@@ -54,6 +54,17 @@ def size_of_residual(c: Sliders, w: Scratch) -> float:
 
 
 @kernel
+def longest(step: Floats, bodies: int, length: float) -> float:
+    """Return the largest turn in a step, or way over `length`: alike in all directions in plan."""
+    largest = 0.0
+    for k in range(2 * bodies):  # ways and turns of one body after another
+        x, y, z = step[3 * k], step[3 * k + 1], step[3 * k + 2]
+        size = math.sqrt(x * x + y * y + z * z)
+        largest = max(largest, size if k % 2 == 1 else size / length)
+    return largest
+
+
+@kernel
 def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
     """Return the residual to reach: a share of the forces, and round-off under stiff laws."""
     total = p.axial_floor
