@@ -225,7 +225,7 @@ def levels() -> Figure:
         (5.6, "One bearing, and a reference\nto trust other results by?", "yes"),
         (
             4.1,
-            "A design, in which bearings meet\ntheir rims or lift off?",
+            "A design, in which bearings meet their\nrims, lift, or have unlike friction?",
             "yes",
         ),
         (2.6, "Not known?", "yes"),
@@ -233,7 +233,7 @@ def levels() -> Figure:
     answers = (
         '"rigid_body"\n150 to 450 times the cost',
         '"contact", the default of projects\n3 to 5 times the cost',
-        '"auto": runs, then again with those at\n"contact" that met a rim or lifted',
+        '"auto": runs, then again with the\nbearings concerned at "contact"',
     )
     for (y, question, said), answer in zip(questions, answers, strict=True):
         box(ax, 2.5, y, question, "#FFFFFF", 4.2)

@@ -10,16 +10,20 @@ TEXT = (Path(__file__).parents[2] / "docs/validation/level_doubts.md").read_text
 
 
 def rows() -> dict[str, dict[str, float]]:
-    """Errors below which nine bearings in ten of a class stay [-], by class and quantity."""
+    """Errors below which nine bearings in ten of a class stay [-], by class and quantity.
+
+    Classes that are in both tables: of the first, whose surfaces are of one friction.
+    """
     lines = [line.strip("| ").split(" | ") for line in TEXT.splitlines() if line.startswith("| ")]
-    head = lines[0]
-    return {
-        cells[0]: {
+    head, found = lines[0], dict[str, dict[str, float]]()
+    for cells in lines:
+        if cells[0] in ("class", "---") or cells[0] in found:
+            continue
+        found[cells[0]] = {
             name: 0.01 * float(cell.split(" (")[0])
             for name, cell in zip(head[2:], cells[2:], strict=True)
         }
-        for cells in lines[2:]
-    }
+    return found
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.name)
@@ -32,4 +36,4 @@ def test_classes_say_what_was_measured(kind) -> None:
 def test_runs_without_rims_and_uplift_are_right() -> None:
     calm = rows()["rims not met, no uplift"]
     assert all(error < 0.01 for error in calm.values())
-    assert "Of these 0 are more than 5 % off" in TEXT
+    assert TEXT.count("Of these 0 are more than 5 % off") == 2

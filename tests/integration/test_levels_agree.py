@@ -2,8 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from frames import GroundMotion, lumped_mass, time_history
+from lir_element import CoulombFriction, LIRBearing
 from validation.measurements.speed_error import GOALS
 from validation.measurements.speed_runs import history
 from validation.measures import errors
@@ -79,3 +82,29 @@ def test_errors_are_those_of_a_scaled_response(reference):
     assert found.force == pytest.approx(3.0)
     assert found.quantile == pytest.approx(3.0)
     assert found.energy == pytest.approx(5.0)
+
+
+def test_sliders_rock_on_surfaces_of_unlike_friction() -> None:
+    device = LIRBearing(
+        radius=1.0,
+        slider_height=0.12,
+        slider_radius=0.1,
+        capacity=0.25,
+        friction=(CoulombFriction(0.02), CoulombFriction(0.1)),
+        interface_friction=0.14,
+        design_load=3e5,
+    )
+    t = np.arange(0.0, 4.0, 5e-3)
+    motion = GroundMotion(x=1.0 * np.sin(2.0 * np.pi * t / 1.5) * (t < 3.0), dt=5e-3)
+    reached = {
+        level: float(
+            np.abs(
+                time_history(lumped_mass(device, 3e4), motion, level=level, dt=STEP)[
+                    "bearing_displacement"
+                ].sel(axis="x")
+            ).max()
+        )
+        for level in ("pendulum", "contact", "rigid_body")
+    }
+    assert reached["contact"] == pytest.approx(reached["rigid_body"], rel=0.03)
+    assert reached["pendulum"] < 0.9 * reached["rigid_body"]  # which level_doubts says

@@ -20,7 +20,7 @@ from frames import (
     time_history,
 )
 from frames.results.assumption_checks import doubts_of, is_missing, needed_level
-from frames.results.level_doubts import level_doubts
+from frames.results.level_doubts import level_doubts, travels
 from frames.results.measures import centre_shift
 from frames.solve import level_escalation
 from lir_element import (
@@ -301,6 +301,30 @@ def test_unequal_rims_and_uplift_are_classes_of_their_own():
     assert level_doubts(one.assign_attrs(level="contact")).bearings == ()
     assert level_doubts(one.assign_attrs(level="{'bearing': 'contact'}")).bearings == ()
     assert level_doubts(run(device())).bearings == ()
+
+
+@pytest.mark.parametrize(("low", "high", "asks"), [(0.05, 0.05, False), (0.02, 0.1, True)])
+def test_unlike_friction_is_doubtful_at_short_travels(low, high, asks):
+    device_ = device(friction=(CoulombFriction(low), CoulombFriction(high)), slider_radius=0.06)
+    data = run(device_)
+    ours, rocks = (
+        float(np.abs(each["bearing_displacement"].sel(axis="x")).max())
+        for each in (data, run(device_, level="contact"))
+    )
+    doubts = level_doubts(data)
+    assert (doubts.bearings == ("bearing",)) == asks
+    assert needed_level(audit(data)) == ("contact" if asks else "pendulum")
+    if asks:
+        error = float(doubts.of("displacement")[0])
+        assert 0.3 * error < rocks / ours - 1.0 < 2.5 * error
+    else:
+        assert_allclose(rocks, ours, rtol=0.01)
+
+
+def test_travels_of_unlike_friction():
+    friction, length = np.array([[0.05, 0.05], [0.02, 0.1], [0.1, 0.02]]), np.full(3, 2.0)
+    found_ = travels(np.array([[0.1, 0.08, 0.32], [0.1, 0.001, 0.0]]), friction, length)
+    assert_allclose(found_, [[math.inf, 0.5, 2.0], [math.inf] * 3])
 
 
 def test_audit_survives_a_file(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from frames import GroundMotion, MotionWarning, Recording, shear_building, time_history
 from lir_element import AnalysisWarning, DesignWarning
 from lir_element.units import STANDARD_GRAVITY
+from validation.fuzzing.bearings import log_uniform
 from validation.fuzzing.rim_scenes import DT, random_rim_scene
 from validation.fuzzing.scenes import random_bays, storey_values
 
@@ -23,15 +25,28 @@ if TYPE_CHECKING:
 
 GOALS = (0.6, 1.25)
 """Least and largest of the peak displacement, over the one at which rims are met [-]."""
-NEAR = 0.05
-"""Of the goal."""
+UNLIKE_GOALS = (0.06, 1.2)
+"""The same where the surfaces are of unlike friction, which matters at small displacements, too."""
+UNLIKE = (1.03, 5.0)
+"""Least and largest ratio of their coefficients of friction [-]."""
+NEAR, NEAR_SMALL = 0.05, 0.1
+"""Of the goal: in its own unit, over the goal."""
 TRIALS = 12
 
 
-def random_level_scene(seed: int, number: int) -> tuple[Frame, LIRBearing, GroundMotion, float]:
+def random_level_scene(
+    seed: int, number: int, *, unlike: bool = False
+) -> tuple[Frame, LIRBearing, GroundMotion, float]:
     """Return building, bearing, motion and goal of test case `number` of the series `seed`.
 
     One to four storeys that overturn, slender ones that lift among them, masses off the centre.
+
+    Parameters
+    ----------
+    seed, number : int
+        Of the series, and of the test case in it.
+    unlike : bool
+        Whether the two surfaces are of unlike friction.
 
     Returns
     -------
@@ -43,6 +58,9 @@ def random_level_scene(seed: int, number: int) -> tuple[Frame, LIRBearing, Groun
         scene = random_rim_scene(seed, number)
     rng = np.random.default_rng((seed, number, 33))
     bearing, bays = scene.bearing, random_bays(rng)
+    own = np.random.default_rng((seed, number, 34))
+    if unlike:
+        bearing = with_unlike_friction(own, bearing)
     places = (bays[0] + 1) * (bays[1] + 1)
     width = bearing.effective_radius * rng.uniform(1.0, 4.0)
     load = bearing.resolved()["design_load"] / STANDARD_GRAVITY * rng.uniform(0.4, 1.6)
@@ -60,7 +78,24 @@ def random_level_scene(seed: int, number: int) -> tuple[Frame, LIRBearing, Groun
         warnings.simplefilter("ignore", MotionWarning)  # the ground may move on at the end
         x, y, z = scene.waves.T
         motion = GroundMotion(x=x, y=y, z=z if z.any() else None, dt=DT, name="random")
-    return model, bearing, motion, float(rng.uniform(*GOALS))
+    goal = log_uniform(own, *UNLIKE_GOALS) if unlike else float(rng.uniform(*GOALS))
+    return model, bearing, motion, goal
+
+
+def with_unlike_friction(rng: np.random.Generator, bearing: LIRBearing) -> LIRBearing:
+    """Return the bearing, the friction of its two surfaces as unlike as drawn; their mean stays."""
+    ratio = log_uniform(rng, *UNLIKE)
+    shares = [2.0 * ratio / (1.0 + ratio), 2.0 / (1.0 + ratio)]
+    if rng.random() < 0.5:
+        shares.reverse()
+    bottom, top = (
+        replace(law, f_max=share * law.f_max, f_min=share * law.f_min)
+        for law, share in zip(bearing.frictions, shares, strict=True)
+    )
+    high = max(bearing.interface_friction, 1.1 * max(bottom.f_max, top.f_max))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DesignWarning)
+        return replace(bearing, friction=(bottom, top), interface_friction=high)
 
 
 def run_level(
@@ -88,7 +123,7 @@ def factor_for(
         data = run_level(model, motion, factor, "pendulum", DT)
         share = float(moved(data).max()) / bearing.lateral_capacity
         is_whole = data.attrs["status"] == "ok"
-        if is_whole and abs(share - goal) < NEAR:
+        if is_whole and abs(share - goal) < min(NEAR, NEAR_SMALL * goal):
             return factor
         if is_whole and share < goal:
             low = factor

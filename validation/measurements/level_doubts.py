@@ -1,9 +1,10 @@
 """What the level 'pendulum' has wrong in buildings: writes docs/validation/level_doubts.md.
 
-    python -m validation.measurements.level_doubts --count 1000 --workers 2
+    python -m validation.measurements.level_doubts --count 1000 --unlike 400 --workers 2
 
 Random buildings on bearings, near their rims and beyond, at the levels 'pendulum' and 'contact';
-bearing by bearing, in the classes of `frames.results.level_doubts`. The level 'contact' is held
+others whose bearings have surfaces of unlike friction; bearing by bearing, in the classes of
+`frames.results.level_doubts`. The level 'contact' is held
 against rigid bodies in docs/validation/slip.md.
 """
 
@@ -13,17 +14,26 @@ import argparse
 import json
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.results.level_doubts import CLASSES, errors_of
-from validation.fuzzing.level_scenes import factor_for, random_level_scene, run_level
+from frames.results.level_doubts import (
+    CLASSES,
+    LONG_TRAVEL,
+    SHORT_TRAVEL,
+    STILL,
+    errors_of,
+    travels,
+)
+from validation.fuzzing.level_scenes import UNLIKE_GOALS, factor_for, random_level_scene, run_level
 from validation.fuzzing.pool import in_children
 from validation.page import FOLDER, table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
+
+    from frames._types import FloatArray
 
 TARGET = FOLDER / "level_doubts.md"
 LIMIT = 300.0
@@ -37,15 +47,16 @@ BOUNDS = (0.05, 0.05, 0.05, 0.10, 0.05, 0.05)
 """Errors that count, as `SHOWN` [-]."""
 
 
-def perform(number: int, *, seed: int) -> dict[str, Any]:
+def perform(number: int, *, seed: int, unlike: bool) -> dict[str, Any]:
     """Run a test case at both levels; the factor is None where it comes to no peak as wanted."""
-    model, bearing, motion, goal = random_level_scene(seed, number)
+    model, bearing, motion, goal = random_level_scene(seed, number, unlike=unlike)
     factor = factor_for(model, bearing, motion, goal)
-    found: dict[str, Any] = {"number": number, "factor": factor}
+    found: dict[str, Any] = {"number": number, "unlike": unlike, "factor": factor}
     if factor is None:
         return found
     reach = [d / r for d, r in zip(bearing.rim_displacement, bearing.radii, strict=True)]
     found |= {"unequal": abs(reach[0] - reach[1]) > 1e-9, "capacity": bearing.lateral_capacity}
+    found |= {"length": bearing.effective_radius, "friction": [f.f_max for f in bearing.frictions]}
     for level in ("pendulum", "contact"):
         data = run_level(model, motion, factor, level)
         found[level] = {
@@ -63,7 +74,9 @@ def classes(entry: dict[str, Any]) -> list[str]:
     ours = {name: np.array(value) for name, value in entry["pendulum"].items()}
     met, lifted = ours["rim_force"] > 0.0, ours["lifted"] > 0.0
     unequal = np.full(met.shape, entry["unequal"])
-    errors, doubtful = errors_of(met, lifted, ours["eccentricity"], unequal)
+    friction = np.array([entry["friction"]] * len(met))
+    travel = travels(ours["displacement"], friction, np.full(met.shape, entry["length"]))
+    errors, doubtful = errors_of(met, lifted, ours["eccentricity"], unequal, travel)
     names = {kind.errors: kind.name for kind in CLASSES}
     return [
         names[tuple(row)] if any_ else NOTHING
@@ -75,7 +88,11 @@ def errors(entry: dict[str, Any]) -> list[list[float]]:
     """Return the errors of each bearing, as `SHOWN` [-]; those of the base shear are the run's."""
     ours, theirs = entry["pendulum"], entry["contact"]
     force = np.array(theirs["force"])
-    least = {"slip": LEAST_SLIP * entry["capacity"], "rim_force": LEAST_RIM * force}
+    least = {
+        "displacement": STILL * entry["length"],
+        "slip": LEAST_SLIP * entry["capacity"],
+        "rim_force": LEAST_RIM * force,
+    }
     columns = []
     for name in REACHED:
         right = np.array(theirs[name])
@@ -85,60 +102,107 @@ def errors(entry: dict[str, Any]) -> list[list[float]]:
     return np.stack(columns, axis=1).tolist()
 
 
-def page(found: list[dict[str, Any]], lost: list[str], call: str) -> str:
-    """Return the page."""
+class Compared(NamedTuple):
+    """Runs that both levels completed, and what came of them."""
+
+    kinds: list[str]
+    """Class of each bearing."""
+    off: FloatArray
+    """Its errors, as `SHOWN`."""
+    calm: list[bool]
+    """Whether `auto` keeps the run."""
+    wrong: list[bool]
+    """Whether it has an error that counts."""
+    ends: str
+    """The runs that end otherwise."""
+    ratio: float
+    """Time of the loops, over that of 'pendulum'."""
+
+
+def compared(found: list[dict[str, Any]]) -> Compared:
+    """Sort the bearings of all runs by class."""
     runs = [entry for entry in found if entry["factor"] is not None]
     fine = [e for e in runs if e["pendulum"]["status"] == "ok" == e["contact"]["status"]]
-    kinds = [kind for entry in fine for kind in classes(entry)]
-    off = np.array([row for entry in fine for row in errors(entry)])
-    rows = []
-    for kind in (NOTHING, *(each.name for each in CLASSES)):
-        those = off[[own == kind for own in kinds]]
-        if not len(those):
-            continue
-        cells = [
-            f"{100 * np.quantile(abs(those[:, k]), 0.9):.2g} ({100 * those[:, k].min():.0f} to "
-            f"{100 * those[:, k].max():+.0f})"
-            for k in range(len(SHOWN))
-        ]
-        rows.append((kind, str(len(those)), *cells))
-    calm = [
-        not any(kind != NOTHING for kind in classes(entry)) for entry in fine
-    ]  # what `auto` keeps
-    worst = [(np.abs(np.array(errors(entry))) > BOUNDS).any() for entry in fine]
-    kept, wrong = sum(calm), sum(c and w for c, w in zip(calm, worst, strict=True))
     ends = [e for e in runs if e["pendulum"]["status"] != e["contact"]["status"]]
     seconds = [sum(e[level]["seconds"] for e in fine) for level in ("pendulum", "contact")]
     said = "; ".join(
         f"{e['number']} ({e['pendulum']['status']}, {e['contact']['status']})" for e in ends
     )
-    return "\n".join(
-        (
-            "# What the level `pendulum` has wrong in buildings",
-            "",
-            f"Written by `{call}`: {len(runs)} random buildings of one to four storeys that "
-            "overturn, on four to nine bearings, near their rims and beyond; masses off the centre, "
-            "two or three components of motion. The level `pendulum` against `contact`, which is "
-            "held against rigid bodies in [slip.md](slip.md); `dt=None`; peaks of single steps.",
-            "",
-            "Errors of bearings in per cent: nine in ten are smaller (least to largest).",
-            "",
-            table(("class", "bearings", *SHOWN), rows),
-            "",
-            f"Errors of a slip below {100 * LEAST_SLIP:.0f} % of the capacity are over that, of a "
-            f"rim force below {100 * LEAST_RIM:.0f} % of the bearing's force over that.",
-            "",
-            "## What is kept at the level `pendulum`",
-            "",
-            f'`level="auto"` keeps runs in which no bearing met a rim or lifted: {kept} of '
-            f"{len(fine)}. Of these {wrong} are more than 5 % off in displacement, force, axial "
-            "force, rim force or base shear of a bearing, or more than 10 % in slip.",
-            "",
-            f"Runs that end otherwise: {said or 'none'}. Test cases lost: {', '.join(lost) or 'none'}.",
-            "",
-            f"Time of the loops: {seconds[1] / max(seconds[0], 1e-9):.1f} times that of `pendulum`.",
-            "",
+    return Compared(
+        kinds=[kind for entry in fine for kind in classes(entry)],
+        off=np.array([row for entry in fine for row in errors(entry)]),
+        calm=[not any(kind != NOTHING for kind in classes(entry)) for entry in fine],
+        wrong=[bool((np.abs(np.array(errors(entry))) > BOUNDS).any()) for entry in fine],
+        ends=said or "none",
+        ratio=seconds[1] / max(seconds[0], 1e-9),
+    )
+
+
+def by_class(those: Compared, names: Sequence[str]) -> str:
+    """Return the table of errors by class."""
+    rows = []
+    for kind in names:
+        off = those.off[[own == kind for own in those.kinds]]
+        if not len(off):
+            continue
+        cells = [
+            f"{100 * np.quantile(abs(off[:, k]), 0.9):.2g} ({100 * off[:, k].min():.0f} to "
+            f"{100 * off[:, k].max():+.0f})"
+            for k in range(len(SHOWN))
+        ]
+        rows.append((kind, str(len(off)), *cells))
+    return table(("class", "bearings", *SHOWN), rows)
+
+
+def kept(those: Compared) -> str:
+    """Say how many runs `auto` keeps, and how many of them are wrong."""
+    wrong = sum(c and w for c, w in zip(those.calm, those.wrong, strict=True))
+    return (
+        f"{sum(those.calm)} of {len(those.calm)}. Of these {wrong} are more than 5 % off in "
+        "displacement, force, axial force, rim force or base shear of a bearing, or more than 10 % "
+        "in slip."
+    )
+
+
+def page(
+    found: list[dict[str, Any]], unlike: list[dict[str, Any]], lost: list[str], call: str
+) -> str:
+    """Return the page."""
+    alike, other = compared(found), compared(unlike)
+    names = [NOTHING, *(each.name for each in CLASSES)]
+    count = sum(entry["factor"] is not None for entry in found)
+    return (
+        "\n\n".join(
+            (
+                "# What the level `pendulum` has wrong in buildings",
+                f"Written by `{call}`: {count} random buildings of one to four storeys that "
+                "overturn, on four to nine bearings, near their rims and beyond; masses off the centre, "
+                "two or three components of motion. The level `pendulum` against `contact`, which is "
+                "held against rigid bodies in [slip.md](slip.md); `dt=None`; peaks of single steps.",
+                "Errors of bearings in per cent: nine in ten are smaller (least to largest).",
+                by_class(alike, names),
+                f"Errors of a slip below {100 * LEAST_SLIP:.0f} % of the capacity are over that, of a "
+                f"rim force below {100 * LEAST_RIM:.0f} % of the bearing's force over that, of a "
+                f"displacement below {100 * STILL:.1f} % of the effective radius over that.",
+                "## Surfaces of unlike friction",
+                f"{len(other.calm)} buildings more, on bearings whose two coefficients of friction are "
+                f"up to five times one another, at displacements from {UNLIKE_GOALS[0]:g} to "
+                f"{UNLIKE_GOALS[1]:g} of that at which rims are met. In full contact both surfaces "
+                "slide at once, at the mean of both coefficients. A slider that may rock slides on the "
+                "surface of the lower friction first, and further. The travel is the displacement over "
+                "the difference of both coefficients times the effective radius: short below "
+                f"{SHORT_TRAVEL:g}, long from {LONG_TRAVEL:g} on.",
+                by_class(other, names),
+                "## What is kept at the level `pendulum`",
+                '`level="auto"` keeps runs in which no bearing met a rim or lifted, or travelled short '
+                f"of {LONG_TRAVEL:g} on surfaces of unlike friction: {kept(alike)} With unlike friction: "
+                f"{kept(other)}",
+                f"Runs that end otherwise: {alike.ends}; with unlike friction: {other.ends}. Test cases "
+                f"lost: {', '.join(lost) or 'none'}.",
+                f"Time of the loops: {alike.ratio:.1f} times that of `pendulum`.",
+            )
         )
+        + "\n"
     )
 
 
@@ -147,24 +211,41 @@ def main(given: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m validation.measurements.level_doubts")
     parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
     parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
+    parser.add_argument("--unlike", type=int, default=400, help="how many of unlike friction")
     parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
+    parser.add_argument("--kept", type=Path, help="such a file: the page alone, from its numbers")
     options = parser.parse_args(given)
-    found, lost = [], []
-    run = partial(perform, seed=options.seed)
-    for number, result, how in in_children(run, range(options.count), options.workers, LIMIT):
+    lost: list[str] = []
+    if options.kept:
+        lines = options.kept.read_text(encoding="utf-8").splitlines()
+        found = [json.loads(line) for line in lines]
+    else:
+        found = [*measure(options, lost, unlike=False), *measure(options, lost, unlike=True)]
+    found.sort(key=lambda entry: int(entry["number"]))
+    series = [[e for e in found if e["unlike"] is unlike] for unlike in (False, True)]
+    call = (
+        f"python -m validation.measurements.level_doubts --seed {options.seed} "
+        f"--count {options.count} --unlike {options.unlike}"
+    )
+    TARGET.write_text(page(*series, lost, call), encoding="utf-8")
+    print(f"written to {TARGET}")
+
+
+def measure(
+    options: argparse.Namespace, lost: list[str], *, unlike: bool
+) -> Iterator[dict[str, Any]]:
+    """Yield the test cases of a series as they end; those without an end go into `lost`."""
+    run = partial(perform, seed=options.seed, unlike=unlike)
+    count = options.unlike if unlike else options.count
+    for number, result, how in in_children(run, range(count), options.workers, LIMIT):
         if how:
-            lost.append(f"{number} ({how})")
+            lost.append(f"{number}{' of unlike friction' if unlike else ''} ({how})")
             continue
-        found.append(result)
         if options.keep:
             with options.keep.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(result) + "\n")
-    found.sort(key=lambda entry: int(entry["number"]))
-    module = "python -m validation.measurements.level_doubts"
-    call = f"{module} --seed {options.seed} --count {options.count}"
-    TARGET.write_text(page(found, lost, call), encoding="utf-8")
-    print(f"written to {TARGET}")
+        yield result
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ from frames.results.level_doubts import (
     errors_of,
     levels_of_bearings,
     rims_are_unequal,
+    travels,
 )
 
 if TYPE_CHECKING:
@@ -289,17 +290,20 @@ class BearingDemands:
 
     @property
     def _level_errors(self) -> FloatArray:
-        # (n_bearings, 4): what the level 'pendulum' may have wrong, of all runs the most.
-        rims, lifted, share = (
+        # (n_bearings, 5): what the level 'pendulum' may have wrong, of all runs the most.
+        rims, lifted, share, moved = (
             np.nan_to_num(peaks_of_runs(self.data, name))
-            for name in ("rim_force", "lifted", "eccentricity")
+            for name in ("rim_force", "lifted", "eccentricity", "displacement")
         )
         devices = [self._at(k) for k in self._all]
         unequal = rims_are_unequal(
             np.array([device.rim_displacement for device in devices]),
             np.array([device.radii for device in devices]),
         )
-        errors, _ = errors_of(rims > 0.0, lifted > 0.0, share, unequal)
+        friction = np.array([[law.f_max for law in device.frictions] for device in devices])
+        length = np.array([device.effective_radius for device in devices])
+        travel = travels(moved, friction, length)
+        errors, _ = errors_of(rims > 0.0, lifted > 0.0, share, unequal, travel)
         at = np.array([level == "pendulum" for level in levels_of_bearings(self.data)])
         return np.asarray(errors.max(axis=0) * at[:, None])
 
