@@ -47,8 +47,8 @@ FAST_GOAL, PORTABLE_GOAL = 1.5, 3.0
 BASE = "singleFPBearing"
 MACRO = "LIR-DCFP, macro-model"
 OURS = "LIR-DCFP, in-process coupling"
-CONTACT = "LIR-DCFP at the level contact, in-process"
 CONTACT_GOAL = 2.0  # times the level pendulum, of a whole step
+BELOW = 0.55  # of the motion, under which no rim is met: plain Newton stops at none of the levels
 
 Place: TypeAlias = Callable[[int, int, int, LIRBearing], object]
 """Puts an element with a tag between node i and node j, for a bearing."""
@@ -82,10 +82,8 @@ def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Pla
     def builtin(kind: Any) -> Place:
         return lambda tag, i, j, device: builtin_element(kind, tag, i, j, device, load)
 
-    def ours(route: Any, level: Any = "pendulum") -> Place:
-        return lambda tag, i, j, device: bearing_element(
-            tag, i, j, device, route=route, level=level
-        )
+    def ours(route: Any) -> Place:
+        return lambda tag, i, j, device: bearing_element(tag, i, j, device, route=route)
 
     return {
         BASE: (plain, builtin(BASE)),
@@ -93,7 +91,6 @@ def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Pla
         "plain DCFP, in-process coupling": (plain, ours("fast")),
         "plain DCFP, out-of-process coupling": (plain, ours("portable")),
         OURS: (bearing, ours("fast")),
-        CONTACT: (bearing, ours("fast", "contact")),
         "LIR-DCFP, out-of-process coupling": (bearing, ours("portable")),
         MACRO: (bearing, lambda _, i, j, device: macro_model(device, i, j, load=load)),
     }
@@ -150,7 +147,7 @@ def measure(name: str, bearing: LIRBearing, motion: GroundMotion) -> dict[str, l
     return found
 
 
-def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
+def page(found: Mapping[str, Mapping[str, list[float]]], at_contact: Mapping[str, float]) -> str:
     """Return the page in Markdown."""
     head = ["bearings", *(f"{name} [µs]" for name in found), *(f"ratio, {n}" for n in found)]
     rows = []
@@ -173,8 +170,8 @@ def page(found: Mapping[str, Mapping[str, list[float]]]) -> str:
                 table(head, rows),
                 f"Goals in buildings: in-process coupling {FAST_GOAL:g}, out-of-process coupling {PORTABLE_GOAL:g}. "
                 + " ".join(verdict(name, found[name]) for name in list(found)[1:]),
-                f"The level contact against the level pendulum, in-process (goal {CONTACT_GOAL:g} "
-                f"times): {contact_verdict(found)}.",
+                f"A step at the level contact over one at the level pendulum, in-process, under "
+                f"{BELOW:g} times the motion (goal {CONTACT_GOAL:g}): {contact_verdict(at_contact)}.",
                 "An element of the out-of-process coupling waits for some four answers of another process an "
                 'iteration; the smaller the rest of the model, the more that counts. "stops": plain '
                 "Newton runs in circles in some step, as friction turns round or slips under a rim; "
@@ -196,16 +193,30 @@ def verdict(name: str, times: Mapping[str, list[float]]) -> str:
     return f"{name}: {', '.join(parts)}."
 
 
-def contact_verdict(found: Mapping[str, Mapping[str, list[float]]]) -> str:
-    """Say what the level 'contact' costs against 'pendulum', of a whole step."""
-    ratios = {name: ratio(times, CONTACT, OURS) for name, times in found.items()}
-    parts = [
-        "not comparable, as plain Newton stops, " + name
-        if math.isnan(value)
-        else f"{value:.2f} ({'met' if value <= CONTACT_GOAL else '**missed**'}), {name}"
+def contact_ratio(name: str, bearing: LIRBearing, motion: GroundMotion) -> float:
+    """Return what a step costs at the level 'contact', over the level 'pendulum', in-process."""
+    load = float(gravity(scenes(bearing)[name]).axial_forces.mean())
+    frame, weak = scenes(replace(bearing, design_load=load))[name], motion.scaled(BELOW)
+    found: dict[str, list[float]] = {}
+    for turn in range(TURNS + 1):  # the first one compiles
+        for level in ("pendulum", "contact"):
+            value = microseconds(frame, at_level(level), weak)
+            if turn:
+                found.setdefault(level, []).append(value)
+    return ratio(found, "contact", "pendulum")
+
+
+def at_level(level: Any) -> Place:
+    """Return what puts our bearings at a level, in-process."""
+    return lambda tag, i, j, device: bearing_element(tag, i, j, device, route="fast", level=level)
+
+
+def contact_verdict(ratios: Mapping[str, float]) -> str:
+    """Say what the level 'contact' costs, and whether that is as little as is wanted."""
+    return "; ".join(
+        f"{value:.2f} ({'met' if value <= CONTACT_GOAL else '**missed**'}), {name}"
         for name, value in ratios.items()
-    ]
-    return "; ".join(parts)
+    )
 
 
 def ratio(times: Mapping[str, list[float]], device: str, base: str = BASE) -> float:
@@ -232,7 +243,8 @@ def main() -> None:
     bearing = example_bearing(friction=CoulombFriction(0.065))
     motion = pulse()
     found = {name: measure(name, bearing, motion) for name in scenes(bearing)}
-    TARGET.write_text(page(found), encoding="utf-8")
+    at_contact = {name: contact_ratio(name, bearing, motion) for name in scenes(bearing)}
+    TARGET.write_text(page(found, at_contact), encoding="utf-8")
     print(TARGET.read_text(encoding="utf-8"))
 
 

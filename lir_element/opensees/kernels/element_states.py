@@ -146,11 +146,26 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
         time,
     )
     if has_no_state(code):
-        return refuse(h, code)
+        if contacts is None or away or not moves:
+            return refuse(h, code)
+        return stand(h, code, old[0].force)
     h.last_status = _OK
     follow_iteration(h, new[0].force)
     h.element_made = 0
     set_force(h, old[0].force if moves and not away else new[0].force)
+    return _OK
+
+
+@kernel
+def stand(h: Host, code: int, force: Floats) -> int:
+    """Stay with the committed force and tangent where a step begins without a state.
+
+    Newmark's method begins a step at the committed place with velocities turned round, which no
+    motion of the sliders need go with. Such a trial cannot be committed.
+    """
+    h.last_status = code
+    h.element_made, h.has_tangent = 0, 2
+    set_force(h, force)
     return _OK
 
 
@@ -192,14 +207,16 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
     if h.has_tangent == 1:
         return
     new = carray(pointer(h.new), 1, STATE)
-    if h.last_status != _OK or (h.loaded == 0 and new[0].axial_force <= 0.0):
+    stands = h.has_tangent == 2
+    no_state = h.last_status != _OK and not stands
+    if no_state or (h.loaded == 0 and new[0].axial_force <= 0.0):
         for k in range(h.dofs * h.dofs):
             h.tangent[k] = h.initial[k]
         h.has_tangent = 1
         return
     props = carray(pointer(h.props), 1, PROPS)
     work = carray(pointer(h.work), 1, WORK)
-    if h.has_tangent == 2:
+    if stands:
         bearing_look(props, carray(pointer(h.old), 1, STATE), work, contacts, 0)
     bearing_tangent(props, new, work, contacts, 0, h.element)
     stiffen(h)
