@@ -40,12 +40,17 @@ LIMIT = 300.0
 """Longest time for a test case with all its runs [s]."""
 
 
-def perform(task: Task, *, seed: int, level: str | None) -> dict[str, Any]:
-    """Run a test case or a building with all its checks and return its report."""
+def attempt(task: Task, seed: int, level: str | None) -> Report:
+    """Run a test case or a building with all its checks; the level is that of test cases."""
     kind, number = task
     if kind == "building":
-        return try_building(seed, number).as_dict()
-    return try_scene(seed, number, level=level).as_dict()
+        return try_building(seed, number)
+    return try_scene(seed, number, level=level)
+
+
+def perform(task: Task, *, seed: int, level: str | None) -> dict[str, Any]:
+    """Run a test case or a building and return its report as it is kept."""
+    return attempt(task, seed, level).as_dict()
 
 
 def warm_up() -> None:
@@ -81,9 +86,9 @@ def tasks(count: int, buildings: int, minutes: float) -> Iterator[Task]:
             given += 1
 
 
-def only(seed: int, number: int, *, building: bool, level: str | None) -> None:
+def only(task: Task, seed: int, level: str | None) -> None:
     """Run one test case here and print all that is known of it."""
-    report = try_building(seed, number) if building else try_scene(seed, number, level=level)
+    report = attempt(task, seed, level)
     for name, value in report.as_dict().items():
         if name != "findings":
             print(f"{name:>12}: {value}")
@@ -121,7 +126,8 @@ def main(given: Sequence[str] | None = None) -> int:
     """Run the test cases, write the page; return how many have a finding."""
     chosen = arguments(given)
     if chosen.only is not None:
-        only(chosen.seed, chosen.only, building=chosen.building, level=chosen.level)
+        kind = "building" if chosen.building else "scene"
+        only((kind, chosen.only), chosen.seed, chosen.level)
         return 0
     warm_up()
     began = time.monotonic()

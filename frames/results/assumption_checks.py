@@ -234,9 +234,8 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
     -------
     str
         "contact" where a bearing met its rims, lifted off or moved little on surfaces of unlike
-        friction (`level_doubts`); where the sliders
-        spun by more than half a radian; where a slip is so large that a few per cent decide whether
-        it holds.
+        friction (`level_doubts`); where the sliders spun by more than half a radian; where a slip
+        is so large that a few per cent decide whether it holds.
     """
     return "contact" if asking_for_contact(findings) else "pendulum"
 

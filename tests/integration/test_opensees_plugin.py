@@ -10,7 +10,7 @@ from frames import GroundMotion, gravity, lumped_mass, time_history
 from lir_element import CoulombFriction, Element
 from lir_element.opensees import bearing_response
 from validation.cases import example_bearing
-from validation.measurements.opensees_cost import at_level, pulse, slender_frame
+from validation.measurements.opensees_cost import ours, pulse, slender_frame
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
     empty_model,
@@ -321,7 +321,7 @@ def test_steps_that_begin_without_a_state_at_the_level_contact() -> None:
     load = float(gravity(frame).axial_forces.mean())
     frame = slender_frame((1, 1), 1, replace(bearing, design_load=load))
     with empty_model() as ops:
-        add_loads(ops, frame, build(ops, frame, at_level("contact")))
+        add_loads(ops, frame, build(ops, frame, ours("fast", "contact")))
         gravity_analysis(ops)
         ground_motion(ops, pulse())
         solver(ops)

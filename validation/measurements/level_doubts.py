@@ -84,7 +84,7 @@ def classes(entry: dict[str, Any]) -> list[str]:
     ]
 
 
-def errors(entry: dict[str, Any]) -> list[list[float]]:
+def errors(entry: dict[str, Any]) -> FloatArray:
     """Return the errors of each bearing, as `SHOWN` [-]; those of the base shear are the run's."""
     ours, theirs = entry["pendulum"], entry["contact"]
     force = np.array(theirs["force"])
@@ -99,7 +99,7 @@ def errors(entry: dict[str, Any]) -> list[list[float]]:
         columns.append((np.array(ours[name]) - right) / np.maximum(right, least.get(name, 1e-12)))
     shear = ours["base_shear"] / theirs["base_shear"] - 1.0
     columns.append(np.full(len(force), shear))
-    return np.stack(columns, axis=1).tolist()
+    return np.stack(columns, axis=1)
 
 
 class Compared(NamedTuple):
@@ -128,20 +128,21 @@ def compared(found: list[dict[str, Any]]) -> Compared:
     said = "; ".join(
         f"{e['number']} ({e['pendulum']['status']}, {e['contact']['status']})" for e in ends
     )
+    kinds, off = [classes(entry) for entry in fine], [errors(entry) for entry in fine]
     return Compared(
-        kinds=[kind for entry in fine for kind in classes(entry)],
-        off=np.array([row for entry in fine for row in errors(entry)]),
-        calm=[not any(kind != NOTHING for kind in classes(entry)) for entry in fine],
-        wrong=[bool((np.abs(np.array(errors(entry))) > BOUNDS).any()) for entry in fine],
+        kinds=[kind for those in kinds for kind in those],
+        off=np.concatenate(off),
+        calm=[set(those) == {NOTHING} for those in kinds],
+        wrong=[bool((np.abs(those) > BOUNDS).any()) for those in off],
         ends=said or "none",
         ratio=seconds[1] / max(seconds[0], 1e-9),
     )
 
 
-def by_class(those: Compared, names: Sequence[str]) -> str:
+def by_class(those: Compared) -> str:
     """Return the table of errors by class."""
     rows = []
-    for kind in names:
+    for kind in (NOTHING, *(each.name for each in CLASSES)):
         off = those.off[[own == kind for own in those.kinds]]
         if not len(off):
             continue
@@ -169,7 +170,6 @@ def page(
 ) -> str:
     """Return the page."""
     alike, other = compared(found), compared(unlike)
-    names = [NOTHING, *(each.name for each in CLASSES)]
     count = sum(entry["factor"] is not None for entry in found)
     return (
         "\n\n".join(
@@ -180,7 +180,7 @@ def page(
                 "two or three components of motion. The level `pendulum` against `contact`, which is "
                 "held against rigid bodies in [slip.md](slip.md); `dt=None`; peaks of single steps.",
                 "Errors of bearings in per cent: nine in ten are smaller (least to largest).",
-                by_class(alike, names),
+                by_class(alike),
                 f"Errors of a slip below {100 * LEAST_SLIP:.0f} % of the capacity are over that, of a "
                 f"rim force below {100 * LEAST_RIM:.0f} % of the bearing's force over that, of a "
                 f"displacement below {100 * STILL:.1f} % of the effective radius over that.",
@@ -192,7 +192,7 @@ def page(
                 "surface of the lower friction first, and further. The travel is the displacement over "
                 "the difference of both coefficients times the effective radius: short below "
                 f"{SHORT_TRAVEL:g}, long from {LONG_TRAVEL:g} on.",
-                by_class(other, names),
+                by_class(other),
                 "## What is kept at the level `pendulum`",
                 '`level="auto"` keeps runs in which no bearing met a rim or lifted, or travelled short '
                 f"of {LONG_TRAVEL:g} on surfaces of unlike friction: {kept(alike)} With unlike friction: "

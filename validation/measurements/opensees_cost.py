@@ -16,6 +16,7 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -46,7 +47,6 @@ STEPS, STEP = 1000, 0.005  # of the transient analysis, s
 FAST_GOAL, PORTABLE_GOAL = 1.5, 3.0
 BASE = "singleFPBearing"
 MACRO = "LIR-DCFP, macro-model"
-OURS = "LIR-DCFP, in-process coupling"
 CONTACT_GOAL = 2.0  # times the level pendulum, of a whole step
 BELOW = 0.55  # of the motion, under which no rim is met: plain Newton stops at none of the levels
 
@@ -75,6 +75,11 @@ def scenes(bearing: LIRBearing) -> dict[str, Frame]:
     }
 
 
+def ours(route: Any, level: Any = "pendulum") -> Place:
+    """Return what puts our bearings, by a coupling and at a level."""
+    return lambda tag, i, j, device: bearing_element(tag, i, j, device, route=route, level=level)
+
+
 def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Place]]:
     """Return the bearings that are compared, and what puts them into the model."""
     plain = bearing.as_dcfp(rims=False)
@@ -82,15 +87,12 @@ def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Pla
     def builtin(kind: Any) -> Place:
         return lambda tag, i, j, device: builtin_element(kind, tag, i, j, device, load)
 
-    def ours(route: Any) -> Place:
-        return lambda tag, i, j, device: bearing_element(tag, i, j, device, route=route)
-
     return {
         BASE: (plain, builtin(BASE)),
         "TripleFrictionPendulum": (plain, builtin("TripleFrictionPendulum")),
         "plain DCFP, in-process coupling": (plain, ours("fast")),
         "plain DCFP, out-of-process coupling": (plain, ours("portable")),
-        OURS: (bearing, ours("fast")),
+        "LIR-DCFP, in-process coupling": (bearing, ours("fast")),
         "LIR-DCFP, out-of-process coupling": (bearing, ours("portable")),
         MACRO: (bearing, lambda _, i, j, device: macro_model(device, i, j, load=load)),
     }
@@ -131,20 +133,27 @@ def in_frames(frame: Frame, motion: GroundMotion) -> float:
     return 1e6 * float(data.attrs["seconds_loop"]) / STEPS
 
 
+def in_turns(runs: Mapping[str, Callable[[], float]]) -> dict[str, list[float]]:
+    """Run all in turn and return what each gave; the first turn, which compiles, does not count."""
+    found: dict[str, list[float]] = {name: [] for name in runs}
+    for turn in range(TURNS + 1):
+        for name, run in runs.items():
+            value = run()
+            if turn:
+                found[name].append(value)
+    return found
+
+
 def measure(name: str, bearing: LIRBearing, motion: GroundMotion) -> dict[str, list[float]]:
     """Run all devices under one structure in turn; return the times by device."""
     load = float(gravity(scenes(bearing)[name]).axial_forces.mean())
     bearing = replace(bearing, design_load=load)
-    found: dict[str, list[float]] = {}
-    for turn in range(TURNS + 1):  # the first one compiles and connects
-        for device, (kind, place) in devices(bearing, load).items():
-            value = microseconds(scenes(kind)[name], place, motion)
-            if turn:
-                found.setdefault(device, []).append(value)
-        value = in_frames(scenes(bearing)[name], motion)
-        if turn:
-            found.setdefault("LIR-DCFP, the whole in frames", []).append(value)
-    return found
+    runs = {
+        device: partial(microseconds, scenes(kind)[name], place, motion)
+        for device, (kind, place) in devices(bearing, load).items()
+    }
+    whole = partial(in_frames, scenes(bearing)[name], motion)
+    return in_turns({**runs, "LIR-DCFP, the whole in frames": whole})
 
 
 def page(found: Mapping[str, Mapping[str, list[float]]], at_contact: Mapping[str, float]) -> str:
@@ -197,18 +206,9 @@ def contact_ratio(name: str, bearing: LIRBearing, motion: GroundMotion) -> float
     """Return what a step costs at the level 'contact', over the level 'pendulum', in-process."""
     load = float(gravity(scenes(bearing)[name]).axial_forces.mean())
     frame, weak = scenes(replace(bearing, design_load=load))[name], motion.scaled(BELOW)
-    found: dict[str, list[float]] = {}
-    for turn in range(TURNS + 1):  # the first one compiles
-        for level in ("pendulum", "contact"):
-            value = microseconds(frame, at_level(level), weak)
-            if turn:
-                found.setdefault(level, []).append(value)
+    levels = ("pendulum", "contact")
+    found = in_turns({k: partial(microseconds, frame, ours("fast", k), weak) for k in levels})
     return ratio(found, "contact", "pendulum")
-
-
-def at_level(level: Any) -> Place:
-    """Return what puts our bearings at a level, in-process."""
-    return lambda tag, i, j, device: bearing_element(tag, i, j, device, route="fast", level=level)
 
 
 def contact_verdict(ratios: Mapping[str, float]) -> str:

@@ -126,6 +126,7 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     away = False
     for k in range(12):
         away = away or h.u[k] != old[0].displacement[k]
+    begins = moves and not away
     if away or h.time > h.committed_time:
         h.unfinished = 1
     h.telling = 0
@@ -146,13 +147,13 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
         time,
     )
     if has_no_state(code):
-        if contacts is None or away or not moves:
-            return refuse(h, code)
-        return stand(h, code, old[0].force)
+        if begins and contacts is not None:
+            return stand(h, code, old[0].force)
+        return refuse(h, code)
     h.last_status = _OK
     follow_iteration(h, new[0].force)
     h.element_made = 0
-    set_force(h, old[0].force if moves and not away else new[0].force)
+    set_force(h, old[0].force if begins else new[0].force)
     return _OK
 
 
@@ -202,7 +203,7 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
     """Set the block's tangent to that of the last trial, or of the committed state after it.
 
     A bearing that never carried load has the stiffness at rest, so that an analysis can begin; so
-    has a trial without a state.
+    has a trial without a state, unless it stands (`stand`).
     """
     if h.has_tangent == 1:
         return
