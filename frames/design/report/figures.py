@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import base64
-import io
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from frames.design.hazard.plot_hazard import motion_spectra
+from frames.design.report.page import Picture, picture
 from frames.plots import (
     bearing_dimensions,
     bearing_plan,
@@ -25,23 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames.design.project.design_run import ProjectRun
-
-_DOTS = 110  # per inch
-
-
-class Picture(NamedTuple):
-    """A figure of the report.
-
-    Attributes
-    ----------
-    title : str
-        What it shows.
-    source : str
-        A data URI of a PNG file.
-    """
-
-    title: str
-    source: str
 
 
 def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
@@ -71,15 +53,5 @@ def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
         ],
     }
     return {
-        section: [Picture(title, _embedded(draw())) for title, draw in made]
-        for section, made in plans.items()
+        section: [picture(title, draw()) for title, draw in made] for section, made in plans.items()
     }
-
-
-def _embedded(figure: Figure) -> str:
-    import matplotlib.pyplot as plt
-
-    file = io.BytesIO()
-    figure.savefig(file, format="png", dpi=_DOTS, bbox_inches="tight")
-    plt.close(figure)
-    return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode("ascii")

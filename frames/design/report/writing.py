@@ -6,31 +6,21 @@ import platform
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, NamedTuple
 
-import jinja2
-import numpy as np
 import pandas as pd
 from markupsafe import Markup
-from pandas.api.types import is_string_dtype
 
 from frames.design.calculation.check import TO_BE_CONFIRMED
 from frames.design.histories.demand_table import headed, void_said
 from frames.design.report.figures import pictures
-from frames.design.report.tables import in_mm_and_kn, rows_of
+from frames.design.report.page import Table, page_table, page_template
+from frames.design.report.tables import in_mm_and_kn
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
-
-
-class Table(NamedTuple):
-    """A table of the report: cells as text, the first column and those named to the left."""
-
-    head: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    left: frozenset[int] = frozenset()
 
 
 class Judged(NamedTuple):
@@ -64,15 +54,8 @@ def report_html(
     str
         The page: styles and pictures are in it, nothing is fetched.
     """
-    page = jinja2.Environment(
-        loader=jinja2.PackageLoader("frames.design.report", "."),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    ).get_template("report.html.j2")
     device = next(iter(run.frame.bearings.values())).bearing
-    return page.render(
+    return page_template("report.html.j2").render(
         name=run.frame.name,
         code=run.equivalent.code,
         device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
@@ -83,14 +66,14 @@ def report_html(
         limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
         model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
         bearing=Markup(device._repr_html_()),  # noqa: S704
-        schedule=_table(in_mm_and_kn(tables["bearings"]), "bearing"),
-        friction=_table(tables["friction"], "friction coefficient"),
-        modes=_table(tables["modes"], "mode"),
-        members=_table(tables["members"], "members"),
+        schedule=page_table(in_mm_and_kn(tables["bearings"]), "bearing"),
+        friction=page_table(tables["friction"], "friction coefficient"),
+        modes=page_table(tables["modes"], "mode"),
+        members=page_table(tables["members"], "members"),
         programme=_programme(tables["programme"]),
-        motions=_table(run.motions.table(), "motion"),
+        motions=page_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
-        demands=_table(headed(run.demands), "quantity"),
+        demands=page_table(headed(run.demands), "quantity"),
         void=void_said(run.demands),
         levels=_levels(run),
         level=f"the level {run.rules.levels[0].name!r}",
@@ -128,11 +111,6 @@ def _judged(check: Check) -> Judged:
     )
 
 
-def _table(frame: pd.DataFrame, index: str) -> Table:
-    words = [k for k, kind in enumerate(frame.dtypes, start=1) if is_string_dtype(kind)]
-    return Table((index, *map(str, frame.columns)), rows_of(frame, _word), frozenset(words))
-
-
 def _programme(tests: pd.DataFrame) -> Table:
     # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
     starred = tests["clause"].where(tests["standing"] != TO_BE_CONFIRMED, tests["clause"] + " *")
@@ -142,13 +120,7 @@ def _programme(tests: pd.DataFrame) -> Table:
     )
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
-    return _table(in_mm_and_kn(shown), "test")
-
-
-def _word(value: object) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "yes" if value else "no"
-    return "" if value is None else str(value)
+    return page_table(in_mm_and_kn(shown), "test")
 
 
 def _facts(run: ProjectRun) -> dict[str, str]:
