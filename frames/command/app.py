@@ -19,7 +19,7 @@ from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
 from frames.design.project.design_run import ProjectRun, compare_devices, evaluate_run, run_project
-from frames.design.project.example import write_example
+from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
 from frames.design.project.preliminary import inputs_of, preliminary
@@ -63,16 +63,21 @@ def lir(
 @app.command()
 def new(
     folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
-    code: Annotated[str, typer.Option(help="ASCE 7-22, EN 1998 or NCh2745")] = "ASCE 7-22",
+    code: Annotated[
+        str | None, typer.Option(help="ASCE 7-22 (if left out), EN 1998 or NCh2745.")
+    ] = None,
+    example: Annotated[
+        str | None, typer.Option(help=f"A whole building instead: {', '.join(BUILDINGS)}.")
+    ] = None,
 ) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     with told():
         try:
-            written = write_example(folder, code)
+            written = write_example(folder, code, example)
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
-    say(f"{written[0]} and {len(written) - 1} files of motions; next: lir check {written[0]}")
+    say(f"{written[0]} and {len(written) - 1} other files; next: lir check {written[0]}")
 
 
 @app.command()

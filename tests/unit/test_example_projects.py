@@ -1,0 +1,72 @@
+"""The projects of ``lir new``: their files can be used, whole buildings weigh what they should."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from frames.motion.spectra import response_spectrum
+
+pytest.importorskip("pydantic")
+
+from frames.design import ProjectError, code_named
+from frames.design.project import artificial_motions
+from frames.design.project.example import BUILDINGS, write_example
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.reading import read_project
+
+
+@pytest.fixture
+def one_motion(monkeypatch: pytest.MonkeyPatch) -> None:
+    # one of the seven: they take a second each to make
+    monkeypatch.setattr(artificial_motions, "PULSES", {"artificial-1": 1.9})
+
+
+@pytest.mark.parametrize("building", BUILDINGS)
+@pytest.mark.usefixtures("one_motion")
+def test_whole_building_is_a_project(building: str, tmp_path: Path) -> None:
+    written = write_example(tmp_path, building=building)
+    assert written[0] == tmp_path / "project.toml"
+    assert all(path.is_file() for path in written)
+    parts = ProjectInputs(read_project(written[0]), tmp_path)
+    assert parts.code().name in BUILDINGS[building]
+    assert len(parts.motions()) == 1
+    with pytest.raises(FileExistsError, match=r"project\.toml"):
+        write_example(tmp_path, building=building)
+
+
+def test_unknown_building_and_another_code(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match=r"example = 'castle': choose one of .*'hospital'"):
+        write_example(tmp_path, building="castle")
+    with pytest.raises(ProjectError, match="is of NCh2745: leave --code out"):
+        write_example(tmp_path, code="EN 1998", building="hospital")
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.usefixtures("one_motion")
+def test_vertical_component_follows_two_thirds_at_a_third_of_the_periods() -> None:
+    target = code_named("ASCE 7-22").spectrum(s_ms=2.0, s_m1=1.2)
+    files = artificial_motions.motion_files(target, vertical=True)
+    assert files["motions.csv"].splitlines()[1].split(",")[1:4] == [
+        f"artificial-1-{axis}.txt" for axis in "xyz"
+    ]
+    values = np.loadtxt(files["artificial-1-z.txt"].splitlines())
+    periods = np.geomspace(0.1, 1.0, 20)
+    reached = response_spectrum(values, 0.005, periods)["pseudo_acceleration"].to_numpy()
+    wanted = 2.0 / 3.0 * np.asarray(target.acceleration(3.0 * periods))
+    assert np.abs(reached / wanted - 1.0).mean() < 0.1  # of a real motion, matched by amplitudes
+
+
+@pytest.mark.usefixtures("one_motion")
+def test_hospital_weighs_what_its_parts_do(tmp_path: Path) -> None:
+    pytest.importorskip("openseespy")
+    write_example(tmp_path, building="hospital")
+    frame = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path).frame()
+    slabs = 12 * 49.0 * (800.0 + 5 * (600.0 + 0.5 * 300.0) + 550.0)  # kg: 12 panels a floor
+    columns = 21 * 6 * 3.6 * 0.75 * 0.75 * 2500.0
+    beams = 32 * 7.0 * 0.9 * 1.6 * 2500.0 + 6 * 28 * 7.0 * 0.4 * 0.75 * 2500.0  # four lines walled
+    walls = 4 * 6 * 7.0 * 3.6 * 0.3 * 2500.0
+    weight = 9.81 * (slabs + columns + beams + walls)
+    assert frame.check().carried == pytest.approx(weight, rel=1e-9)
