@@ -105,7 +105,7 @@ def propose(
         parts = _parts(file)
         frame = parts.provisional_frame()
         found = design(
-            frame,
+            parts.system(frame, parts.spectrum()),
             parts.spectrum(),
             bounds=parts.bounds(),
             target=parts.target(),

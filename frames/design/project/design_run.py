@@ -18,6 +18,7 @@ from frames.design.project.check_register import BearingDemand, RunToCheck, chec
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
 from frames.design.project.level_runs import demands_at_levels, histories_at_levels
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -77,6 +78,8 @@ class ProjectRun:
         How the time histories counted, and at which levels.
     doubts : tuple of str
         What of the input was warned of.
+    structure : tuple of (str, str)
+        What the structure is, in words.
     """
 
     frame: Frame
@@ -95,6 +98,7 @@ class ProjectRun:
     programme: pd.DataFrame
     rules: HistoryRules
     doubts: tuple[str, ...] = ()
+    structure: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -217,6 +221,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         programme=_programme(parts, known, histories, asked),
         rules=rules,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        structure=tuple(structure_rows(parts.file, frame)),
     )
 
 

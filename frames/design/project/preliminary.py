@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelWarning, MotionWarning
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
@@ -18,6 +17,7 @@ from frames.design.project.schema import OpenSeesModel
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
+    from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
@@ -33,9 +33,9 @@ class Preliminary:
     Attributes
     ----------
     frame : Frame
-        The structure on its bearings, friction nominal.
+        The structure on its bearings, friction nominal, under the average combination of loads.
     system : IsolationSystem
-        The bearings with their places and loads.
+        The bearings with their places, and their loads in all combinations.
     spectrum : Spectrum
         The design spectrum.
     superstructure : Superstructure, optional
@@ -100,7 +100,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
     parts.limits(), parts.rules()  # refused before anything is run
     _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
-    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    system = parts.system(parts.loaded_frame() if frame.load_cases else frame, spectrum)
     _warn(wind_doubts(parts.file, system, parts.bounds()))
     above = parts.superstructure(frame)
     equivalent = equivalent_linear(
@@ -181,6 +181,8 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
         "bounds": file.bounds.model_dump(mode="json"),
         "analysis": analysis,
     }
+    if file.loads is not None:
+        said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())

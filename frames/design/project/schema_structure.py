@@ -29,7 +29,7 @@ class MomentFrame(Table):
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
     storey_height: Size
-    floor_load: Annotated[AreaMass, Positive]
+    floor_load: Annotated[AreaMass, Positive] | None = None
     columns: Columns | None = None
     beams: Beams | None = None
     base_beams: BaseBeams | None = None

@@ -9,6 +9,7 @@ from frames._errors import ModelError
 from frames.design._errors import ProjectError
 from frames.design.project.member_sections import NamedSection, by_storey, named_section
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.structure_loads import BuildingLoads, apply_loads
 from frames.frame import Frame
 from frames.library.building import BeamPart, BuildingPlan, ColumnPart, build, level_name
 from frames.library.moment_frames import (
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 T = TypeVar("T", bound=ColumnsTable | BeamsTable)
 
 DIRECTIONS = ("x", "y")
+
 
 _DEFAULTS: dict[str, tuple[Section, str]] = {
     "columns": (DEFAULT_COLUMN, "box 400 x 400 x 25 mm"),
@@ -105,7 +107,9 @@ def _sections(
     return [made[id(one)] for one in chosen]
 
 
-def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
+def regular_frame(
+    given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
+) -> Frame:
     """Return a regular frame on its bearings.
 
     Parameters
@@ -116,6 +120,8 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
         Under each column.
     name : str
         Name of the model.
+    loads : BuildingLoads, optional
+        Loads of its floors in place of ``floor_load``.
 
     Returns
     -------
@@ -127,7 +133,13 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
     ProjectError, ModelError
         If it cannot be.
     """
-    frame = build(_plan(given, sections_of(given)), bearing, name=name)
+    _require_one_load(given, loads)
+    plan = regular_plan(given)
+    frame = build(plan, bearing, name=name)
+    if given.floor_load is None:
+        if loads is not None:
+            apply_loads(frame, plan, loads, given.eccentricity)
+        return frame
     masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
     for level in range(given.storeys + 1):
         for (ix, iy), mass in masses.items():
@@ -138,7 +150,37 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
     return frame
 
 
-def _plan(given: MomentFrame, sections: MemberSections) -> BuildingPlan:
+def _require_one_load(given: MomentFrame, loads: BuildingLoads | None) -> None:
+    if given.floor_load is not None and loads is not None:
+        msg = "[structure] floor_load and [loads] both say what floors weigh: leave one of them out"
+        raise ProjectError(msg)
+    if given.floor_load is None and loads is None:
+        msg = (
+            "[structure] floor_load is missing: give the mass of the floors, "
+            'floor_load = "450 kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
+        )
+        raise ProjectError(msg)
+
+
+def regular_plan(given: MomentFrame) -> BuildingPlan:
+    """Return the plan of a regular frame.
+
+    Parameters
+    ----------
+    given : MomentFrame
+        The section of the file.
+
+    Returns
+    -------
+    BuildingPlan
+        Its lines are named "<ix>-<iy>".
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If a section cannot be.
+    """
+    sections = sections_of(given)
     (n_x, n_y), (b_x, b_y) = given.bays, given.bay_width
     places = list(product(range(n_x + 1), range(n_y + 1)))
     columns, beams = [], []

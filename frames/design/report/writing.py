@@ -15,6 +15,7 @@ from frames.design.report.figures import pictures
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from lir_element.results.dataset import package_version
+from lir_element.tables import html_table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -64,6 +65,7 @@ def report_html(
         doubts=run.doubts,
         checks=[_judged(check) for check in run.checks],
         limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
+        structure=Markup(html_table("as described", run.structure)),  # noqa: S704
         model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
         bearing=Markup(device._repr_html_()),  # noqa: S704
         schedule=page_table(in_mm_and_kn(tables["bearings"]), "bearing"),
