@@ -16,12 +16,13 @@ from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
+    IrregularFrame,
     MomentFrame,
     OpenSeesModel,
     ShearBuilding,
 )
 from frames.design.project.structure_loads import BuildingLoads, loads_of
-from frames.design.project.structure_plan import regular_frame
+from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
@@ -173,10 +174,12 @@ def frame_of(
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
         return regular_frame(given, bearing, name, loads)
+    if isinstance(given, IrregularFrame):
+        return irregular_frame(given, bearing, name, folder, loads)
     if loads is not None:
         msg = (
-            f'[loads] is for kind = "moment frame": kind = "{given.kind}" has its own masses and '
-            "loads, leave the section out"
+            f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '
+            "masses and loads, leave the section out"
         )
         raise ProjectError(msg)
     if isinstance(given, ShearBuilding):

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
+from frames.design.project.irregular_plan import irregular_plan
 from frames.design.project.member_sections import NamedSection, by_storey, named_section
+from frames.design.project.schema_loads import LoadsTable
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.design.project.structure_loads import BuildingLoads, apply_loads
 from frames.frame import Frame
@@ -22,8 +24,9 @@ from frames.library.moment_frames import (
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
-    from frames.design.project.schema_structure import MomentFrame
+    from frames.design.project.schema_structure import IrregularFrame, MomentFrame
     from frames.model.sections import Section
     from lir_element import LIRBearing
 
@@ -150,7 +153,50 @@ def regular_frame(
     return frame
 
 
-def _require_one_load(given: MomentFrame, loads: BuildingLoads | None) -> None:
+def irregular_frame(
+    given: IrregularFrame,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
+    """Return an irregular frame on its bearings.
+
+    Parameters
+    ----------
+    given : IrregularFrame
+        The section of the file.
+    bearing : LIRBearing
+        Under each column of the first storey.
+    name : str
+        Name of the model.
+    folder : Path
+        Folder of its tables.
+    loads : BuildingLoads, optional
+        Loads of its floors; ``floor_load`` stands for dead load that is mass.
+
+    Returns
+    -------
+    Frame
+        The parts have the names of `frames.library.building.build`.
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If it cannot be.
+    """
+    _require_one_load(given, loads)
+    plan = irregular_plan(given, folder)
+    frame = build(plan, bearing, name=name)
+    if given.floor_load is not None:
+        dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
+        loads = BuildingLoads(dead, {"D": 1.0})
+    if loads is not None:
+        apply_loads(frame, plan, loads, given.eccentricity)
+    return frame
+
+
+def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:
     if given.floor_load is not None and loads is not None:
         msg = "[structure] floor_load and [loads] both say what floors weigh: leave one of them out"
         raise ProjectError(msg)
@@ -200,7 +246,7 @@ def regular_plan(given: MomentFrame) -> BuildingPlan:
                     beams.append(BeamPart(name, level, f"{ix}-{iy}", end, own.section))
     return BuildingPlan(
         lines={f"{ix}-{iy}": (ix * b_x, iy * b_y) for ix, iy in places},
-        heights=(given.storey_height,) * given.storeys,
+        heights=given.heights,
         columns=tuple(columns),
         beams=tuple(beams),
     )
