@@ -129,8 +129,8 @@ def build(
     Frame
         Levels "base", "floor-1", ... with nodes "<level>-<line>", a diaphragm for what beams join
         on each; fixed nodes "ground-<line>", bearings "bearing-<line>", members
-        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that it begins at; where several begin
-        there, the line that it ends at follows.
+        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that
+        it begins at; where several begin there, the line that it ends at follows.
 
     Raises
     ------

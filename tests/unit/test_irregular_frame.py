@@ -199,7 +199,7 @@ REFUSED = {
     "storey twice": (
         ("C1,0,10,1-2,C,", "C1,0,10,1-2,C,\nC1,0,10,2,C,"),
         "",
-        "two parts in storey 2",
+        "two sections in storey 2",
     ),
     "two places": (("C1,0,10,1-2,C,", "C1,0,10,1,C,\nC1,0,11,2,C,"), "", "a name has one place"),
     "one place": (("C1,0,10,", "C1,6.01,10,"), "", 'columns "C1" and "C2" stand at one place'),
