@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
+    from frames.design.project.schema import ProjectTable
     from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
@@ -76,6 +77,8 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    about : ProjectTable
+        ``[project]`` of the file: its name, client, engineer, checker, revision, date.
     doubts : tuple of str
         What of the input was warned of.
     structure : tuple of (str, str)
@@ -97,6 +100,7 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    about: ProjectTable
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
 
@@ -220,6 +224,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
+        about=parts.file.project,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
         structure=tuple(structure_rows(parts.file, frame)),
     )
