@@ -1,0 +1,65 @@
+"""What ``[spectrum]`` and ``[motions]`` of a project's file hold."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, create_model, field_validator, model_validator
+
+from frames.design.codes.registry import DesignCode
+from frames.design.project.derived import Table
+from frames.design.project.quantities import Positive, quantity
+
+
+class SpectrumTable(Table):
+    """``[spectrum]``: the keys of the project's code."""
+
+    code: str
+
+
+def spectrum_table(code: DesignCode) -> type[SpectrumTable]:
+    """Return the class of ``[spectrum]`` of a code: its keys are those that the code names."""
+    keys: dict[str, Any] = {"code": (Literal[code.name], ...)}
+    for name, key in code.spectrum_keys.items():
+        kind: Any = key.kind
+        if kind is float and key.unit:
+            kind = Annotated[quantity(key.unit), Positive]
+        default: Any = ... if key.default is None else key.default
+        plain = key.kind is float and not key.unit
+        rule = Field(default, gt=0.0, le=key.most) if plain else Field(default)
+        keys[name] = (kind, rule)
+    said = f"``[spectrum]`` of {code.name}."
+    return create_model(f"Spectrum, {code.name}", __base__=SpectrumTable, __doc__=said, **keys)
+
+
+class MotionSource(Table):
+    """Records from a folder with a table, PEER files, or a set ready by name."""
+
+    folder: Path | None = None
+    table: str = "motions.csv"
+    fema_p695: Literal["far-field", "near-fault pulse", "near-fault no pulse"] | None = None
+    fault_normal: bool = False
+    only: tuple[str, ...] = ()
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if (self.folder is None) == (self.fema_p695 is None):
+            msg = 'needs one source: folder = "motions", or fema_p695 = "far-field"'
+            raise ValueError(msg)
+        return self
+
+
+class Motions(MotionSource):
+    """``[motions]``: the records, and how they are scaled."""
+
+    scale: Literal["spectrum"] | float = "spectrum"
+
+    @field_validator("scale")
+    @classmethod
+    def _scale(cls, scale: str | float) -> str | float:
+        if not isinstance(scale, str) and not 0.0 < scale < math.inf:
+            msg = 'must be "spectrum", or a factor on the accelerations above 0'
+            raise ValueError(msg)
+        return scale
