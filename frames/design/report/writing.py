@@ -10,8 +10,10 @@ import pandas as pd
 from markupsafe import Markup
 
 from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import headed, void_said
 from frames.design.report.figures import pictures
+from frames.design.report.numbers import ECCENTRICITY
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from lir_element.results.dataset import package_version
@@ -75,6 +77,8 @@ def report_html(
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
         demands=page_table(headed(run.demands), "quantity"),
         void=void_said(run.demands),
+        raised=_raised(tables[ECCENTRICITY]),
+        eccentricity=_eccentricity(run),
         levels=_levels(run),
         level=f"the level {run.rules.levels[0].name!r}",
         audit=run.governing.attrs["audit"].splitlines(),
@@ -99,6 +103,38 @@ def _levels(run: ProjectRun) -> str:
         for one in levels
     )
     return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
+
+
+def _raised(table: pd.DataFrame) -> Table:
+    # Of each quantity at each bound the way that raises it most.
+    if table.empty:
+        return Table((), ())
+    size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
+    worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
+    worst = worst.sort_index().set_index("quantity")
+    order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
+    if worst["level"].nunique() == 1:
+        order.remove("level")
+    return page_table(worst[order], "largest")
+
+
+def _eccentricity(run: ProjectRun) -> str:
+    # What of accidental eccentricity is in the demands.
+    asked = code_named(run.equivalent.code).histories
+    clause = f"{asked.cited} {asked.eccentricity_clause} *".strip()
+    share = 100.0 * run.rules.accidental_eccentricity
+    if not run.moved:
+        said = f"{clause} asks {100.0 * asked.accidental_eccentricity:g} % of the plan's sides"
+        return f"Accidental eccentricity is not in these demands; {said}."
+    every = [data for each in run.moved.values() for data in each.values()]
+    count, seconds = sum(d.sizes["run"] for d in every), float(every[0].attrs["seconds"])
+    return (
+        f"Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
+        f"plan's sides each way, {count} time histories more in {seconds:.3g} s. The factor of the "
+        "way that is worst multiplies what the suite gives; slip, rim force, eccentricity of the "
+        "sliders' resultant and lost axial force, which begin at a threshold, grow by the "
+        "difference."
+    )
 
 
 def _judged(check: Check) -> Judged:
