@@ -176,7 +176,13 @@ class Worker:
         recorder: PeakRecorder | _Recorder
         if structure.gauges is None or runner.kept.histories:
             recorder = _Recorder(
-                structure.model, motion, state, ground, options.steps, options.recording
+                structure.model,
+                motion,
+                state,
+                ground,
+                options.steps,
+                options.recording,
+                structure.maps,
             )
             recorder.is_stopped = self._is_stopped
         else:

@@ -12,6 +12,8 @@ from frames.kernel_data import Ground, IntegrationState, output_arrays, run_arra
 from frames.kernels.integration import record
 from frames.nonlinear_data import NonlinearElements, part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
+from frames.recording.force_rows import force_maps
+from frames.recording.force_tracking import ForceTracker
 from frames.recording.nonlinear_tracking import PartGauge
 from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.peak_data import Devices, Shape
+    from frames.recording.force_rows import ForceMaps
     from frames.recording.recording import Recording
     from frames.statics.gravity import GravityState
     from lir_element.device.features import Features
@@ -55,6 +58,8 @@ class Structure(NamedTuple):
     """Memory of one recorded step of the histories that are kept [bytes]."""
     gauges: tuple[Devices, Shape] | None
     """None where what is reached has to be read off Datasets."""
+    maps: ForceMaps | None = None
+    """How forces follow from what is recorded, where their extremes are kept."""
 
 
 def set_up(
@@ -98,13 +103,19 @@ def set_up(
     first = first.assign_attrs(features_left_out=left_out)
     if recording is not None:
         require_known(recording, first)
-    template = judgeable_of(first)
+    template, maps = judgeable_of(first), None
+    if recording is not None and recording.forces:
+        maps = force_maps(model, state)
+        forces = ForceTracker(maps)
+        forces.take(states, out, 0, 1)
+        variables, coordinates = forces.variables()
+        template = template.assign_coords(coordinates).assign(variables)
     template.attrs |= {
         "plane_coupling": coupling,
         "level": level if isinstance(level, str) else str(dict(level)),
     }
     size = 0.0 if recording is None else bytes_over_time(reduced(first, recording))
-    structure = Structure(model, state, template, layout_of(template), size, None)
+    structure = Structure(model, state, template, layout_of(template), size, None, maps)
     if not can_track(state):
         return structure
     gauges = devices_of(state), shape_of(state, places_of(template))

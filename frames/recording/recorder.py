@@ -9,6 +9,8 @@ from frames.kernel_data import output_arrays
 from frames.kernels.integration import record
 from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
+from frames.recording.force_rows import force_maps
+from frames.recording.force_tracking import ForceTracker
 from frames.recording.nonlinear_tracking import PartGauge
 from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.peak_data import Shape
+    from frames.recording.force_rows import ForceMaps
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
     from frames.statics.gravity import GravityState
@@ -66,6 +69,8 @@ class Recorder:
         Base steps of the run.
     recording : Recording
         What to keep.
+    maps : ForceMaps, optional
+        Of the structure, where the recording keeps forces; made here if None.
 
     Raises
     ------
@@ -81,6 +86,7 @@ class Recorder:
         ground: Ground,
         steps: int,
         recording: Recording,
+        maps: ForceMaps | None = None,
     ) -> None:
         self._model, self._motion, self._state, self._ground = model, motion, state, ground
         self._recording, self._steps = recording, steps
@@ -95,6 +101,7 @@ class Recorder:
         )
         self._rows = rows
         self._reduction = Reduction(recording)
+        self._forces = ForceTracker(maps or force_maps(model, state)) if recording.forces else None
         self.first = 0
         """Base step in the first row of `out`."""
         self.seconds = 0.0
@@ -135,6 +142,7 @@ class Recorder:
             return last
         began = perf_counter()
         rows = done - self.first + 1
+        self._take_forces(rows)
         self._reduction.take(self._dataset(rows), self.first, final=False)
         for array in self.out:
             array[:_OVERLAP] = array[rows - _OVERLAP : rows]
@@ -159,7 +167,12 @@ class Recorder:
         if self._is_whole:
             return data
         self._reduction.take(data, self.first, final=True)
-        return self._reduction.judgeable()
+        judged = self._reduction.judgeable()
+        if self._forces is None:
+            return judged
+        self._take_forces(done - self.first + 1)
+        variables, coordinates = self._forces.variables()
+        return judged.assign_coords(coordinates).assign(variables)
 
     def judgeable(self, data: xr.Dataset) -> xr.Dataset:
         """Return what the assumption check reads of a result that `data` gave.
@@ -215,6 +228,10 @@ class Recorder:
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""
         return judged if self._is_whole else with_exceeded(self._reduction.recorded(judged))
+
+    def _take_forces(self, count: int) -> None:
+        if self._forces is not None:
+            self._forces.take(self._states, self.out, self.first, count)
 
     def _dataset(self, count: int, *, kept: bool = False) -> xr.Dataset:
         peak = peak_velocity(self._motion, float(self.out.time[count - 1]))

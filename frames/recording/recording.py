@@ -47,6 +47,11 @@ class Recording:
     extremes : bool
         Whether the largest and the smallest value of every variable recorded are kept, and their
         times, over all base steps: read them by ``envelope(data, variable)``.
+    forces : bool
+        Whether the largest and smallest forces in members, storeys and under bearings are kept,
+        each with the others that act at its instant, over all base steps: the variables
+        ``reached_member_force``, ``reached_storey_force`` and ``reached_reaction_force``
+        (docs/results.md).
 
     Raises
     ------
@@ -72,6 +77,7 @@ class Recording:
     levels: tuple[str, ...] | None = None
     around_impacts: tuple[float, float] | None = None
     extremes: bool = False
+    forces: bool = False
 
     def __post_init__(self) -> None:
         """Check, and keep what was given as tuples."""
@@ -82,6 +88,7 @@ class Recording:
         if self.around_impacts is not None:
             object.__setattr__(self, "around_impacts", _window(self.around_impacts))
         require_type("extremes", self.extremes, bool, "True or False")
+        require_type("forces", self.forces, bool, "True or False")
 
     @classmethod
     def everything(cls) -> Self:
@@ -121,6 +128,8 @@ class Recording:
                 parts.append(f"{name} {' '.join(chosen)}")
         if self.extremes:
             parts.append("extremes of all")
+        if self.forces:
+            parts.append("extremes of forces")
         return ", ".join(parts)
 
     def __repr__(self) -> str:

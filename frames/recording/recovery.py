@@ -26,7 +26,7 @@ from frames.assembly.nonlinear import with_axial_forces
 from frames.model.axes import to_local
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import forces_beyond
-from frames.recording.section_cuts import cuts
+from frames.recording.section_cuts import cuts, resultant
 from frames.results.envelopes import envelope
 from frames.results.recorded import noted, require_recorded, require_steps
 from frames.statics.springs import first_displacement
@@ -34,7 +34,7 @@ from frames.statics.springs import first_displacement
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
+    from frames._types import BoolArray, FloatArray
     from frames.assembly.system import System
     from frames.model.components import Level
     from frames.model.frame_data import FrameData
@@ -353,7 +353,7 @@ def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray
         nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
         middle = system.coordinates[nodes].mean(axis=0)
         lower, upper = (
-            _resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
+            resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
         )
         values[:, k] = -np.asarray((lower @ cut.rows) @ found.u.T).T - lower @ cut.constant
         values[:, k] -= np.asarray((lower @ system.parts.node_rows.T) @ found.beyond.T).T
@@ -392,18 +392,6 @@ def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
                 total[:, 6 * node : 6 * node + 3] += sign * force[:, b]
                 total[:, 6 * node + 3 : 6 * node + 6] += moment[:, b, end]
     return total
-
-
-def _resultant(coordinates: FloatArray, about: FloatArray, chosen: BoolArray) -> SparseMatrix:
-    # Force and moment about a point of the nodal forces of chosen nodes, (6, 6 n_nodes).
-    nodes: IntArray = np.flatnonzero(chosen)
-    x, y, z = (coordinates[nodes] - about).T
-    entries: list[tuple[int, int, FloatArray]] = [(a, a, np.ones(len(nodes))) for a in range(6)]
-    entries += [(3, 1, -z), (3, 2, y), (4, 0, z), (4, 2, -x), (5, 0, -y), (5, 1, x)]
-    row = np.concatenate([np.full(len(nodes), a) for a, _, _ in entries])
-    column = np.concatenate([6 * nodes + b for _, b, _ in entries])
-    value = np.concatenate([v for _, _, v in entries])
-    return sparse.csr_array((value, (row, column)), shape=(6, 6 * len(coordinates)))
 
 
 def _some(names: Sequence[str] | FloatArray) -> str:

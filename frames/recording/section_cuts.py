@@ -14,7 +14,7 @@ from frames.model.axes import matrix_to_global, to_global
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.assembly.system import System
 
 _LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
@@ -110,3 +110,30 @@ def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> 
         np.concatenate(constant),
         np.array(crossed),
     )
+
+
+def resultant(coordinates: FloatArray, about: FloatArray, chosen: BoolArray) -> SparseMatrix:
+    """Return the rows that sum up forces on nodes: force, and moment about a point.
+
+    Parameters
+    ----------
+    coordinates : ndarray, (n_nodes, 3)
+        Places of the nodes [m].
+    about : ndarray, (3,)
+        The point [m].
+    chosen : ndarray of bool, (n_nodes,)
+        Nodes whose forces count.
+
+    Returns
+    -------
+    csr_array, (6, 6 n_nodes)
+        Over forces and moments on the nodes.
+    """
+    nodes: IntArray = np.flatnonzero(chosen)
+    x, y, z = (coordinates[nodes] - about).T
+    entries: list[tuple[int, int, FloatArray]] = [(a, a, np.ones(len(nodes))) for a in range(6)]
+    entries += [(3, 1, -z), (3, 2, y), (4, 0, z), (4, 2, -x), (5, 0, -y), (5, 1, x)]
+    row = np.concatenate([np.full(len(nodes), a) for a, _, _ in entries])
+    column = np.concatenate([6 * nodes + b for _, b, _ in entries])
+    value = np.concatenate([v for _, _, v in entries])
+    return sparse.csr_array((value, (row, column)), shape=(6, 6 * len(coordinates)))

@@ -98,10 +98,17 @@ def rigid_time_history(
     ModelError
         If the model is more than one bearing on the ground with a mass on it.
     ValueError
-        If the integrator is not one of this level, or the explicit step is not stable.
+        If the integrator is not one of this level, the explicit step is not stable, or forces of a
+        structure are asked for.
     """
     if integrator not in (None, "explicit"):
         msg = f'integrator = {integrator!r}: level="rigid_body" has None (implicit) or "explicit"'
+        raise ValueError(msg)
+    if recording.forces:
+        msg = (
+            'recording.forces = True: at level="rigid_body" there is one bearing and no structure: '
+            "leave it out, its forces are bearing_force and bearing_moment"
+        )
         raise ValueError(msg)
     for link in model.bearings.values():
         require_constant_friction(link.bearing, AT_RIGID_BODY)

@@ -45,6 +45,7 @@ BAD = [
     ({"around_impacts": (-0.1, 0.2)}, ValueError, "before a rim contact = -0.1 .* at least 0"),
     ({"around_impacts": (0.1, np.inf)}, ValueError, "after a rim contact = inf .* finite"),
     ({"extremes": 1}, TypeError, "extremes = 1 must be True or False"),
+    ({"forces": "yes"}, TypeError, "forces = 'yes' must be True or False"),
 ]
 
 
