@@ -13,6 +13,7 @@ from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.console import FAILED_CHECKS, err, out, say, told
+from frames.command.designing import propose
 from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
@@ -25,7 +26,6 @@ from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
 from frames.design.report.tables import rows_of
-from frames.design.sizing.proposal import Design, design
 from lir_element.errors import AnalysisInterrupted
 from lir_element.results.dataset import package_version
 from lir_element.tables import text_table
@@ -91,31 +91,7 @@ def check(file: File = FILE) -> None:
             raise typer.Exit(FAILED_CHECKS)
 
 
-@app.command(name="design")
-def propose(
-    file: File = FILE,
-    sizes: Annotated[int, typer.Option(help="Number of unlike sliders.")] = 1,
-    least: Annotated[str, typer.Option(help="base shear, displacement or plan diameter")] = (
-        "base shear"
-    ),
-) -> None:
-    """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file."""
-    with told():
-        parts = _parts(file)
-        frame = parts.provisional_frame()
-        found = design(
-            frame,
-            parts.spectrum(),
-            bounds=parts.bounds(),
-            target=parts.target(),
-            superstructure=parts.superstructure(frame),
-            code=parts.code().analysis(),
-            sizes=sizes,
-            least=least,  # type: ignore[arg-type]  # design checks it
-        )
-        say(f"{found}\n")
-        for text in _sections(found):
-            say(text)
+app.command(name="design")(propose)
 
 
 @app.command()
@@ -280,16 +256,3 @@ def _checks(title: str, checks: Checks) -> None:
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
     out.print(f"\n[bold]{title}[/]")
     say(text_table(rows_of(frame), ("", *map(str, frame.columns))))
-
-
-def _sections(found: Design) -> list[str]:
-    # Each proposed bearing as it stands in a project's file.
-    return [
-        f'[bearing]\nradius = "{one.radii[0]:g} m"\n'
-        f'slider_height = "{1e3 * one.slider_height:.0f} mm"\n'
-        f'slider_radius = "{1e3 * one.slider_radius:.0f} mm"\n'
-        f'capacity = "{1e3 * one.lateral_capacity:.0f} mm"\n'
-        f"friction = {one.frictions[0].f_max:g}\n"
-        f"interface_friction = {one.interface_friction:g}\n"
-        for one in found.chosen.bearings
-    ]

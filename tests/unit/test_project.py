@@ -467,14 +467,49 @@ def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPa
     assert len(pd.read_csv("bench.csv")) == 1
 
 
-def test_bearings_are_proposed_as_a_section(folder: Path) -> None:
-    done = run(app, ["design", str(folder / "project.toml")])
+def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    done = run(app, ["design", str(folder / "project.toml"), "--top", "2"])
     assert done.exit_code == 0, done.output
+    assert "9 candidates tried" in done.stdout
+    table = pd.read_csv("design/candidates.csv", keep_default_na=False)
+    chosen = table[table["outcome"] == "proposed"].iloc[0]
+    assert f'radius = "{chosen["radius [m]"]:g} m"' in done.stdout
+    good = table[table["lacks"] == ""]
+    assert chosen["base shear / weight [-]"] == good["base shear / weight [-]"].min()
+    assert Path("design/candidates.png").stat().st_size > 10_000
     section = done.stdout[done.stdout.index("[bearing]") :]
     text = (folder / "project.toml").read_text()
     start, end = text.index("[bearing]"), text.index("[bounds]")
     (folder / "project.toml").write_text(text[:start] + section + "\n" + text[end:])
     assert read_project(folder / "project.toml").bearing is not None
+
+
+@pytest.mark.parametrize(
+    ("objective", "column"),
+    [("displacement", "displacement [m]"), ("plan", "plan diameter [m]")],
+)
+def test_a_proposal_makes_least_what_is_asked(folder: Path, objective: str, column: str) -> None:
+    words = [str(folder / "project.toml"), "--objective", objective, "--results", str(folder)]
+    assert run(app, ["design", *words]).exit_code == 0
+    table = pd.read_csv(folder / "candidates.csv", keep_default_na=False)
+    good = table[(table["lacks"] == "") & (table["warnings"] == "")]
+    assert table.loc[table["outcome"] == "proposed", column].item() == good[column].min()
+
+
+def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) -> None:
+    text = (folder / "project.toml").read_text()
+    file = folder / "tight.toml"
+    file.write_text(text.replace('max_displacement = "600 mm"', 'max_displacement = "100 mm"'))
+    found = run(app, ["design", str(file), "--results", str(folder / "tried")])
+    assert found.exit_code == 2
+    assert "none of 9 pairs" in found.output
+    table = pd.read_csv(folder / "tried" / "candidates.csv")
+    assert list(table["outcome"]) == ["falls out"] * 9
+    assert set(table["limited by"]) == {"displacement"}
+    wrong = run(app, ["design", str(file), "--objective", "weight"])
+    assert wrong.exit_code == 2
+    assert "is none of base-shear, displacement, plan, cost-like" in wrong.output
 
 
 def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
