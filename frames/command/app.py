@@ -25,6 +25,7 @@ from frames.design.project.level_runs import said_of_runs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
+from frames.design.project.structure_statement import structure_rows
 from frames.design.report.tables import rows_of
 from lir_element.errors import AnalysisInterrupted
 from lir_element.results.dataset import package_version
@@ -81,7 +82,7 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
-        say(f"{len(ground.frame.bearings)} bearings")
+        say(text_table(structure_rows(parts.file, ground.frame), left=2))
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))

@@ -19,10 +19,10 @@ from frames.design.project.schema import (
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.structure_plan import regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
-from frames.library.moment_frames import moment_frame
 from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
@@ -146,16 +146,7 @@ def bearing_of(given: schema.Bearing) -> LIRBearing:
 def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
-        return moment_frame(
-            given.bays,
-            given.storeys,
-            bearing=bearing,
-            bay_width=given.bay_width,
-            storey_height=given.storey_height,
-            floor_load=given.floor_load,
-            eccentricity=given.eccentricity,
-            name=name,
-        )
+        return regular_frame(given, bearing, name)
     if isinstance(given, ShearBuilding):
         return shear_building(
             bearing,

@@ -33,10 +33,16 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        About masses of storeys by area, bays that bearings do not fit into, storeys that are far
-        too soft, and an importance that is in one section alone.
+        About sections that are not given, masses of storeys by area, bays that bearings do not
+        fit into, storeys that are far too soft, and an importance that is in one section alone.
     """
-    return (*_of_masses(file), *_of_bays(file), *_of_storeys(file), *_of_importance(file))
+    return (
+        *_of_sections(file),
+        *_of_masses(file),
+        *_of_bays(file),
+        *_of_storeys(file),
+        *_of_importance(file),
+    )
 
 
 def wind_doubts(
@@ -67,6 +73,22 @@ def wind_doubts(
         "which all bearings slide at the lower bound of friction: the isolation slides in wind. "
         "Raise the friction, add a wind restraint, or look at the unit of wind_shear",
     )
+
+
+def _of_sections(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, MomentFrame):
+        return []
+    keys = ("columns", "beams", "base_beams")
+    assumed = [key for key in keys if getattr(given, key) is None]
+    if not assumed:
+        return []
+    return [
+        f"[structure] {' and '.join(assumed)}: no section is given, those of an example are "
+        "assumed (`lir check` shows them), whatever the building carries: give each its section, "
+        'columns = { section = "HEB 300" }, beams = { rectangle = ["300 mm", "600 mm"], '
+        'material = "C30/37" }'
+    ]
 
 
 def _of_masses(file: ProjectFile) -> list[str]:

@@ -13,15 +13,12 @@ from frames.design.project.quantities import (
     AreaMass,
     Eccentricity,
     Force,
-    Length,
     Mass,
     NotNegative,
     Positive,
     Stiffness,
 )
-
-Size = Annotated[Length, Positive]
-Count = Annotated[int, Field(ge=1)]
+from frames.design.project.schema_sections import BaseBeams, Beams, Columns, Count, Size
 
 
 class MomentFrame(Table):
@@ -33,6 +30,9 @@ class MomentFrame(Table):
     storeys: int = Field(ge=1)
     storey_height: Size
     floor_load: Annotated[AreaMass, Positive]
+    columns: Columns | None = None
+    beams: Beams | None = None
+    base_beams: BaseBeams | None = None
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
