@@ -20,7 +20,7 @@ from frames import (
     time_histories,
 )
 from frames.assembly.assemble import assemble
-from frames.statics.moved_masses import with_moved_masses
+from frames.library.moved_masses import with_moved_masses
 from lir_element import LIRBearing
 
 BEARING = LIRBearing(

@@ -18,7 +18,7 @@ from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
 from frames.design.project.schema import OpenSeesModel
-from frames.statics.moved_masses import with_moved_masses
+from frames.library.moved_masses import with_moved_masses
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
