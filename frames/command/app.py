@@ -12,13 +12,14 @@ import typer
 from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
+from frames.command.comparing import compare
 from frames.command.console import FAILED_CHECKS, err, out, say, told
 from frames.command.designing import propose
 from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
-from frames.design.project.design_run import ProjectRun, compare_devices, evaluate_run, run_project
+from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
 from frames.design.project.example import write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
@@ -165,11 +166,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         raise typer.Exit(FAILED_CHECKS)
 
 
-@app.command()
-def compare(file: File = FILE) -> None:
-    """Compare the LIR-DCFP with the same bearing and a rigid slider, the plain DCFP."""
-    with told():
-        _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
+app.command()(compare)
 
 
 @app.command()

@@ -429,7 +429,9 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
 
 def test_the_devices_are_compared(folder: Path) -> None:
     (folder / "small.toml").write_text(ASCE.replace(', "artificial-3", "artificial-5"', ""))
-    done = run(app, ["compare", str(folder / "small.toml")])
+    done = run(
+        app, ["compare", str(folder / "small.toml"), "--no-figures", "--results", str(folder / "c")]
+    )
     assert done.exit_code == 0, done.output
     line = next(
         one for one in done.stdout.splitlines() if one.startswith("residual interface slip")

@@ -10,7 +10,7 @@ import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import bounds_of, envelope_said
+from frames.design.histories.demand_table import bounds_of
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import run_checks as run_checks  # which it registers
@@ -233,47 +233,6 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         rules=rules,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
     )
-
-
-def compare_devices(
-    parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
-) -> pd.DataFrame:
-    """Compare a project's bearings with the same ones with rigid sliders.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        What time histories give for design, the envelope over the bounds: a column "unit" and one
-        for each device, in SI units; its head names the statistic, and runs that failed.
-
-    Raises
-    ------
-    ProjectError, CheckError, ModelError, MotionError
-        If the project cannot be run.
-    AnalysisInterrupted
-        After Ctrl-C, with the runs of one device that were complete.
-    """
-    known = preliminary(parts)
-    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
-    frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
-    tables = {
-        device: demands_at_levels(
-            histories_at_levels(parts, frame, known.motions, progress), parts.rules()
-        )
-        for device, frame in frames.items()
-    }
-    columns = {
-        f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
-    }
-    ours = tables["LIR-DCFP"]
-    return ours[["unit"]].assign(**columns, level=ours["level"])
 
 
 def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
