@@ -129,9 +129,13 @@ def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
+    pdf: Annotated[
+        bool, typer.Option("--pdf", help="Print it as well: report.pdf, by Chromium.")
+    ] = False,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
     from frames.design.report.files import read_histories, write_judgement
+    from frames.design.report.printing import print_report
 
     with told():
         parts = _parts(file)
@@ -145,6 +149,8 @@ def report(
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = file.read_text(encoding="utf-8")
         written = write_judgement(found, results, source, figures=figures)
+        if pdf:
+            written.append(print_report(results / "report.html", results / "report.pdf"))
         _told_of(found, written, results)
 
 

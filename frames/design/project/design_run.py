@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
+    from frames.design.project.schema import ProjectTable
     from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
@@ -79,6 +80,8 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    about : ProjectTable
+        ``[project]`` of the file: its name, client, engineer, checker, revision, date.
     moved : mapping of str to mapping of str to xarray.Dataset
         Time histories with the floors' masses moved, in the way of `runs`.
     doubts : tuple of str
@@ -100,6 +103,7 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    about: ProjectTable
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
 
@@ -231,6 +235,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
+        about=parts.file.project,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from functools import cache
 from typing import Annotated, Any, Literal, Union
 
@@ -28,11 +29,16 @@ from frames.design.project.schema_structure import SuperstructureTable as Supers
 
 
 class ProjectTable(Table):
-    """``[project]``: its name, the standard that it is designed by, Python files that extend it."""
+    """``[project]``: its name and standard, Python files that extend it, who and when."""
 
     name: str = Field(min_length=1)
     code: str
     extensions: tuple[str, ...] = ()
+    client: str = ""
+    engineer: str = ""
+    checker: str = ""
+    revision: str = ""
+    date: datetime.date | str = ""
 
 
 class ProjectFile(Table):

@@ -83,7 +83,8 @@ def write_judgement(
     run: ProjectRun, folder: Path, source: str, *, figures: bool = True
 ) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
-    (folder / "view.html").unlink(missing_ok=True)  # of `lir view`, with the checks of before
+    for stale in ("view.html", "report.pdf"):  # with the checks of before
+        (folder / stale).unlink(missing_ok=True)
     tables = run_tables(run)
     texts = {
         "project.toml": source,
