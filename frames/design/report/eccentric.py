@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def raised_tables(table: pd.DataFrame) -> list[Table]:
-    """Return of each quantity at each bound the way that raises it most; none without moved runs."""
+    """Return the way that raises each quantity most at each bound; none without moved runs."""
     if table.empty:
         return []
     size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
