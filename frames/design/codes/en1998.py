@@ -344,10 +344,12 @@ CODE = DesignCode(
         least=3,
         mean_from=7,
         displacement_factor=1.2,
+        accidental_eccentricity=0.05,
         statistic_clause="4.3.3.4.3(3)",
         displacement_clause="10.3(2)",
         drift_clause="4.4.3.2",
         force_clause="10.10",
+        eccentricity_clause="4.3.2",
     ),
     spectrum=Spectrum.en1998,
     spectrum_keys={

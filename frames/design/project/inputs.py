@@ -140,9 +140,10 @@ class ProjectInputs:
 
     def rules(self) -> HistoryRules:
         """Return how time histories count: as the code has it, uplift as the file says."""
-        given = self.file.analysis.model_dump(
-            exclude_none=True, include={"uplift_allowed", "least_gap"}
-        )
+        keys = {"uplift_allowed", "least_gap", "accidental_eccentricity"}
+        given = self.file.analysis.model_dump(exclude_none=True, include=keys)
+        if given.get("accidental_eccentricity") == "none":
+            given["accidental_eccentricity"] = 0.0
         rules = self.code().histories
         return in_section("analysis", lambda: replace(rules, **given))
 
