@@ -129,9 +129,13 @@ def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
+    pdf: Annotated[
+        bool, typer.Option("--pdf", help="Print it as well: report.pdf, by Chromium.")
+    ] = False,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
     from frames.design.report.files import read_histories, write_judgement
+    from frames.design.report.printing import print_report
 
     with told():
         parts = _parts(file)
@@ -145,6 +149,8 @@ def report(
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = file.read_text(encoding="utf-8")
         written = write_judgement(found, results, source, figures=figures)
+        if pdf:
+            written.append(print_report(results / "report.html", results / "report.pdf"))
         _told_of(found, written, results)
 
 
@@ -155,6 +161,11 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     _frame_table("Demands", headed(found.demands))
     if void := void_said(found.demands):
         say(f"no values for design, only what runs reached: {void}")
+    if found.moved:
+        every = [data for each in found.moved.values() for data in each.values()]
+        seconds = float(every[0].attrs["seconds"])  # of all of them: one batch
+        count = sum(data.sizes["run"] for data in every)
+        say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
