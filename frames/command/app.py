@@ -161,6 +161,11 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     _frame_table("Demands", headed(found.demands))
     if void := void_said(found.demands):
         say(f"no values for design, only what runs reached: {void}")
+    if found.moved:
+        every = [data for each in found.moved.values() for data in each.values()]
+        seconds = float(every[0].attrs["seconds"])  # of all of them: one batch
+        count = sum(data.sizes["run"] for data in every)
+        say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:

@@ -84,7 +84,7 @@ def _found(
     frame = parts.provisional_frame()
     try:
         return design(
-            frame,
+            parts.system(frame, parts.spectrum()),
             parts.spectrum(),
             bounds=parts.bounds(),
             target=target,

@@ -127,10 +127,10 @@ def build(
     Returns
     -------
     Frame
-        Levels "base", "floor-1", ..., each a diaphragm with nodes "<level>-<line>"; fixed nodes
-        "ground-<line>", bearings "bearing-<line>", members "column-<storey>-<line>" and
-        "<name of the beam>-<level>-<line>" with the line that it begins at; where several begin
-        there, the line that it ends at follows.
+        Levels "base", "floor-1", ... with nodes "<level>-<line>", a diaphragm for what beams join
+        on each; fixed nodes "ground-<line>", bearings "bearing-<line>", members
+        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that
+        it begins at; where several begin there, the line that it ends at follows.
 
     Raises
     ------
@@ -173,10 +173,28 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
         name = f"{part.name}-{start}"
         alone = sum((b.name, b.start) == (part.name, part.start) for b in beams) == 1
         frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
-    nodes = [f"{floor}-{line}" for line in lines]
-    if len(nodes) > 1:
-        frame.add_diaphragm(floor, nodes)
-    frame.add_level(floor, nodes)
+    for k, slab in enumerate(_slabs(lines, beams)):
+        if len(slab) > 1:
+            nodes = [f"{floor}-{line}" for line in slab]
+            frame.add_diaphragm(floor if k == 0 else f"{floor}-{slab[0]}", nodes)
+    frame.add_level(floor, [f"{floor}-{line}" for line in lines])
+
+
+def _slabs(lines: list[str], beams: list[BeamPart]) -> list[list[str]]:
+    # Lines that beams join, one list for each part of a level that stands apart.
+    group = {line: line for line in lines}
+
+    def root(line: str) -> str:
+        while group[line] != line:
+            line = group[line]
+        return line
+
+    for beam in beams:
+        group[root(beam.end)] = root(beam.start)
+    found: dict[str, list[str]] = {}
+    for line in lines:
+        found.setdefault(root(line), []).append(line)
+    return list(found.values())
 
 
 def _require_whole(plan: BuildingPlan) -> None:
@@ -204,8 +222,14 @@ def _require_whole(plan: BuildingPlan) -> None:
                     )
                     raise ModelError(msg)
                 ends.add(line)
-        heads = {part.line for part in plan.standing(level)} if level else nodes
+        heads = {part.line for part in plan.standing(level)} if level or len(nodes) == 1 else set()
         hanging = sorted(nodes - heads - ends)
+        if hanging and level == 0:
+            msg = (
+                f'column "{hanging[0]}": no beam at the base, floor 0, reaches its foot, and a '
+                "bearing holds none upright: give base beams between the feet of columns"
+            )
+            raise ModelError(msg)
         if hanging:
             msg = (
                 f'column "{hanging[0]}" begins at {level_name(level)}, where no beam reaches it: '

@@ -267,7 +267,8 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
 
 def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) -> None:
     """Each bearing's largest of all runs; the friction that the bounds make of the file's."""
-    runs = [load(results / f"runs-{bound}.nc") for bound in ("lower", "upper")]
+    files = (f"{kind}-{bound}.nc" for kind in ("runs", "moved") for bound in ("lower", "upper"))
+    runs = [load(results / name) for name in files]
     bearings = pd.read_csv(results / "bearings.csv", index_col=0)
     for k, name in enumerate(bearings.index):
         largest = max(float(one["reached_displacement"][:, k].max()) for one in runs)

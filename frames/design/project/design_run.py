@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -16,8 +16,13 @@ from frames.design.histories.impacts import rim_engagement
 from frames.design.project import run_checks as run_checks  # which it registers
 from frames.design.project.check_register import BearingDemand, RunToCheck, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
-from frames.design.project.level_runs import demands_at_levels, histories_at_levels
+from frames.design.project.level_runs import (
+    demands_at_levels,
+    histories_at_levels,
+    moved_at_levels,
+)
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -78,8 +83,12 @@ class ProjectRun:
         How the time histories counted, and at which levels.
     about : ProjectTable
         ``[project]`` of the file: its name, client, engineer, checker, revision, date.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Time histories with the floors' masses moved, in the way of `runs`.
     doubts : tuple of str
         What of the input was warned of.
+    structure : tuple of (str, str)
+        What the structure is, in words.
     """
 
     frame: Frame
@@ -98,7 +107,9 @@ class ProjectRun:
     programme: pd.DataFrame
     rules: HistoryRules
     about: ProjectTable
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
+    structure: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,11 +124,14 @@ class Histories:
         Histories of the run that displaces a bearing most, in single precision as they are kept.
     governing_case : str
         Which that is.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Runs with the floors' masses moved, in the same way; empty without accidental eccentricity.
     """
 
     runs: Mapping[str, Mapping[Bound, xr.Dataset]]
     governing: xr.Dataset
     governing_case: str
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
 def run_project(
@@ -153,13 +167,14 @@ def run_project(
     known = preliminary(parts)
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
+        moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
         governing, case = governing_run(parts, known.frame, known.motions, runs)
-    except AnalysisInterrupted as stop:  # all runs were complete
+    except AnalysisInterrupted as stop:  # all with the masses where they are were complete
         whole = xr.concat(
             _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
         )
         raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
-    found = Histories(runs=runs, governing=governing, governing_case=case)
+    found = Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
     return evaluate_run(parts, known, found)
 
 
@@ -186,8 +201,10 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         If a check cannot be made.
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
-    demands = demands_at_levels(runs, rules)
-    asked = _asked(parts, known, history_demands(runs[rules.bearing_level], rules))
+    moved = histories.moved
+    demands = demands_at_levels(runs, rules, moved)
+    level = rules.bearing_level
+    asked = _asked(parts, known, history_demands(runs[level], rules, moved=moved.get(level)))
     run = RunToCheck(
         code=parts.code(),
         frame=frame,
@@ -198,6 +215,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         bounds=bounds,
         limits=parts.limits(),
@@ -210,6 +228,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         checks=Checks(checks_of(run)),
         bounds=bounds,
@@ -222,6 +241,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         rules=rules,
         about=parts.file.project,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        structure=tuple(structure_rows(parts.file, frame)),
     )
 
 

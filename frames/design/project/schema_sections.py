@@ -182,3 +182,10 @@ BaseBeams = Annotated[
     Discriminator(one_or_more("BaseBeamsTable")),
 ]
 """One table, or a list of them."""
+
+Heights = Annotated[
+    Annotated[Size, Tag("[number]")]
+    | Annotated[tuple[Size, ...], Tag("[list]"), Field(min_length=1)],
+    Discriminator(lambda v: "[list]" if isinstance(v, (list, tuple)) else "[number]"),
+]
+"""Height of all storeys, or one for each."""

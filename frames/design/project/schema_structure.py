@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from frames.design.codes.registry import MOST_IMPORTANT
 from frames.design.project.derived import Table
@@ -18,7 +18,15 @@ from frames.design.project.quantities import (
     Positive,
     Stiffness,
 )
-from frames.design.project.schema_sections import BaseBeams, Beams, Columns, Count, Size
+from frames.design.project.schema_sections import (
+    BaseBeams,
+    Beams,
+    Columns,
+    Count,
+    Heights,
+    SectionTable,
+    Size,
+)
 
 
 class MomentFrame(Table):
@@ -28,11 +36,39 @@ class MomentFrame(Table):
     bays: tuple[Count, Count]
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
-    storey_height: Size
-    floor_load: Annotated[AreaMass, Positive]
+    storey_height: Heights
+    floor_load: Annotated[AreaMass, Positive] | None = None
     columns: Columns | None = None
     beams: Beams | None = None
     base_beams: BaseBeams | None = None
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Height of each storey [m]."""
+        each = self.storey_height
+        return each if isinstance(each, tuple) else (each,) * self.storeys
+
+    @model_validator(mode="after")
+    def _one_height_each(self) -> Self:
+        if len(self.heights) != self.storeys:
+            msg = (
+                f"storey_height has {len(self.heights)} heights for {self.storeys} storeys: give "
+                "one for all, or one for each"
+            )
+            raise ValueError(msg)
+        return self
+
+
+class IrregularFrame(Table):
+    """``[structure]`` of kind "irregular frame": columns and beams from tables."""
+
+    kind: Literal["irregular frame"]
+    storey_height: tuple[Size, ...] = Field(min_length=1)
+    columns_table: Path
+    beams_table: Path
+    sections: dict[str, SectionTable] = Field(default_factory=dict)
+    floor_load: Annotated[AreaMass, Positive] | None = None
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
@@ -59,7 +95,9 @@ class OpenSeesModel(Table):
     force_unit: Annotated[Force, Positive] = 1.0
 
 
-Structure = Annotated[MomentFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")]
+Structure = Annotated[
+    MomentFrame | IrregularFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")
+]
 
 
 class SuperstructureTable(Table):

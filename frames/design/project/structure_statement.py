@@ -5,13 +5,16 @@ from __future__ import annotations
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from frames.design.codes.registry import code_named
 from frames.design.project.schema_structure import MomentFrame, ShearBuilding
+from frames.design.project.structure_loads import loads_of
 from frames.design.project.structure_plan import DIRECTIONS, sections_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from frames.design.project.schema import ProjectFile
+    from frames.design.project.schema_loads import LoadsTable
     from frames.frame import Frame
 
 Rows = list[tuple[str, str]]
@@ -44,8 +47,35 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
         rows.append(("plan", " x ".join(f"{side:.4g}" for side in sides) + " m"))
     if isinstance(given, MomentFrame):
         rows += _sections(given)
+    if isinstance(given, MomentFrame) and given.floor_load is not None:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
+    if file.loads is not None:
+        rows += _loads(file, file.loads)
     return rows
+
+
+def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
+    rule = code_named(file.project.code).loads
+    storeys = 2  # a floor, and the roof
+    names = {"D": "dead", "L": "live", "S": "snow"}
+    rows = []
+    for what, level in (("floors", 1), ("roof", storeys), ("base", 0)):
+        each = given.of_level(level, storeys)
+        parts = [f"{names[c]} {1e-3 * q:.4g}" for c, q in each.items() if q > 0.0]
+        rows.append((f"loads of {what}, besides the members", ", ".join(parts) + " kN/m2"))
+    if given.facade > 0.0:
+        rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
+    found = loads_of(given, rule)
+    mass = {} if found is None else found.mass
+    source = rule.clause if given.mass is None else "as the file says"
+    rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
+    for name, factors in rule.combinations(getattr(file.spectrum, "s_ms", None)).items():
+        rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))
+    return rows
+
+
+def _sum(factors: Mapping[str, float]) -> str:
+    return " + ".join(f"{factor:g} {case}" for case, factor in factors.items() if factor > 0.0)
 
 
 def _sections(given: MomentFrame) -> Rows:

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from frames.design.codes.bounds import with_property_bounds
+from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.suite import peaks_of_runs
 from frames.recording.recovery import member_forces
 from frames.results.envelopes import envelope
@@ -27,6 +28,9 @@ _REACHED = {
 }
 """What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
 
+ECCENTRICITY = "eccentricity"
+"""Name of the table of what moved masses raise."""
+
 _COUNT = 6
 _ROUND_OFF = 1e-6  # of the largest force, or moment: histories are kept in single precision
 _COMPONENTS = {"N": "N", "Vy": "N", "Vz": "N", "T": "N m", "My": "N m", "Mz": "N m"}
@@ -44,7 +48,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a bearing; places and displacements [m], forces [N], in the names of the columns.
-        Largest over motions, bounds and levels, whatever the code makes of them.
+        Largest of all runs, those with moved masses among them, whatever the code makes of them.
     """
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
@@ -57,7 +61,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         index=pd.Index(list(links), name="bearing"),
     )
     for title, (name, sign) in _REACHED.items():
-        every = (data for each in run.runs.values() for data in each.values())
+        both = (*run.runs.values(), *run.moved.values())
+        every = (data for each in both for data in each.values())
         values = [peaks_of_runs(data, name).max(axis=0) for data in every]
         table[title] = sign * np.max(values, axis=0)
     return table
@@ -184,7 +189,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "members", "programme" of tests.
+        "bearings", "friction", "modes", "members", "programme" of tests, "eccentricity" of masses.
     """
     return {
         "bearings": bearing_table(run),
@@ -192,4 +197,5 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "modes": mode_table(run),
         "members": member_table(run),
         "programme": run.programme,
+        ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }

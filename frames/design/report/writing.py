@@ -10,9 +10,11 @@ from frames.design.calculation.check import TO_BE_CONFIRMED
 from frames.design.histories.demand_table import envelope_said, headed, void_said
 from frames.design.report.columns import in_parts
 from frames.design.report.cover import cover_of, css_string
+from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import MOST, what_governs
 from frames.design.report.judged import judged
+from frames.design.report.numbers import ECCENTRICITY
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -75,6 +77,7 @@ def report_html(
         doubts=run.doubts,
         checks=[judged(check) for check in run.checks],
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
+        structure=Table(("of the structure", "as described"), run.structure, frozenset({0, 1})),
         model=model_table(run.model),
         loads=in_parts(loads_table(run.model)),
         notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
@@ -88,6 +91,8 @@ def report_html(
         equivalent=in_parts(Table(run.equivalent.head(), run.equivalent.rows())),
         demands=in_parts(_demands(run.demands)),
         void=void_said(run.demands),
+        raised=raised_tables(tables[ECCENTRICITY]),
+        eccentricity=eccentricity_said(run),
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=attrs["audit"].splitlines(),
