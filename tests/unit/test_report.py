@@ -529,7 +529,7 @@ def test_lines_of_the_figure_of_motions_are_the_demands(
         for k, bound in enumerate(("lower", "upper")):
             design = factor * demands.filter(like=f"{bound},").loc[name].item()
             assert lines[k].get_ydata()[0] == pytest.approx(design, rel=1e-12)
-            assert np.mean(marks[k].get_ydata()) == pytest.approx(design, rel=1e-12)
+            assert np.mean(marks[k].get_ydata()) <= design * (1.0 + 1e-12)  # moved masses raise it
             assert len(marks[k].get_ydata()) == 7
 
 
@@ -544,6 +544,9 @@ def test_bearings_in_plan_reach_the_ratio_that_governs(
     assert list(evaluated.frame.bearings)[int(shares.argmax())] == check.subject
     runs = load(results / f"runs-{check.bound}.nc")
     mean = runs["reached_displacement"].mean("run").to_numpy()
+    raised = pd.read_csv(results / "eccentricity.csv")
+    of = (raised["bound"] == check.bound) & (raised["quantity"] == "displacement")
+    mean = mean * raised[of]["factor"].max()
     least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
     assert check.title == "isolator displacement"
     assert shares == pytest.approx(np.maximum(mean, least) / check.limit, rel=1e-12)
@@ -577,7 +580,7 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     )
     rules = HISTORY_RULES["ASCE 7-22"]
     level = rules.levels[0].name
-    run = SimpleNamespace(rules=rules, runs={level: {"lower": data}})
+    run = SimpleNamespace(rules=rules, runs={level: {"lower": data}}, moved={})
     figure = profiles_figure(run)
     if storeys == 1:
         assert figure is None

@@ -11,19 +11,20 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
-from frames.design.histories.suite import names_of, peaks_of_runs, suite_of
+from frames.design.histories.eccentricity import raised_suite
+from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.plots import plot_style as ps
 from frames.results.peak_response import largest
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
 
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
-    from frames.design.calculation.check import Bound, Check
+    from frames.design.calculation.check import Check
+    from frames.design.histories.suite import Suite
     from frames.design.project.design_run import ProjectRun
 
 _OF_BEARINGS = {
@@ -53,7 +54,7 @@ class Reached(NamedTuple):
     design : float
         What the code makes of them: mean or largest.
     statistic : str
-        Which of the two.
+        Which of the two, and whether accidental eccentricity raises it.
     where : str
         Bearing or storey.
     """
@@ -96,16 +97,25 @@ def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
             continue
         values = peaks_of_runs(data, name)
         values = values.reshape(len(values), -1)
-        suite = suite_of(data, run.rules)
-        design = [suite.value(column) for column in values.T]
+        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
+        design = [suite.value(column, name) for column in values.T]
         k = int(np.argmax(np.nan_to_num(design, nan=-math.inf)))
         motions = tuple(map(str, data["motion"].to_numpy()))
         found.append(
             Reached(
-                bound, motions, values[:, k], design[k], suite.statistic, names_of(data, name)[k]
+                bound,
+                motions,
+                values[:, k],
+                design[k],
+                suite.statistic + (", raised by moved masses" if suite.raised else ""),
+                names_of(data, name)[k],
             )
         )
     return found
+
+
+def _statistic(suite: Suite) -> str:
+    return f"{suite.statistic}, raised by moved masses" if suite.raised else suite.statistic
 
 
 def motions_figure(run: ProjectRun) -> Figure:
@@ -191,16 +201,17 @@ def profiles_figure(run: ProjectRun) -> Figure | None:
         return None
     figure, panels = ps.panels_of(len(runs), len(runs), 3.0)
     for k, (panel, (bound, data)) in enumerate(zip(panels, runs.items(), strict=True)):
-        _profile(panel, run, data, ps.PALETTE[k])
+        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
+        _profile(panel, data, suite, ps.PALETTE[k])
         ps.caption(panel, x="storey drift ratio [%]", title=bound or "runs")
     panels[0].set_xlim(left=0.0)
     ps.add_legend(figure, [], title="Storey drift of all motions, and what counts of it")
     return figure
 
 
-def _profile(panel: Axes, run: ProjectRun, data: xr.Dataset, colour: str) -> None:
-    values, suite = 1e2 * peaks_of_runs(data, "drift"), suite_of(data, run.rules)
-    design = np.array([suite.value(column) for column in values.T])
+def _profile(panel: Axes, data: xr.Dataset, suite: Suite, colour: str) -> None:
+    values = 1e2 * peaks_of_runs(data, "drift")
+    design = np.array([suite.value(column, "drift") for column in values.T])
     edges = np.arange(values.shape[1] + 1)
     for motion in values:
         panel.stairs(
@@ -250,11 +261,10 @@ def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
     if not alike or not of_one:
         return None
     check = max(of_one, key=lambda c: c.ratio)
-    runs: Mapping[Bound, xr.Dataset] = run.runs[check.level or run.rules.bearing_level]
-    data = runs[check.bound]
-    values = peaks_of_runs(data, _OF_BEARINGS[check.title])
-    suite = suite_of(data, run.rules)
-    each = np.array([suite.value(column) for column in values.T])
+    level, name = check.level or run.rules.bearing_level, _OF_BEARINGS[check.title]
+    data = run.runs[level][check.bound]
+    suite = raised_suite(data, run.moved.get(level, {}).get(check.bound), run.rules)
+    each = np.array([suite.value(column, name) for column in peaks_of_runs(data, name).T])
     if check.symbol == "D_d":
         each = run.rules.displacement_factor * each
         least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
