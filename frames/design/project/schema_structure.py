@@ -21,15 +21,28 @@ from frames.design.project.quantities import (
 from frames.design.project.schema_sections import (
     BaseBeams,
     Beams,
+    BraceTable,
     Columns,
     Count,
     Heights,
     SectionTable,
     Size,
+    WallTable,
 )
 
 
-class MomentFrame(Table):
+class BuildingTable(Table):
+    """What buildings of columns and beams have in common."""
+
+    floor_load: Annotated[AreaMass, Positive] | None = None
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+    braces: tuple[BraceTable, ...] = ()
+    walls: tuple[WallTable, ...] = ()
+    floor_diaphragm: Literal["rigid", "flexible"] = "rigid"
+    base_diaphragm: Literal["rigid", "flexible"] = "rigid"
+
+
+class MomentFrame(BuildingTable):
     """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
 
     kind: Literal["moment frame"]
@@ -37,11 +50,9 @@ class MomentFrame(Table):
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
     storey_height: Heights
-    floor_load: Annotated[AreaMass, Positive] | None = None
     columns: Columns | None = None
     beams: Beams | None = None
     base_beams: BaseBeams | None = None
-    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
     @property
     def heights(self) -> tuple[float, ...]:
@@ -60,7 +71,7 @@ class MomentFrame(Table):
         return self
 
 
-class IrregularFrame(Table):
+class IrregularFrame(BuildingTable):
     """``[structure]`` of kind "irregular frame": columns and beams from tables."""
 
     kind: Literal["irregular frame"]
@@ -68,8 +79,6 @@ class IrregularFrame(Table):
     columns_table: Path
     beams_table: Path
     sections: dict[str, SectionTable] = Field(default_factory=dict)
-    floor_load: Annotated[AreaMass, Positive] | None = None
-    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
 class ShearBuilding(Table):

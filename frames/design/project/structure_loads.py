@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.library.building import level_name
 from frames.library.building_loads import FloorPressures, add_base_inertia, load_floor, move_loads
 from frames.library.moment_frames import DEFAULT_BASE_DEPTH
 
@@ -13,7 +12,7 @@ if TYPE_CHECKING:
     from frames.design.codes.load_rules import LoadRule
     from frames.design.project.schema_loads import LoadsTable
     from frames.frame import Frame
-    from frames.library.building import BuildingPlan
+    from frames.library.building_plan import BuildingPlan
 
 
 class BuildingLoads(NamedTuple):
@@ -78,13 +77,7 @@ def apply_loads(
     table, storeys = loads.table, len(plan.heights)
     frame.set_mass_source(loads.mass)
     for level in range(storeys + 1):
-        name = level_name(level)
-        beams = [
-            (f"{name}-{beam.start}", f"{name}-{beam.end}")
-            for beam in plan.beams
-            if beam.level == level
-        ]
         pressures = FloorPressures(table.of_level(level, storeys), table.facade if level else 0.0)
-        load_floor(frame, level, beams, pressures, table.span)
+        load_floor(frame, level, plan.edges(level), pressures, table.span)
     move_loads(frame, eccentricity)
     add_base_inertia(frame, DEFAULT_BASE_DEPTH)

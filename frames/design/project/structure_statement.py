@@ -6,7 +6,10 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from frames.design.codes.registry import code_named
-from frames.design.project.schema_structure import MomentFrame, ShearBuilding
+from frames.design.project.materials import material_of
+from frames.design.project.member_sections import named_section
+from frames.design.project.schema_sections import CrackedTable
+from frames.design.project.schema_structure import BuildingTable, MomentFrame, ShearBuilding
 from frames.design.project.structure_loads import loads_of
 from frames.design.project.structure_plan import DIRECTIONS, sections_of
 
@@ -15,6 +18,7 @@ if TYPE_CHECKING:
 
     from frames.design.project.schema import ProjectFile
     from frames.design.project.schema_loads import LoadsTable
+    from frames.design.project.schema_sections import BraceTable, WallTable
     from frames.frame import Frame
 
 Rows = list[tuple[str, str]]
@@ -47,7 +51,9 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
         rows.append(("plan", " x ".join(f"{side:.4g}" for side in sides) + " m"))
     if isinstance(given, MomentFrame):
         rows += _sections(given)
-    if isinstance(given, MomentFrame) and given.floor_load is not None:
+    if isinstance(given, BuildingTable):
+        rows += _walls_and_braces(given)
+    if isinstance(given, BuildingTable) and given.floor_load is not None:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
         rows += _loads(file, file.loads)
@@ -89,6 +95,33 @@ def _sections(given: MomentFrame) -> Rows:
     for said, direction in base.items():
         rows.append(("base beams" if len(base) == 1 else f"base beams along {direction}", said))
     return rows
+
+
+def _walls_and_braces(given: BuildingTable) -> Rows:
+    rows = []
+    for wall in given.walls:
+        material = material_of(wall.material)
+        said = f"{1e3 * wall.thickness:.5g} mm, {material.name}"
+        said += f" (E {1e-9 * material.elastic_modulus:.4g} GPa)"
+        bending = wall.cracked if isinstance(wall.cracked, float) else None
+        bending = wall.cracked.bending if isinstance(wall.cracked, CrackedTable) else bending
+        said += "" if bending is None else f", cracked: {bending:g} of the bending stiffness"
+        rows.append((f"wall {_between(wall)}, as a wide column", said))
+    for rod in given.braces:
+        said = f"{_PATTERNS[rod.pattern]}, {named_section(rod, column=False).said}"
+        rows.append((f"braces {_between(rod)}", said))
+    for what, kind in (("floors", given.floor_diaphragm), ("base", given.base_diaphragm)):
+        if kind == "flexible":
+            rows.append((f"diaphragm of {what}", "none: beams alone hold it in plan"))
+    return rows
+
+
+_PATTERNS = {"x": "crossed", "up": "rising to the second", "down": "rising to the first"}
+
+
+def _between(part: WallTable | BraceTable) -> str:
+    where = "" if part.storeys is None else f", storeys {part.storeys[0]} to {part.storeys[1]}"
+    return f"{part.between[0]} to {part.between[1]}{where}"
 
 
 def _by_storey(what: str, said: Sequence[str]) -> Rows:
