@@ -18,6 +18,7 @@ from frames.design.project.schema import Bearing, MotionSource, Structure, beari
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.designs import names_of
+from frames.risk.campaign.file_fragility import FragilityTable
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
 from lir_element.device.friction import CoulombFriction, unit_of
 
@@ -122,6 +123,7 @@ class CampaignFile(Table):
     parameters: Parameters | None = None
     sample: Sampling | None = None
     analysis: CampaignAnalysis = CampaignAnalysis()
+    fragility: FragilityTable | None = None
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Self:
@@ -223,6 +225,11 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
 def workers_of(path: str | Path) -> int | None:
     """Return how many runs at a time a campaign's file asks for."""
     return _read(Path(path)).analysis.workers
+
+
+def fragility_in(path: str | Path) -> FragilityTable | None:
+    """Return the limit states and the measure of intensity that a campaign's file asks for."""
+    return _read(Path(path)).fragility
 
 
 def _devices(frame: Frame, devices: tuple[str, ...]) -> dict[str, Frame]:
