@@ -85,7 +85,7 @@ def report_html(
         schedule=in_parts(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=_friction(tables["friction"]),
         modes=in_parts(page_table(tables["modes"], "mode")),
-        members=in_parts(page_table(tables["members"], "members")),
+        members=in_parts(page_table(tables["members"], "members"), keep=3),
         programme=in_parts(_programme(tables["programme"])),
         motions=in_parts(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=in_parts(Table(run.equivalent.head(), run.equivalent.rows())),
