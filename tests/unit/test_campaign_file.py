@@ -140,3 +140,31 @@ def test_distributions_are_those_of_the_file(folder: Path) -> None:
     assert sorted((shares * 64.0).astype(int)) == list(range(64))
     logs = np.log2(columns["capacity"] / 0.2)
     assert sorted((logs * 64.0).astype(int)) == list(range(64))
+
+
+def test_a_frame_with_loads(folder: Path) -> None:
+    """Half of the live load weighs, and what the file says is mass."""
+    text = (
+        FILE.partition("[structure]")[0]
+        + """
+[structure]
+kind = "moment frame"
+bays = [1, 1]
+bay_width = ["6 m", "5 m"]
+storeys = 1
+storey_height = "3 m"
+columns = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+base_beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+[loads]
+dead = "5 kN/m2"
+live = "2 kN/m2"
+snow = "1 kN/m2"
+mass = { dead = 1.0, live = 0.25 }
+[bearing]"""
+        + FILE.partition("[bearing]")[2]
+    )
+    (folder / "loads.toml").write_text(text)
+    checked = read_campaign(folder / "loads.toml")._work.build("LIR-DCFP", 0).check()
+    assert checked.carried == pytest.approx(2 * 30.0 * (5e3 + 0.5 * 2e3))
+    assert checked.mass == pytest.approx(2 * 30.0 * (5e3 + 0.25 * 2e3) / 9.80665)

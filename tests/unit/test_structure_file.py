@@ -251,7 +251,7 @@ def test_sections_of_beams_that_are_refused(tmp_path: Path) -> None:
 PAGE = Path(__file__).parents[2] / "docs/structure.md"
 BLOCKS = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
 TABLES = re.findall(
-    r"`(\w+\.csv)`:\n\n```csv\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL
+    r"`(\w+\.csv)`:\n\n```text\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL
 )
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from frames.design.codes.registry import MOST_IMPORTANT
 from frames.design.project.derived import Table
@@ -30,6 +31,8 @@ from frames.design.project.schema_sections import (
     WallTable,
 )
 
+_PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
+
 
 class BuildingTable(Table):
     """What buildings of columns and beams have in common."""
@@ -40,6 +43,17 @@ class BuildingTable(Table):
     walls: tuple[WallTable, ...] = ()
     floor_diaphragm: Literal["rigid", "flexible"] = "rigid"
     base_diaphragm: Literal["rigid", "flexible"] = "rigid"
+
+    @field_validator("floor_load", mode="before")
+    @classmethod
+    def _no_pressure(cls, given: object) -> object:
+        if isinstance(given, str) and _PRESSURE.search(given):
+            msg = (
+                'is a pressure, and floor_load a mass, "450 kg/m2": give pressures under [loads], '
+                'dead = "4.5 kN/m2"'
+            )
+            raise ValueError(msg)
+        return given
 
 
 class MomentFrame(BuildingTable):

@@ -9,12 +9,20 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar, get_type
 from pydantic import Field, create_model, model_validator
 from scipy import stats
 
+from frames.design.codes.load_rules import LOADS_OF_ASCE
 from frames.design.project.derived import DerivedTable, Table
 from frames.design.project.extensions import load_extensions
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.quantities import Length, Ratio, SpeedRate, Time, quantity
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, MotionSource, Structure, bearing_table
+from frames.design.project.schema import (
+    Bearing,
+    LoadsTable,
+    MotionSource,
+    Structure,
+    bearing_table,
+)
+from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.designs import names_of
@@ -30,6 +38,9 @@ if TYPE_CHECKING:
     from lir_element import FrictionLaw
 
 T = TypeVar("T")
+
+WEIGHS = {"D": 1.0, "L": 0.5, "S": 0.0}
+"""Shares of dead load, live load and snow that buildings of campaigns carry [-]."""
 
 STORE = "results"
 """Folder of the results beside the file, if nothing is said: the file's name and this."""
@@ -118,6 +129,7 @@ class CampaignFile(Table):
 
     campaign: CampaignTable
     structure: Structure
+    loads: LoadsTable | None = None
     bearing: Bearing
     motions: CampaignMotions
     parameters: Parameters | None = None
@@ -204,7 +216,10 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
     file = _read(whole)
     folder = whole.resolve().parent
     bearing, name = bearing_of(file.bearing), file.campaign.name
-    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder))
+    loads = loads_of(file.loads, LOADS_OF_ASCE)
+    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder, loads))
+    if frame.load_cases:
+        frame = frame.combined(WEIGHS)
     given = file.analysis
     return in_section(
         "campaign",
