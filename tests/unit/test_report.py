@@ -36,7 +36,7 @@ from frames.design.report.columns import in_parts
 from frames.design.report.cover import css_string
 from frames.design.report.files import read_histories
 from frames.design.report.judged import judged
-from frames.design.report.numbers import mode_table
+from frames.design.report.numbers import mode_table, run_tables
 from frames.design.report.page import Table
 from frames.design.report.printing import pages_of, print_report
 from frames.design.report.suite_figures import (
@@ -46,7 +46,8 @@ from frames.design.report.suite_figures import (
     utilisation,
 )
 from frames.design.report.terms import TERMS, device_table
-from frames.design.report.writing import SECTIONS
+from frames.design.report.words import Words
+from frames.design.report.writing import SECTIONS, report_in
 from lir_element import LIRBearing, VelocityFriction
 from tests.patience import patience
 
@@ -589,3 +590,41 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     assert len(stairs) == 8
     assert stairs[-1] == pytest.approx(1e2 * drift.mean(axis=0))
     assert [t.get_text() for t in figure.axes[0].get_yticklabels()] == list(data["storey"].values)
+
+
+def test_the_report_in_spanish(results: Path, evaluated: ProjectRun, page: str) -> None:
+    """Every text that is ours is said, those of figures included; numbers and clauses are alike."""
+    pytest.importorskip("babel")
+    names = {*evaluated.frame.bearings, *evaluated.frame.nodes, *evaluated.motions}
+    words = Words("es", ",", {evaluated.frame.name, *names})
+    tables = run_tables(evaluated)
+    said = report_in(words, evaluated, PROJECT, tables)
+    assert words.missing == set()
+    assert '<html lang="es">' in said
+    assert "Qué controla" in said
+    own, ours = (texts_of(text) for text in (page, said))
+    assert len(own) == len(ours)
+    numbers = [n.replace(",", ".") for cell in ours for n in NUMBER.findall(cell)]
+    assert numbers == [n for cell in own for n in NUMBER.findall(cell)]
+    assert not any(re.search(r"(?<![\w.])\d+\.\d+(?![\w.])", cell) for cell in ours)
+
+
+NUMBER = re.compile(r"(?<![\w.,])\d+(?:[.,]\d+)?(?![\w.,])")
+
+
+def texts_of(page: str) -> list[str]:
+    """Return the cells of all tables under headings, clauses aside."""
+    part = page.partition('<h2 id="structure">')[2].partition('<h2 id="calculations">')[0]
+    cells = [unescape(c) for c in re.findall(r"<td[^>]*>(.*?)</td>", part, re.S)]
+    return [c for c in cells if not re.search(r"ASCE|theory", c)]
+
+
+def test_lir_report_takes_a_language(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    words = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    assert CliRunner().invoke(app, [*words, "--no-figures", "--language", "es"]).exit_code == 1
+    text = (folder / "results" / "report.html").read_text(encoding="utf-8")
+    assert "No se cumplen" in text
+    done = CliRunner().invoke(app, [*words, "--language", "fr"])
+    assert done.exit_code == 2
+    assert "language = 'fr' is not one of reports" in " ".join(done.output.split())

@@ -17,7 +17,6 @@ from frames.plots import plot_style as ps
 from frames.results.peak_response import largest
 
 if TYPE_CHECKING:
-
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
