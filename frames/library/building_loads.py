@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from frames._errors import ModelError
-from frames.library.building import level_name
+from frames.library.building_plan import level_name
 from frames.library.floor_fields import fields_of
 from frames.model.applied_loads import applied_loads, load_masses
 
@@ -21,75 +21,85 @@ FACADE = "D"
 """Load case of facades."""
 
 
-class FloorPressures(NamedTuple):
-    """Loads on the floor of a level.
+class Pressures(NamedTuple):
+    """Loads of a building's floors, downwards.
 
     Attributes
     ----------
-    by_case : mapping of str to float
-        Load of the whole floor by load case, downwards [N/m2], >= 0.
+    floors, roof, base, open_base : mapping of str to float
+        Load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of
+        the same at the base.
     facade : float
-        Along the outer edges [N/m], >= 0.
+        Along the outer edges of every floor above the base [N/m], >= 0.
     """
 
-    by_case: Mapping[str, float]
+    floors: Mapping[str, float]
+    roof: Mapping[str, float]
+    base: Mapping[str, float]
+    open_base: Mapping[str, float]
     facade: float = 0.0
 
+    def of_field(self, level: int, *, covered: bool) -> Mapping[str, float]:
+        """Return the loads of a field at a level, with a floor above it or without."""
+        if level == 0:
+            return self.base if covered else self.open_base
+        return self.floors if covered else self.roof
 
-def load_floor(
+
+def load_floors(
     frame: Frame,
-    level: int,
-    beams: list[tuple[str, str]],
-    pressures: FloorPressures,
+    edges: Sequence[list[tuple[str, str]]],
+    pressures: Pressures,
     span: Span | None = None,
-) -> float:
-    """Put loads on the floor of a level: on each field that beams enclose.
+) -> None:
+    """Put loads on the floors of a building: on each field that beams enclose.
 
     Parameters
     ----------
     frame : Frame
         The building; it is changed.
-    level : int
-        0 is the base.
-    beams : list of (str, str)
-        Beams of the level, from node to node.
-    pressures : FloorPressures
-        The loads.
+    edges : sequence of list of (str, str)
+        Beams of each level from node to node, the base first.
+    pressures : Pressures
+        The loads. A field is roof where no field of a level above lies over its middle.
     span : {None, "x", "y"}
         As in `Frame.add_floor_load`.
-
-    Returns
-    -------
-    float
-        Area of the floor [m2].
 
     Raises
     ------
     ModelError
-        If no field is enclosed, one is not convex, or beams cross.
+        If a level has no field, one is not convex, or beams cross.
     """
-    name = level_name(level)
-    points = {node: frame.nodes[node].position[:2] for beam in beams for node in beam}
-    found = fields_of(points, beams, name)
-    if not found.corners:
-        msg = f"{name}: its beams enclose no field that a load could lie on: add beams around it"
-        raise ModelError(msg)
-    for k, corners in enumerate(found.corners):
-        for case, pressure in pressures.by_case.items():
-            if pressure > 0.0:
-                panel = f"{case}-{name}-{k + 1}"
-                frame.add_floor_load(panel, corners, pressure, span=span, case=case)
-    if pressures.facade > 0.0:
-        members = {frozenset((m.i, m.j)): key for key, m in frame.members.items()}
-        for edge in found.outer:
+    points = {name: (node.x, node.y) for name, node in frame.nodes.items()}
+    levels = [fields_of(points, own, level_name(k)) for k, own in enumerate(edges)]
+    members = {frozenset((m.i, m.j)): key for key, m in frame.members.items()}
+    for level, found in enumerate(levels):
+        name = level_name(level)
+        if not found.corners:
+            msg = f"{name}: its beams enclose no field that a load could lie on: add some around it"
+            raise ModelError(msg)
+        above = [_outline(points, each) for other in levels[level + 1 :] for each in other.corners]
+        for k, corners in enumerate(found.corners):
+            middle = _outline(points, corners).mean(axis=0)
+            covered = any(_inside(middle, outline) for outline in above)
+            for case, pressure in pressures.of_field(level, covered=covered).items():
+                if pressure > 0.0:
+                    panel = f"{case}-{name}-{k + 1}"
+                    frame.add_floor_load(panel, corners, pressure, span=span, case=case)
+        if pressures.facade > 0.0 and level > 0:
             load = (0.0, 0.0, -pressures.facade)
-            frame.add_uniform_load(members[frozenset(edge)], load, case=FACADE)
-    return sum(_area([points[node] for node in corners]) for corners in found.corners)
+            for edge in found.outer:
+                frame.add_uniform_load(members[frozenset(edge)], load, case=FACADE)
 
 
-def _area(corners: list[tuple[float, float]]) -> float:
-    x, y = np.array(corners).T
-    return float(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+def _outline(points: Mapping[str, tuple[float, float]], corners: Sequence[str]) -> FloatArray:
+    return np.array([points[node] for node in corners])
+
+
+def _inside(place: FloatArray, outline: FloatArray) -> bool:
+    # Whether a place is inside of a convex outline that runs anticlockwise.
+    along, to = np.roll(outline, -1, axis=0) - outline, place - outline
+    return bool((along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0] > 0.0).all())
 
 
 def move_loads(frame: Frame, eccentricity: tuple[float, float]) -> None:

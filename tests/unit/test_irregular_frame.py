@@ -1,5 +1,6 @@
 """Buildings from tables of columns and beams: plans like an L, setbacks, towers; refusals."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -7,8 +8,12 @@ import pytest
 
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+from typer.testing import CliRunner
 
 from frames import gravity
+from frames.command.app import app
 from frames.design import ProjectError
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
@@ -94,6 +99,24 @@ def test_an_l_with_a_setback_by_hand(tmp_path: Path) -> None:
     )
 
 
+def test_the_wing_has_a_roof_of_its_own(tmp_path: Path) -> None:
+    """Snow and roof loads lie where no floor is above, also a storey lower."""
+    rest = LOADS + 'live = "2 kN/m2"\nsnow = "1.5 kN/m2"\n'
+    rest += 'roof = { dead = "3 kN/m2", live = "0 kN/m2" }\n'
+    parts = project(tmp_path, rest=rest)
+    loads = parts.loaded_frame().floor_loads
+    snow = {name for name, load in loads.items() if load.case == "S"}
+    assert {name.rpartition("-")[0] for name in snow} == {"S-floor-3", "S-floor-2"}
+    assert len(snow) == 3
+    total = {case: sum(30.0 * x.q for x in loads.values() if x.case == case) for case in "DLS"}
+    assert total == pytest.approx(
+        {"D": 30.0 * (8 * 5e3 + 3 * 3e3), "L": 30.0 * 8 * 2e3, "S": 30.0 * 3 * 1.5e3}
+    )
+    rows = dict(structure_rows(parts.file, parts.frame()))
+    assert rows["loaded area"] == "base to floor-2 90 m2, floor-3 60 m2"
+    assert rows["members"] == "37 beams, 22 columns"
+
+
 def test_a_grid_from_tables_is_the_regular_frame(tmp_path: Path) -> None:
     """The same axial forces to the last but few digits."""
     columns, beams = "name,x,y,section\n", "from,to,floors,section\n"
@@ -169,9 +192,11 @@ def test_sections_of_rows_may_be_turned_or_of_the_catalogue(tmp_path: Path) -> N
     assert frame.members["column-1-A1"].section.area == pytest.approx(149.1e-4, rel=1e-3)
 
 
-def test_a_changed_table_is_another_input(tmp_path: Path, put_example: object) -> None:
+def test_a_changed_table_is_another_input(
+    tmp_path: Path, put_example: Callable[[Path], object]
+) -> None:
     """Results of other tables are not taken for those of these."""
-    put_example(tmp_path)  # type: ignore[operator]
+    put_example(tmp_path)
     rest = LOADS
     first = project(tmp_path, rest=rest)
     known = preliminary(first)
@@ -251,3 +276,36 @@ def test_heights_of_storeys(tmp_path: Path) -> None:
     assert np.diff([level.z for level in levels]) == pytest.approx([4.0, 3.0, 3.0])
     with pytest.raises(ProjectError, match="2 heights for 3 storeys"):
         parts_of(tmp_path, GRID.replace('"3.5 m"', '["4 m", "3 m"]') + MEMBERS)
+
+
+def test_from_tables_to_a_report(tmp_path: Path, put_example: Callable[[Path], object]) -> None:
+    """The command runs it with a wall, keeps its tables, and refuses results of others."""
+    put_example(tmp_path)
+    wall = """
+[[structure.walls]]
+between = ["A1", "B1"]
+thickness = "200 mm"
+material = "C30/37"
+"""
+    analysis = """
+[analysis]
+level = "pendulum"
+bounds = ["nominal"]
+accidental_eccentricity = 0.0
+"""
+    project(tmp_path, rest=wall + LOADS + analysis)
+    text = (tmp_path / "project.toml").read_text()
+    text = text.replace('"motions"', '"motions"\nonly = ["artificial-3"]\nscale = 0.4')
+    file, out = tmp_path / "walled.toml", tmp_path / "out"
+    file.write_text(text)
+    options = ["--no-figures", str(file), "--results", str(out)]
+    done = CliRunner().invoke(app, ["run", *options])
+    assert done.exit_code in {0, 1}, done.output
+    assert (out / "columns.csv").read_text() == COLUMNS
+    assert (out / "beams.csv").read_text() == BEAMS
+    page = (out / "report.html").read_text()
+    assert "wall A1 to B1, as a wide column" in page
+    (tmp_path / "beams.csv").write_text(BEAMS.replace("A1,A2,,B", "A2,A1,,B"))
+    again = CliRunner().invoke(app, ["report", *options])
+    assert again.exit_code == 2
+    assert "tables of members" in again.output

@@ -152,6 +152,11 @@ def test_what_is_refused(tmp_path: Path, text: str, said: str) -> None:
     assert said in str(told.value)
 
 
+def test_a_pressure_as_floor_load_is_told_where_it_goes(tmp_path: Path) -> None:
+    with pytest.raises(ProjectError, match="is a pressure, and floor_load a mass"):
+        parts_of(tmp_path, GRID.replace("1000 kg/m2", "4.5 kN/m2") + MEMBERS)
+
+
 def test_loads_go_with_a_moment_frame(tmp_path: Path) -> None:
     """A stick has masses of its own."""
     stick = """

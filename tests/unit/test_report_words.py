@@ -12,7 +12,6 @@ pytest.importorskip("jinja2")
 pytest.importorskip("pydantic")
 
 from babel.messages.extract import extract_from_dir
-from matplotlib.ticker import FixedFormatter
 
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import code_named
@@ -39,7 +38,7 @@ def test_every_message_of_the_templates_is_translated(language: str) -> None:
         options_map=options,
     )
     messages = {" ".join(str(m[2] if isinstance(m[2], str) else m[2][0]).split()) for m in found}
-    assert len(messages) > 50
+    assert len(messages) > 40
     texts, _ = catalogue(language)
     assert messages - set(texts) == set()
     assert {title for _, title in SECTIONS} <= set(texts)
@@ -156,7 +155,5 @@ def test_figures_have_words_and_commas() -> None:
     assert panel.get_xlabel() == "período [s]"
     assert panel.get_title(loc="left") == "Deriva de entrepiso"
     assert [t.get_text() for t in panel.get_xticklabels()] == ["0,0", "0,5"]
-    formatter = panel.yaxis.get_major_formatter()
-    assert isinstance(formatter, FixedFormatter)
-    assert list(formatter.seq) == ["inferior", "0,75"]
+    assert [t.get_text() for t in panel.get_yticklabels()] == ["inferior", "0,75"]
     assert words.missing == set()

@@ -89,6 +89,8 @@ class ProjectRun:
         What of the input was warned of.
     structure : tuple of (str, str)
         What the structure is, in words.
+    tables : tuple of Path
+        Tables that the file names, which are kept with the results.
     """
 
     frame: Frame
@@ -110,6 +112,7 @@ class ProjectRun:
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
+    tables: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -242,6 +245,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         about=parts.file.project,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
         structure=tuple(structure_rows(parts.file, frame)),
+        tables=parts.tables(),
     )
 
 

@@ -108,6 +108,13 @@ class ProjectInputs:
         name = self.file.project.name
         return frame_of(self.file.structure, bearing, name, self.folder, loads)
 
+    def tables(self) -> tuple[Path, ...]:
+        """Return the tables of members that the file names."""
+        given = self.file.structure
+        if not isinstance(given, IrregularFrame):
+            return ()
+        return tuple(self.folder / name for name in (given.columns_table, given.beams_table))
+
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
         above = self.file.superstructure

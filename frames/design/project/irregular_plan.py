@@ -12,7 +12,7 @@ from frames.design._errors import ProjectError
 from frames.design.project.csv_rows import CsvRow, csv_rows
 from frames.design.project.member_sections import NamedSection, named_section
 from frames.design.project.schema_sections import SectionTable
-from frames.library.building import BeamPart, BuildingPlan, ColumnPart
+from frames.library.building_plan import BeamPart, BuildingPlan, ColumnPart
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -16,7 +16,7 @@ from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
-from frames.design.project.schema import IrregularFrame, OpenSeesModel
+from frames.design.project.schema import OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
 from lir_element.results.dataset import package_version
 
@@ -243,11 +243,8 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
-    if isinstance(file.structure, IrregularFrame):
-        tables = (file.structure.columns_table, file.structure.beams_table)
-        found["tables of members"] = _digest(
-            b"".join((parts.folder / table).read_bytes() for table in tables)
-        )
+    if tables := parts.tables():
+        found["tables of members"] = _digest(b"".join(table.read_bytes() for table in tables))
     samples = [
         name.encode()
         + repr(motion.dt).encode()

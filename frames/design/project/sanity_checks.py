@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from frames.design.codes.registry import code_named
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
+from frames.design.project.schema_structure import BuildingTable
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def _of_sections(file: ProjectFile) -> list[str]:
 
 def _of_masses(file: ProjectFile) -> list[str]:
     given = file.structure
-    if isinstance(given, MomentFrame):
+    if isinstance(given, BuildingTable):
         dead = None if file.loads is None else file.loads.dead / STANDARD_GRAVITY
         named = {"floor_load": given.floor_load, "[loads] dead over gravity": dead}
         found = {key: value for key, value in named.items() if value is not None}

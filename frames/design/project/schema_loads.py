@@ -50,24 +50,24 @@ class LoadsTable(Table):
             raise ValueError(msg)
         return self
 
-    def of_level(self, level: int, storeys: int) -> dict[str, float]:
-        """Return the loads of a level by load case: "D", "L", "S" [N/m2].
+    def of_field(self, *, base: bool, roof: bool) -> dict[str, float]:
+        """Return the loads of a field by load case: "D", "L", "S" [N/m2].
 
         Parameters
         ----------
-        level : int
-            0 is the base, `storeys` the roof.
-        storeys : int
-            Number of storeys.
+        base : bool
+            Whether it lies above the bearings.
+        roof : bool
+            Whether no floor lies over it.
 
         Returns
         -------
         dict of str to float
             Snow on the roof alone.
         """
-        own = {0: self.base, storeys: self.roof}.get(level, LevelLoads())
+        own = self.base if base else self.roof if roof else LevelLoads()
         return {
             "D": self.dead if own.dead is None else own.dead,
             "L": self.live if own.live is None else own.live,
-            "S": self.snow if level == storeys else 0.0,
+            "S": self.snow if roof else 0.0,
         }

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from frames.design.codes.registry import MOST_IMPORTANT
 from frames.design.project.derived import Table
@@ -21,15 +22,41 @@ from frames.design.project.quantities import (
 from frames.design.project.schema_sections import (
     BaseBeams,
     Beams,
+    BraceTable,
     Columns,
     Count,
     Heights,
     SectionTable,
     Size,
+    WallTable,
 )
 
+_PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
-class MomentFrame(Table):
+
+class BuildingTable(Table):
+    """What buildings of columns and beams have in common."""
+
+    floor_load: Annotated[AreaMass, Positive] | None = None
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+    braces: tuple[BraceTable, ...] = ()
+    walls: tuple[WallTable, ...] = ()
+    floor_diaphragm: Literal["rigid", "flexible"] = "rigid"
+    base_diaphragm: Literal["rigid", "flexible"] = "rigid"
+
+    @field_validator("floor_load", mode="before")
+    @classmethod
+    def _no_pressure(cls, given: object) -> object:
+        if isinstance(given, str) and _PRESSURE.search(given):
+            msg = (
+                'is a pressure, and floor_load a mass, "450 kg/m2": give pressures under [loads], '
+                'dead = "4.5 kN/m2"'
+            )
+            raise ValueError(msg)
+        return given
+
+
+class MomentFrame(BuildingTable):
     """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
 
     kind: Literal["moment frame"]
@@ -37,11 +64,9 @@ class MomentFrame(Table):
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
     storey_height: Heights
-    floor_load: Annotated[AreaMass, Positive] | None = None
     columns: Columns | None = None
     beams: Beams | None = None
     base_beams: BaseBeams | None = None
-    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
     @property
     def heights(self) -> tuple[float, ...]:
@@ -60,7 +85,7 @@ class MomentFrame(Table):
         return self
 
 
-class IrregularFrame(Table):
+class IrregularFrame(BuildingTable):
     """``[structure]`` of kind "irregular frame": columns and beams from tables."""
 
     kind: Literal["irregular frame"]
@@ -68,8 +93,6 @@ class IrregularFrame(Table):
     columns_table: Path
     beams_table: Path
     sections: dict[str, SectionTable] = Field(default_factory=dict)
-    floor_load: Annotated[AreaMass, Positive] | None = None
-    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
 
 class ShearBuilding(Table):

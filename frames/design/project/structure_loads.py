@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.library.building import level_name
-from frames.library.building_loads import FloorPressures, add_base_inertia, load_floor, move_loads
+from frames.library.building_loads import Pressures, add_base_inertia, load_floors, move_loads
 from frames.library.moment_frames import DEFAULT_BASE_DEPTH
 
 if TYPE_CHECKING:
     from frames.design.codes.load_rules import LoadRule
     from frames.design.project.schema_loads import LoadsTable
     from frames.frame import Frame
-    from frames.library.building import BuildingPlan
+    from frames.library.building_plan import BuildingPlan
 
 
 class BuildingLoads(NamedTuple):
@@ -75,16 +74,16 @@ def apply_loads(
     ModelError
         If they cannot be.
     """
-    table, storeys = loads.table, len(plan.heights)
+    table = loads.table
+    pressures = Pressures(
+        floors=table.of_field(base=False, roof=False),
+        roof=table.of_field(base=False, roof=True),
+        base=table.of_field(base=True, roof=False),
+        open_base=table.of_field(base=True, roof=True),
+        facade=table.facade,
+    )
     frame.set_mass_source(loads.mass)
-    for level in range(storeys + 1):
-        name = level_name(level)
-        beams = [
-            (f"{name}-{beam.start}", f"{name}-{beam.end}")
-            for beam in plan.beams
-            if beam.level == level
-        ]
-        pressures = FloorPressures(table.of_level(level, storeys), table.facade if level else 0.0)
-        load_floor(frame, level, beams, pressures, table.span)
+    edges = [plan.edges(level) for level in range(len(plan.heights) + 1)]
+    load_floors(frame, edges, pressures, table.span)
     move_loads(frame, eccentricity)
     add_base_inertia(frame, DEFAULT_BASE_DEPTH)

@@ -12,8 +12,10 @@ from frames.design.project.member_sections import NamedSection, by_storey, named
 from frames.design.project.schema_loads import LoadsTable
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.design.project.structure_loads import BuildingLoads, apply_loads
+from frames.design.project.walls_and_braces import with_walls_and_braces
 from frames.frame import Frame
-from frames.library.building import BeamPart, BuildingPlan, ColumnPart, build, level_name
+from frames.library.building import build
+from frames.library.building_plan import BeamPart, BuildingPlan, ColumnPart, level_name
 from frames.library.moment_frames import (
     DEFAULT_BASE_BEAM,
     DEFAULT_BASE_DEPTH,
@@ -137,7 +139,7 @@ def regular_frame(
         If it cannot be.
     """
     _require_one_load(given, loads)
-    plan = regular_plan(given)
+    plan = with_walls_and_braces(regular_plan(given), given)
     frame = build(plan, bearing, name=name)
     if given.floor_load is None:
         if loads is not None:
@@ -186,7 +188,7 @@ def irregular_frame(
         If it cannot be.
     """
     _require_one_load(given, loads)
-    plan = irregular_plan(given, folder)
+    plan = with_walls_and_braces(irregular_plan(given, folder), given)
     frame = build(plan, bearing, name=name)
     if given.floor_load is not None:
         dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)

@@ -9,7 +9,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
-from matplotlib.ticker import FixedFormatter, Formatter, NullFormatter
+from matplotlib.ticker import Formatter, NullFormatter
 
 from frames.design._errors import ProjectError
 from frames.design.report.tables import Table
@@ -26,9 +26,7 @@ _PLACE = re.compile(r"\{(\w+)\}")
 _DECIMAL = re.compile(r"(?<![\w.,])(-?\d+)\.(\d+(?:e[+-]\d+)?)(?![\w.]|-\d)")
 _LISTED = re.compile(r"(?<=[\d…]), (?=[-\d…])")
 _UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
-_WORDLESS = (
-    rf"\S*\d\S*|\S*_\S*|[^a-zA-Z\s]+|[a-zA-Z]{{1,2}}|[A-Z-]{{2,}}\S*|\S+\.md|\[[^\]]*\]|{_UNITS}"
-)
+_WORDLESS = rf"\S*\d\S*|\S*_\S*|[^a-zA-Z\s]+|[a-zA-Z]{{1,2}}|[A-Z-]{{2,}}\S*|[+-][xyz]|\S+\.md|\[[^\]]*\]|{_UNITS}"
 _NAME = re.compile(rf"(?:{_WORDLESS})(?: (?:{_WORDLESS}))*")
 _MORE = 8  # letters that a line of a figure may have more than in English
 _HEAD = re.compile(r"(.*?)( \[[^]]*\])$")
@@ -150,10 +148,7 @@ class Words:
         return figure
 
     def _ticks(self, inner: Formatter) -> Formatter:
-        if isinstance(inner, FixedFormatter):
-            return FixedFormatter([self.say(text) for text in inner.seq])
-        plain = self.decimal == "." or isinstance(inner, NullFormatter)
-        return inner if plain else _Comma(inner)
+        return inner if isinstance(inner, NullFormatter) else _Said(inner, self)
 
     def _listed(self, cell: str) -> str:
         return _LISTED.sub("; ", cell) if self.decimal == "," else cell
@@ -200,28 +195,28 @@ class Words:
         return None
 
 
-class _Comma(Formatter):
-    """Numbers of an axis with a decimal comma."""
+class _Said(Formatter):
+    """Labels of an axis in the language."""
 
-    def __init__(self, inner: Formatter) -> None:
+    def __init__(self, inner: Formatter, words: Words) -> None:
         super().__init__()
-        self._inner = inner
+        self._inner, self._words = inner, words
 
     def set_axis(self, axis: Any) -> None:
         super().set_axis(axis)
         self._inner.set_axis(axis)
 
     def __call__(self, x: float, pos: int | None = None) -> str:
-        return str(self._inner(x, pos)).replace(".", ",")
+        return self._words.say(str(self._inner(x, pos)))
 
     def format_ticks(self, values: Any) -> list[str]:
-        return [text.replace(".", ",") for text in self._inner.format_ticks(values)]
+        return [self._words.say(text) for text in self._inner.format_ticks(values)]
 
     def set_locs(self, locs: Any) -> None:
         self._inner.set_locs(locs)
 
     def get_offset(self) -> str:
-        return str(self._inner.get_offset()).replace(".", ",")
+        return self._words.say(str(self._inner.get_offset()))
 
 
 @cache
