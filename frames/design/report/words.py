@@ -26,7 +26,19 @@ _PLACE = re.compile(r"\{(\w+)\}")
 _DECIMAL = re.compile(r"(?<![\w.,])(-?\d+)\.(\d+(?:e[+-]\d+)?)(?![\w.]|-\d)")
 _LISTED = re.compile(r"(?<=[\d…]), (?=[-\d…])")
 _UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
-_WORDLESS = rf"\S*\d\S*|\S*_\S*|[^a-zA-Z\s]+|[a-zA-Z]{{1,2}}|[A-Z-]{{2,}}\S*|[+-][xyz]|\S+\.md|\[[^\]]*\]|{_UNITS}"
+_WORDLESS = "|".join(
+    (
+        r"\S*\d\S*",
+        r"\S*_\S*",
+        r"[^a-zA-Z\s]+",
+        r"[a-zA-Z]{1,2}",
+        r"[A-Z-]{2,}\S*",
+        r"[+-][xyz]",
+        r"\S+\.md",
+        r"\[[^\]]*\]",
+        _UNITS,
+    )
+)
 _NAME = re.compile(rf"(?:{_WORDLESS})(?: (?:{_WORDLESS}))*")
 _MORE = 8  # letters that a line of a figure may have more than in English
 _HEAD = re.compile(r"(.*?)( \[[^]]*\])$")
