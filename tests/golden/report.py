@@ -3,6 +3,7 @@
 import math
 
 import checks
+import described
 import motions
 import numpy as np
 import reading
@@ -39,6 +40,7 @@ def compare(project, tally):
         else:
             kind(project, head, rows, tally)
     wanted = [
+        _described,
         _model,
         _loads,
         _modes,
@@ -58,6 +60,7 @@ def compare(project, tally):
 
 def _kind(heading, head):
     named = {
+        ("Structure", "of the structure"): _described,
         ("Structure", "quantity"): _model,
         ("Structure", "mode"): _modes,
         ("Bearings", "property"): _device,
@@ -86,6 +89,10 @@ def shown(tally, label, text, value, factor=1.0, category="tables of the report"
         digits = 0.5000001 * 10.0 ** (math.floor(math.log10(abs(value * factor) or 1.0)) - 3)
         off = abs(float(plain(text).split(" ")[0]) - value * factor)
         tally.words(category, f"{label}: four digits of {value * factor!r}", off <= digits, True)
+
+
+def _described(project, head, rows, tally):
+    described.compare(project, rows, tally)
 
 
 def _model(project, head, rows, tally):
