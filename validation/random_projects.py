@@ -150,6 +150,7 @@ def sound(rng: np.random.Generator) -> Document:
             "level": "pendulum",
             "histories": "all",
             "uplift_allowed": True,
+            "accidental_eccentricity": "none",  # the recomputation has the runs as they are
             "bounds": ["lower", "upper"],
         },
     }

@@ -54,6 +54,8 @@ def compare(project, tally):
         _checks,
         _programme,
     ]
+    columns = {title for title in project.table("equivalent-linear")[0] if title}
+    tally.words("tables of the report", "columns of linear", project.shown == columns, True)
     for kind in wanted:
         tally.words("tables of the report", f"table {kind.__name__} is there", kind in seen, True)
 
@@ -222,11 +224,15 @@ def _friction(project, head, rows, tally):
 
 
 def _linear(project, head, rows, tally):
+    # A wide table is shown in parts, each with its bounds.
     own = project.table("equivalent-linear")
+    places = {title.partition(" [")[0].replace("_", " "): title for title in own[0] if title}
+    project.shown = getattr(project, "shown", set())
     for row, given in zip(rows, own, strict=True):
-        values = list(given.values())
-        for title, text, value in zip(head[1:], row[1:], values[1:], strict=True):
-            unit = title.partition("[")[2].removesuffix("]")
+        for title, text in zip(head[1:], row[1:], strict=True):
+            name, _, unit = title.removesuffix("]").partition(" [")
+            project.shown.add(places[name])
+            value = given[places[name]]
             if value == "":
                 tally.words("tables of the report", title, text, "")
             else:
