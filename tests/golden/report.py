@@ -377,8 +377,8 @@ def _limit(project, row):
     if title == "effective stiffness ratio, d_dc to 0.2 d_dc":
         return e["k"], e["k_02"] / 2.0
     if title.startswith("no uplift") and "not evaluated" not in title:
-        part = 0.2 * project.file["spectrum"]["s_ms"]
-        share = 1.2 + part if title.endswith("maximum") else 0.9 - part
+        most, least = codes.dead_shares(project)
+        share = most if title.endswith("maximum") else least
         return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {
