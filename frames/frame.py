@@ -13,7 +13,8 @@ from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.exchange.account import Account
-    from frames.exchange.options import BaseRotations
+    from frames.exchange.building import Building
+    from frames.exchange.options import BaseRotations, Options
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
@@ -184,7 +185,8 @@ class Frame(FrameEditor):
             Groups, joints, links or link properties at which the one bearing stands.
         loads : mapping or str, optional
             Permanent loads: factors by load pattern, or the name of a combination of static loads.
-            None: dead loads, and others by their share in the mass source.
+            "all": dead, live and snow patterns in full, as the cases "D", "L" and "S" that codes
+            combine. None: dead loads, and others by their share in the mass source.
         mass : mapping, optional
             Shares of load patterns that are mass, instead of the file's mass source.
         allow : collection of str
@@ -218,10 +220,59 @@ class Frame(FrameEditor):
         """
         from frames.exchange.options import Options
         from frames.exchange.sap2000 import read_sap2000
-        from frames.exchange.to_frame import fill
 
         options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        building = read_sap2000(path, allow=allow, decimal=decimal)
+        return cls._of(read_sap2000(path, allow=allow, decimal=decimal), options, name)
+
+    @classmethod
+    def from_etabs(
+        cls,
+        path: str | Path,
+        bearing: LIRBearing | Mapping[str, LIRBearing] | None = None,
+        *,
+        at: Sequence[str] | None = None,
+        loads: Mapping[str, float] | str | None = None,
+        mass: Mapping[str, float] | None = None,
+        allow: Collection[str] = (),
+        mesh: float = 1.25,
+        base_rotations: BaseRotations = "kept",
+        base_diaphragm: bool = True,
+        decimal: Literal[".", ","] = ".",
+        name: str | None = None,
+    ) -> Self:
+        """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
+
+        Parameters
+        ----------
+        path : str or Path
+            A .e2k or .$et text file.
+        bearing, at, loads, mass, allow, mesh, base_rotations, base_diaphragm, decimal, name
+            As in `from_sap2000`; joints are named by point and story, "12-Story2".
+
+        Returns
+        -------
+        Frame
+            Nodes are points at stories, members lines at stories, "C1-Story2"; levels are the
+            stories. `imported` says what was read, what as something else, what was left out.
+
+        Raises
+        ------
+        ModelError
+            If the file cannot be used, or holds what would change the answer if left out: the
+            message has line, section and remedy.
+        ImportError
+            If openseespy, which has the shells, is needed and not installed.
+        """
+        from frames.exchange.etabs import read_etabs
+        from frames.exchange.options import Options
+
+        options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
+        return cls._of(read_etabs(path, allow=allow, decimal=decimal), options, name)
+
+    @classmethod
+    def _of(cls, building: Building, options: Options, name: str | None) -> Self:
+        from frames.exchange.to_frame import fill
+
         frame = cls(building.name if name is None else name)
         fill(frame, building, options)
         frame._imported = building.account

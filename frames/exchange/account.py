@@ -29,7 +29,8 @@ class Entry:
     names : tuple of str
         Some of their names.
     weight, stiffness : float or None
-        Share of the weight, and of the stiffness of all elements, that they stand for [-].
+        Share of the own weight, and of the stiffness of all elements, modulus times volume, that
+        they stand for [-].
     """
 
     fate: str
@@ -72,10 +73,15 @@ class Account:
             self.entries.append(Entry(READ, table, what, count))
 
     def read_as(
-        self, table: str, what: str, names: Collection[str], weight: float | None = None
+        self,
+        table: str,
+        what: str,
+        names: Collection[str],
+        weight: float | None = None,
+        stiffness: float | None = None,
     ) -> None:
         """Note objects that were read as something else; none is not noted."""
-        self._add(READ_AS, table, what, names, weight, None)
+        self._add(READ_AS, table, what, names, weight, stiffness)
 
     def left_out(
         self,

@@ -10,6 +10,7 @@ from frames.exchange.building import MassSource
 from frames.exchange.links import Links
 from frames.exchange.members import LEAST_FACTOR, Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
+from frames.exchange.shares import Shares
 from frames.exchange.slabs import Slabs
 from frames.exchange.stations import divide, is_offset, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, by_elevation
@@ -100,6 +101,8 @@ def permanent(building: Building, options: Options) -> dict[str, tuple[float, st
         If a pattern or a combination is not known.
     """
     given = options.loads
+    if given == "all":
+        given = {name: 1.0 for name, part in building.patterns.items() if case_of(part.kind)}
     if isinstance(given, str):
         if given not in building.combinations:
             some = ", ".join(building.combinations) or "none"
@@ -174,7 +177,8 @@ def _shells(building: Building) -> list[AreaObject]:
         else:
             found.append(area)
     what = "slabs in rigid diaphragms, by their loads and masses alone: their bending is not stiff"
-    building.account.read_as("areas", what, flat)
+    weight, stiffness = Shares(building).of(flat)
+    building.account.read_as("areas", what, flat, weight, stiffness)
     return found
 
 
@@ -229,7 +233,7 @@ def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
         what = f"shells, in {len(mesh.elements)} elements of OpenSees"
-        building.account.read_as("areas", what, areas)
+        building.account.read_as("areas", what, areas, *Shares(building).of(areas))
 
 
 def _hold_pins(frame: FrameEditor, building: Building, divided: list[Divided], mesh: Mesh) -> None:
@@ -323,16 +327,18 @@ def _say(
         sorted(sections.softened),
     )
     parts = [one.frame.name for one in divided if len(one.nodes) > 2]
-    account.read_as("frames", "divided at joints on their line or under point loads", parts)
+    shares = Shares(building)
+    what = "divided at joints on their line or under point loads"
+    account.read_as("frames", what, parts, *shares.of(parts))
     beside = [
         one.frame.name
         for one in divided
         if not one.frame.transforms and (one.frame.cardinal < 10 or any(one.frame.offset_i))
     ]
     what = "insertion points that do not transform the stiffness, as the file says"
-    account.read_as("frames", what, beside)
+    account.read_as("frames", what, beside, *shares.of(beside))
     offset = [one.frame.name for one in divided if is_offset(one.frame)]
-    account.read_as("frames", "insertion points, as rigid offsets", offset)
+    account.read_as("frames", "insertion points, as rigid offsets", offset, *shares.of(offset))
     shells = {area for area, _ in mesh.elements}
     loaded = [name for name in slabs.at_corners if name not in shells]
     account.read_as("areas", "loads on areas, at their corners: no members around them", loaded)
