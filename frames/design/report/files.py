@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
-from frames.design.report.numbers import run_tables
+from frames.design.report.numbers import TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import load, save
 from lir_element.results.dataset import package_version
@@ -53,7 +53,8 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
         ``project.toml``; ``runs-<bound>.nc``, the time histories, ``runs-<level>-<bound>.nc``
         where a code has several levels of the seismic action; ``equivalent-linear.csv``,
         ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
-        ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
+        ``programme.csv``, ``storeys.csv``, ``reactions.csv`` in SI units, and ``members.csv``,
+        ``member-groups.csv`` of a structure with members; ``checks.txt`` with each calculation;
         ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
         outcome. What an interrupted run left is removed.
     """
@@ -78,7 +79,9 @@ def write_judgement(
 ) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
     (folder / "view.html").unlink(missing_ok=True)  # of `lir view`, with the checks of before
-    tables = run_tables(run)
+    tables = {name: table for name, table in run_tables(run).items() if len(table.columns)}
+    for name in TABLES_OF_FORCES:  # of an earlier run, of another structure
+        (folder / f"{name}.csv").unlink(missing_ok=True)
     texts = {
         "project.toml": source,
         **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
@@ -140,6 +143,14 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
+    every = (data for each in runs.values() for data in each.values())
+    if any("reached_reaction_force" not in data for data in every):
+        version = kept["lir_dcfp_version"]
+        msg = (
+            f"the time histories in {folder} were made by a version ({version}) that kept no "
+            "forces of members and bearings: `lir run` makes new ones"
+        )
+        raise ProjectError(msg)
     return Histories(runs=runs, governing=governing, governing_case=kept["governing_case"])
 
 

@@ -10,7 +10,8 @@ import pandas as pd
 from markupsafe import Markup
 
 from frames.design.calculation.check import TO_BE_CONFIRMED
-from frames.design.histories.demand_table import headed, void_said
+from frames.design.histories.demand_table import headed, said, void_said
+from frames.design.histories.suite import suite_of
 from frames.design.report.figures import pictures
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
@@ -69,7 +70,8 @@ def report_html(
         schedule=page_table(in_mm_and_kn(tables["bearings"]), "bearing"),
         friction=page_table(tables["friction"], "friction coefficient"),
         modes=page_table(tables["modes"], "mode"),
-        members=page_table(tables["members"], "members"),
+        members=page_table(tables.get("member-groups", pd.DataFrame()), "members"),
+        members_said=_members_said(run),
         programme=_programme(tables["programme"]),
         motions=page_table(run.motions.table(), "motion"),
         equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
@@ -99,6 +101,20 @@ def _levels(run: ProjectRun) -> str:
         for one in levels
     )
     return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
+
+
+def _members_said(run: ProjectRun) -> str:
+    # What the table of member forces is of.
+    level = next(level.name for level in run.rules.levels if level.judges_structure)
+    bounds = ", ".join(bound for bound in run.runs[level])
+    statistics = dict.fromkeys(said(suite_of(data, run.rules)) for data in run.runs[level].values())
+    return (
+        f"Level {level}: {'; '.join(statistics)} ({run.rules.cited}), farthest out over bounds "
+        f"({bounds}) and over both ends and the middle of each member, with the permanent loads of "
+        "the model as they act in the time histories. Local axes, tension positive. members.csv "
+        "has every member with its permanent part, for other combinations of loads, and what acts "
+        "at the same instant."
+    )
 
 
 def _judged(check: Check) -> Judged:
