@@ -34,15 +34,18 @@ def _level(project, row):
 
 
 def _of(suite, extremes):
-    # Mean or largest of the extremes of the runs, signed so that more is farther out.
-    good = extremes[~suite.failed]
+    # Mean or largest of the extremes of the runs, signed so that more is farther out; of what all
+    # reached where more failed than may.
+    good = extremes[_counting(suite)]
     return good.mean() if suite.mean else good.max()
+
+
+def _counting(suite):
+    return ~suite.failed | suite.void
 
 
 def _reactions(project, key, rows, tally):
     data, suite = project.runs[key[0]][key[1]], project.suites[key[0]][key[1]]
-    if suite.void:
-        return
     names = list(map(str, data["bearing"]))
     for (bearing, side), each in rows.items():
         b, end = names.index(bearing), ("below", "above").index(side)
@@ -65,12 +68,15 @@ def _row(suite, row, acts, scale, told):
     category, tally = told
     sign, label = EXTREMES[row["extreme"]], " ".join(list(row.values())[:6])
     extremes = sign * np.nanmax(sign * acts[row["force"]], axis=1)
-    value = sign * _of(suite, sign * extremes)
-    tally.same(category, label, float(row["value"]), value, scale)
-    single = sign * np.max(sign * extremes[~suite.failed])
-    tally.same(category, f"{label}, single", float(row["single"]), single, scale)
     motions = list(map(str, suite.data["motion"]))
     k = next(n for n, motion in enumerate(motions) if row["motion"].partition(" x ")[0] == motion)
+    if not suite.stopped[_counting(suite)].any():  # the step that ends a run is in no history
+        value = sign * _of(suite, sign * extremes)
+        tally.same(category, label, float(row["value"]), value, scale)
+        single = sign * np.max(sign * extremes[_counting(suite)])
+        tally.same(category, f"{label}, single", float(row["single"]), single, scale)
+    if suite.stopped[k]:
+        return
     tally.same(category, f"{label}, motion", float(row["single"]), extremes[k], scale)
     time = suite.data["time"] if suite.data["time"].ndim == 1 else suite.data["time"][k]
     step = int(np.nanargmin(np.abs(time - float(row["time [s]"]))))
@@ -84,8 +90,6 @@ def _row(suite, row, acts, scale, told):
 
 def _storeys(project, key, rows, tally):
     data, suite = project.runs[key[0]][key[1]], project.suites[key[0]][key[1]]
-    if suite.void:
-        return
     statics, category = project.governing, "storey forces, from histories"
     storeys = list(map(str, data["storey"]))
     for storey, each in rows.items():
