@@ -105,6 +105,9 @@ def sound(rng: np.random.Generator) -> Document:
         structure |= {
             "storeys": int(rng.integers(1, 3)),
             "floor_load": f"{rng.uniform(600.0, 1200.0):.0f} kg/m2",
+            "columns": {"box": ["400 mm", "25 mm"], "material": "A992"},
+            "beams": {"i_shape": ["550 mm", "220 mm", "20 mm", "12 mm"]},
+            "base_beams": {"i_shape": ["800 mm", "300 mm", "30 mm", "16 mm"]},
         }
     else:
         structure |= {

@@ -27,7 +27,7 @@ from frames.design import (
     history_checks,
     synthetic_near_fault,
 )
-from frames.design.plots import design_spectra, motion_spectra
+from frames.design.plots import design_candidates, design_spectra, motion_spectra
 
 frame = moment_frame(bays=(2, 1), storeys=2, bearing=bearing_for(800e3), floor_load=1000.0)
 spectrum = Spectrum.asce7(s_ms=0.9, s_m1=0.5)
@@ -48,10 +48,16 @@ target = DesignTarget(
     frictions=(0.05, 0.06),
     rim_share=0.9,
     pressure=12e6,
+    least_pressure=4e6,  # a light building: the liner is one for low pressure
     limits=DesignLimits(margin=1.6),
 )
 proposal = design(frame, spectrum, bounds=bounds, target=target)
 print(proposal)
+
+# %%
+# What it was chosen from, by what limits each candidate.
+
+design_candidates(proposal, target=target)
 
 # %%
 # Motions

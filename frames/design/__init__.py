@@ -60,6 +60,7 @@ from frames.design.project.check_register import register_check as register_chec
 from frames.design.project.check_register import unregister_check as unregister_check
 from frames.design.sizing.proposal import Design as Design
 from frames.design.sizing.proposal import design as design
+from frames.design.sizing.selection import NoCandidateError as NoCandidateError
 from frames.design.sizing.target import DesignTarget as DesignTarget
 from frames.design.testing.acceptance import AcceptanceLimits as AcceptanceLimits
 from frames.design.testing.acceptance import acceptance_checks as acceptance_checks
@@ -89,6 +90,7 @@ __all__ = [
     "MotionSet",
     "NCh2745",
     "NearFaultPulse",
+    "NoCandidateError",
     "PointSource",
     "ProgrammeDemands",
     "ProjectError",

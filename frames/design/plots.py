@@ -1,9 +1,11 @@
-"""Figures of spectra and motions."""
+"""Figures of spectra and motions, and of what a proposal of bearings was chosen from."""
 
 from frames.design.hazard.plot_hazard import design_spectra as design_spectra
 from frames.design.hazard.plot_hazard import motion_spectra as motion_spectra
+from frames.design.sizing.plot_candidates import design_candidates as design_candidates
 
 __all__ = [
+    "design_candidates",
     "design_spectra",
     "motion_spectra",
 ]

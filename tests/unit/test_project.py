@@ -62,6 +62,8 @@ friction = [0.8, 1.3]
 interface = [0.9, 1.1]
 [limits]
 rim_strength = "5 MN"
+[analysis]
+accidental_eccentricity = "none"
 """
 ASCE = SMALL.replace('"NCh2745"', '"ASCE 7-22"').replace(
     'soil = "II"\nzone = 2', "s_ms = 1.0\ns_m1 = 0.5"
@@ -355,7 +357,7 @@ def test_what_cannot_be_viewed_says_what_to_run(done: Path) -> None:
 def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
     """Bearings judged under 1.2 times the motions that judge what stands on them."""
     file, out = folder / "chile.toml", folder / "chile"
-    file.write_text(f"{SMALL}\n[analysis]\nbounds = ['upper']\nuplift_allowed = true\n")
+    file.write_text(f"{SMALL}\nbounds = ['upper']\nuplift_allowed = true\n")
     checked = run(app, ["check", str(file)])
     assert "6 time histories: 3 motions, bounds upper, levels design, maximum (" in checked.stdout
     done = ran(file, out)
@@ -399,7 +401,7 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
     for line, is_void in said.items():
         tall = LAST.replace('storey_height = "3 m"', 'storey_height = "8 m"')
         (folder / "uplift.toml").write_text(
-            f'{tall}\n[analysis]\nlevel = "pendulum"\nbounds = ["lower"]\n{line}\n'
+            f'{tall}\nlevel = "pendulum"\nbounds = ["lower"]\n{line}\n'
         )
         done = ran(folder / "uplift.toml", folder / "up")
         assert done.exit_code == 1, done.output
@@ -427,7 +429,9 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
 
 def test_the_devices_are_compared(folder: Path) -> None:
     (folder / "small.toml").write_text(ASCE.replace(', "artificial-3", "artificial-5"', ""))
-    done = run(app, ["compare", str(folder / "small.toml")])
+    done = run(
+        app, ["compare", str(folder / "small.toml"), "--no-figures", "--results", str(folder / "c")]
+    )
     assert done.exit_code == 0, done.output
     line = next(
         one for one in done.stdout.splitlines() if one.startswith("residual interface slip")
@@ -465,14 +469,49 @@ def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPa
     assert len(pd.read_csv("bench.csv")) == 1
 
 
-def test_bearings_are_proposed_as_a_section(folder: Path) -> None:
-    done = run(app, ["design", str(folder / "project.toml")])
+def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    done = run(app, ["design", str(folder / "project.toml"), "--top", "2"])
     assert done.exit_code == 0, done.output
+    assert "9 candidates tried" in done.stdout
+    table = pd.read_csv("design/candidates.csv", keep_default_na=False)
+    chosen = table[table["outcome"] == "proposed"].iloc[0]
+    assert f'radius = "{chosen["radius [m]"]:g} m"' in done.stdout
+    good = table[table["lacks"] == ""]
+    assert chosen["base shear / weight [-]"] == good["base shear / weight [-]"].min()
+    assert Path("design/candidates.png").stat().st_size > 10_000
     section = done.stdout[done.stdout.index("[bearing]") :]
     text = (folder / "project.toml").read_text()
     start, end = text.index("[bearing]"), text.index("[bounds]")
     (folder / "project.toml").write_text(text[:start] + section + "\n" + text[end:])
     assert read_project(folder / "project.toml").bearing is not None
+
+
+@pytest.mark.parametrize(
+    ("objective", "column"),
+    [("displacement", "displacement [m]"), ("plan", "plan diameter [m]")],
+)
+def test_a_proposal_makes_least_what_is_asked(folder: Path, objective: str, column: str) -> None:
+    words = [str(folder / "project.toml"), "--objective", objective, "--results", str(folder)]
+    assert run(app, ["design", *words]).exit_code == 0
+    table = pd.read_csv(folder / "candidates.csv", keep_default_na=False)
+    good = table[(table["lacks"] == "") & (table["warnings"] == "")]
+    assert table.loc[table["outcome"] == "proposed", column].item() == good[column].min()
+
+
+def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) -> None:
+    text = (folder / "project.toml").read_text()
+    file = folder / "tight.toml"
+    file.write_text(text.replace('max_displacement = "600 mm"', 'max_displacement = "100 mm"'))
+    found = run(app, ["design", str(file), "--results", str(folder / "tried")])
+    assert found.exit_code == 2
+    assert "none of 9 pairs" in found.output
+    table = pd.read_csv(folder / "tried" / "candidates.csv")
+    assert list(table["outcome"]) == ["falls out"] * 9
+    assert set(table["limited by"]) == {"displacement"}
+    wrong = run(app, ["design", str(file), "--objective", "weight"])
+    assert wrong.exit_code == 2
+    assert "is none of base-shear, displacement, plan, cost-like" in wrong.output
 
 
 def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -627,7 +666,7 @@ def test_check_ends_with_the_documented_codes(folder: Path) -> None:
 
 def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:
     said = 'uplift_allowed = true\nleast_gap = "0.2 mm"'
-    for text, allowed, gap in (("", False, 1e-3), (f"[analysis]\n{said}\n", True, 2e-4)):
+    for text, allowed, gap in (("", False, 1e-3), (f"{said}\n", True, 2e-4)):
         (folder / "gap.toml").write_text(f"{SMALL}\n{text}")
         rules = ProjectInputs(read_project(folder / "gap.toml"), folder).rules()
         assert (rules.uplift_allowed, rules.least_gap) == (allowed, pytest.approx(gap))

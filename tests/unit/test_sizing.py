@@ -16,6 +16,7 @@ from frames.design import (
     DesignLimits,
     DesignTarget,
     IsolationSystem,
+    NoCandidateError,
     PropertyBounds,
     PropertyModificationFactors,
     Spectrum,
@@ -23,8 +24,9 @@ from frames.design import (
     device_checks,
     equivalent_linear,
 )
-from frames.design.sizing.candidate import rounded_up
-from frames.design.sizing.proposal import grouped
+from frames.design.plots import design_candidates
+from frames.design.sizing.fitting import rounded_up
+from frames.design.sizing.size_groups import grouped
 from lir_element import CoulombFriction, DesignWarning, LIRBearing
 
 G = 9.80665
@@ -49,7 +51,7 @@ SYSTEM = IsolationSystem(
     plan=(14.0, 10.0),
     combinations={"maximum": tuple(1.3 * load for load in LOADS), "minimum": (0.5e6,) * 6},
 )
-ONE = DesignTarget(radii=(2.0,), frictions=(0.05,))
+ONE = DesignTarget(radii=(2.0,), frictions=(0.05,), least_pressure=5e6)
 
 
 SPECTRUM = Spectrum.asce7(1.2, S_M1)
@@ -166,7 +168,7 @@ def test_sizes_part_the_loads_with_the_least_area() -> None:
         )
         assert area == pytest.approx(best, rel=1e-2)
     assert len(grouped(SYSTEM, 9)[1]) == 5  # unlike loads
-    assert grouped(SYSTEM, 1)[1][0] == (0.5e6, 2.4e6, pytest.approx(3.12e6))
+    assert grouped(SYSTEM, 1)[1][0][:3] == (0.5e6, 2.4e6, pytest.approx(3.12e6))
     with pytest.raises(CheckError, match="sizes = 0"):
         grouped(SYSTEM, 0)
 
@@ -180,7 +182,9 @@ def test_sliders_of_two_sizes_have_one_height_and_interface() -> None:
 
 
 def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> None:
-    target = DesignTarget(radii=(1.5, 2.0, 2.5), frictions=(0.04, 0.06), max_displacement=0.60)
+    target = DesignTarget(
+        radii=(1.5, 2.0, 2.5), frictions=(0.04, 0.06), max_displacement=0.60, least_pressure=1e6
+    )
     frames = {
         name: design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target, least=name)
         for name in ("base shear", "displacement", "plan diameter")
@@ -194,6 +198,71 @@ def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> No
     assert len(frames["displacement"].to_dataframe()) == 6
 
 
+def test_the_pareto_set_is_what_none_beats() -> None:
+    target = DesignTarget(max_displacement=0.60, least_pressure=1e5)
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
+    table = found.to_dataframe()
+    numbers = ["displacement [m]", "base shear / weight [-]", "plan diameter [m]"]
+    good = table[table["lacks"] == ""]
+    for place, row in table.iterrows():
+        others = good.drop(index=place, errors="ignore")[numbers]
+        beaten = ((others <= row[numbers]).all(axis=1) & (others < row[numbers]).any(axis=1)).any()
+        assert row["Pareto-optimal"] == (row["lacks"] == "" and not beaten)
+    assert 2 <= len(found.pareto) < len(good) < len(table) == 20
+    assert list(table.loc[table["outcome"] == "proposed", "base shear / weight [-]"]) == [
+        good["base shear / weight [-]"].min()
+    ]
+    assert found.ranked[0] is found.chosen
+    assert (table["largest ratio [-]"] > 1.0).equals(table["lacks"] != "")
+    fallen = table[table["lacks"] != ""]
+    assert all(row["limited by"] in row["lacks"] for _, row in fallen.iterrows())
+
+
+def test_the_volume_of_bearings_is_that_of_plates_and_sliders() -> None:
+    chosen = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=ONE, sizes=2).chosen
+    t, found = chosen.trace, 0.0
+    for bearing, number in zip(chosen.bearings, (4, 2), strict=True):
+        way = t.value("U_cap") * 2.0 / (4.0 - bearing.slider_height)
+        diameter = 2.0 * (way + bearing.slider_radius + 0.025)
+        found += number * math.pi / 4.0 * diameter**2 * bearing.slider_height
+    assert chosen.bearing_volume == pytest.approx(found)
+
+
+def test_sliders_under_low_pressure_are_told_and_not_preferred() -> None:
+    low = DesignTarget(radii=(2.0,), frictions=(0.05,), least_pressure=14e6)
+    with pytest.warns(DesignWarning, match=r"work at .* below least_pressure = 14 MPa"):
+        chosen = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=low).chosen
+    area = math.pi * chosen.bearings[0].slider_radius ** 2
+    typical = sum(load**2 for load in LOADS) / sum(LOADS) / area
+    assert chosen.pressures[0] == pytest.approx((1.0e6 / area, typical, 2.4e6 / area))
+    assert typical < 14e6
+    both = DesignTarget(radii=(1.5, 2.5), frictions=(0.04, 0.06), least_pressure=1e5)
+    free = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=both)
+    pressed = [one.pressures[0][1] for one in free.candidates if not one.lacks]
+    assert free.chosen.pressures[0][1] < max(pressed)
+    between = replace(both, least_pressure=0.999 * max(pressed))
+    asked = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=between)
+    assert asked.chosen.pressures[0][1] == max(pressed)
+    assert asked.chosen.base_shear > free.chosen.base_shear
+    assert not asked.chosen.warnings
+
+
+def test_candidates_are_drawn_by_what_limits_them() -> None:
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=DesignTarget(least_pressure=1e5))
+    figure = design_candidates(found, target=DesignTarget(max_displacement=0.5))
+    left, right = figure.axes
+    points = [tuple(mark.get_offsets()[0]) for mark in left.collections]
+    for one in found.candidates:
+        assert (100.0 * one.base_shear, 1e3 * one.displacement) in points
+    named = [text.get_text() for text in left.texts]
+    assert named == [f"R {one.radius:g} m, μ {one.friction.f_max:g}" for one in found.pareto]
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "limited by: restoring force" in words
+    assert left.lines[0].get_ydata()[0] == right.lines[0].get_ydata()[0] == 500.0
+    with pytest.raises(CheckError, match="no candidate"):
+        design_candidates(())
+
+
 def test_trials_do_not_warn_of_what_the_checks_hold() -> None:
     target = DesignTarget(radii=(1.0,), frictions=(0.05,), rim_share=0.9)
     with warnings.catch_warnings():
@@ -205,8 +274,13 @@ def test_trials_do_not_warn_of_what_the_checks_hold() -> None:
 
 def test_what_none_keeps_is_told() -> None:
     tight = DesignTarget(radii=(2.0,), frictions=(0.05,), max_displacement=0.1)
-    with pytest.raises(CheckError, match=r"displacement 0\.\d+ m exceeds 0\.1 m.*rim_share"):
+    words = r"displacement 0\.\d+ m exceeds 0\.1 m.*rim_share"
+    with pytest.raises(NoCandidateError, match=words) as told:
         design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=tight)
+    assert [one.governing.what for one in told.value.candidates] == ["displacement"]
+    assert told.value.candidates[0].governing.ratio == pytest.approx(
+        told.value.candidates[0].displacement / 0.1
+    )
     weak = DesignTarget(radii=(2.0,), frictions=(0.05,), limits=DesignLimits(rim_strength=100e3))
     with pytest.raises(CheckError, match="interface slips before the rim breaks"):
         design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=weak)

@@ -124,7 +124,7 @@ def test_an_eccentricity_that_is_given_counts_before_the_masses() -> None:
 
 
 def test_a_design_goes_by_the_same_eccentricity() -> None:
-    target = DesignTarget(radii=(2.5,), frictions=(0.05,))
+    target = DesignTarget(radii=(2.5,), frictions=(0.05,), least_pressure=1e6)
     strong = Spectrum.asce7(s_ms=1.2, s_m1=0.8)
     moved = [
         design(building(share, overturning=False), strong, bounds=None, target=target).chosen

@@ -132,7 +132,7 @@ class BearingDemands:
             else:
                 t = self._entered(k)
                 t("U_max", "U_cap + s_lim", "m", shown="mm")
-            self.suite.enter(t, "D", values[:, k], "m", "mm")
+            self.suite.enter(t, "D", values[:, k], "m", "mm", of="displacement")
             formula = "D"
             if self.factor > 1.0:
                 t.given("gamma_x", self.factor)
@@ -182,10 +182,11 @@ class BearingDemands:
         # The largest slip; with a factor on the displacement at least what that is beyond the rims.
         slip = peaks_of_runs(self.data, "slip")[:, k]
         if not self.factor > 1.0:
-            self.suite.enter(t, "s", slip, "m", "mm")
+            self.suite.enter(t, "s", slip, "m", "mm", of="slip")
             return
-        self.suite.enter(t, "s_run", slip, "m", "mm")
-        self.suite.enter(t, "D", peaks_of_runs(self.data, "displacement")[:, k], "m", "mm")
+        self.suite.enter(t, "s_run", slip, "m", "mm", of="slip")
+        moved = peaks_of_runs(self.data, "displacement")[:, k]
+        self.suite.enter(t, "D", moved, "m", "mm", of="displacement")
         t.given("gamma_x", self.factor)
         self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
 
@@ -226,7 +227,7 @@ class BearingDemands:
         def fill(k: int) -> Calculation:
             t = self._entered(k)
             t.given("p_lim", limit, "Pa", note="as given")
-            self.suite.enter(t, "N", load[:, k], "N")
+            self.suite.enter(t, "N", load[:, k], "N", of="axial_force")
             self._enter_slip(t, k)
             of(t)
             return Calculation(t, "p", "p_lim")
@@ -263,7 +264,7 @@ class BearingDemands:
 
         def fill(k: int) -> Calculation:
             t = Trace()
-            self.suite.enter(t, symbol, values[:, k], unit, shown)
+            self.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
             t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
             return Calculation(t, symbol, f"{symbol}_lim")
 

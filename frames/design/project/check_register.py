@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
@@ -11,8 +11,6 @@ from frames.design.calculation.check import Check
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import pandas as pd
     import xarray as xr
 
@@ -82,6 +80,9 @@ class RunToCheck:
         How time histories count.
     asked : BearingDemand
         What the time histories ask of the bearings.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Time histories with the floors' masses moved, in the way of `runs`; empty without
+        accidental eccentricity.
 
     Examples
     --------
@@ -102,6 +103,7 @@ class RunToCheck:
     limits: DesignLimits
     rules: HistoryRules
     asked: BearingDemand
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]

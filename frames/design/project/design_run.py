@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -10,14 +10,19 @@ import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import bounds_of, envelope_said
+from frames.design.histories.demand_table import bounds_of
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import run_checks as run_checks  # which it registers
 from frames.design.project.check_register import BearingDemand, RunToCheck, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
-from frames.design.project.level_runs import demands_at_levels, histories_at_levels
+from frames.design.project.level_runs import (
+    demands_at_levels,
+    histories_at_levels,
+    moved_at_levels,
+)
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -34,6 +39,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
+    from frames.design.project.schema import ProjectTable
     from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
@@ -75,8 +81,16 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    about : ProjectTable
+        ``[project]`` of the file: its name, client, engineer, checker, revision, date.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Time histories with the floors' masses moved, in the way of `runs`.
     doubts : tuple of str
         What of the input was warned of.
+    structure : tuple of (str, str)
+        What the structure is, in words.
+    tables : tuple of Path
+        Tables that the file names, which are kept with the results.
     """
 
     frame: Frame
@@ -94,7 +108,11 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    about: ProjectTable
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
+    structure: tuple[tuple[str, str], ...] = ()
+    tables: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,11 +127,14 @@ class Histories:
         Histories of the run that displaces a bearing most, in single precision as they are kept.
     governing_case : str
         Which that is.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Runs with the floors' masses moved, in the same way; empty without accidental eccentricity.
     """
 
     runs: Mapping[str, Mapping[Bound, xr.Dataset]]
     governing: xr.Dataset
     governing_case: str
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
 def run_project(
@@ -149,13 +170,14 @@ def run_project(
     known = preliminary(parts)
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
+        moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
         governing, case = governing_run(parts, known.frame, known.motions, runs)
-    except AnalysisInterrupted as stop:  # all runs were complete
+    except AnalysisInterrupted as stop:  # all with the masses where they are were complete
         whole = xr.concat(
             _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
         )
         raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
-    found = Histories(runs=runs, governing=governing, governing_case=case)
+    found = Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
     return evaluate_run(parts, known, found)
 
 
@@ -182,8 +204,10 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         If a check cannot be made.
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
-    demands = demands_at_levels(runs, rules)
-    asked = _asked(parts, known, history_demands(runs[rules.bearing_level], rules))
+    moved = histories.moved
+    demands = demands_at_levels(runs, rules, moved)
+    level = rules.bearing_level
+    asked = _asked(parts, known, history_demands(runs[level], rules, moved=moved.get(level)))
     run = RunToCheck(
         code=parts.code(),
         frame=frame,
@@ -194,6 +218,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         bounds=bounds,
         limits=parts.limits(),
@@ -206,6 +231,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         checks=Checks(checks_of(run)),
         bounds=bounds,
@@ -216,49 +242,11 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
+        about=parts.file.project,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        structure=tuple(structure_rows(parts.file, frame)),
+        tables=parts.tables(),
     )
-
-
-def compare_devices(
-    parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
-) -> pd.DataFrame:
-    """Compare a project's bearings with the same ones with rigid sliders.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        What time histories give for design, the envelope over the bounds: a column "unit" and one
-        for each device, in SI units; its head names the statistic, and runs that failed.
-
-    Raises
-    ------
-    ProjectError, CheckError, ModelError, MotionError
-        If the project cannot be run.
-    AnalysisInterrupted
-        After Ctrl-C, with the runs of one device that were complete.
-    """
-    known = preliminary(parts)
-    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
-    frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
-    tables = {
-        device: demands_at_levels(
-            histories_at_levels(parts, frame, known.motions, progress), parts.rules()
-        )
-        for device, frame in frames.items()
-    }
-    columns = {
-        f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
-    }
-    ours = tables["LIR-DCFP"]
-    return ours[["unit"]].assign(**columns, level=ours["level"])
 
 
 def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:

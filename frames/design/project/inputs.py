@@ -9,20 +9,24 @@ from typing import TYPE_CHECKING, TypeVar
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.isolation import AVERAGE, IsolationSystem
 from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
+    IrregularFrame,
     MomentFrame,
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.structure_loads import BuildingLoads, loads_of
+from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
-from frames.library.moment_frames import moment_frame
+from frames.statics.gravity import gravity
 from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
@@ -68,8 +72,24 @@ class ProjectInputs:
         return bearing_of(given)
 
     def frame(self) -> Frame:
-        """Return the structure on its bearings."""
+        """Return the structure on its bearings, under the average combination of its loads."""
+        found = self.loaded_frame()
+        if not found.load_cases:
+            return found
+        return found.combined(self.code().loads.combinations(None)[AVERAGE])
+
+    def loaded_frame(self) -> Frame:
+        """Return the structure on its bearings, with its load cases "D", "L" and "S"."""
         return in_section("structure", lambda: self._frame(self.bearing()))
+
+    def system(self, frame: Frame, spectrum: Spectrum) -> IsolationSystem:
+        """Return the bearings of the structure with its load cases, by the code's combinations."""
+        s_ms = spectrum.parameters.get("S_MS")
+        if not frame.load_cases:
+            return IsolationSystem.from_frame(frame, s_ms=s_ms)
+        chosen = self.code().loads.combinations(s_ms)
+        weight = frame.gravity * float(gravity(frame).system.node_mass[:, 0].sum())
+        return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
@@ -84,7 +104,16 @@ class ProjectInputs:
         return in_section("structure", lambda: self._frame(bearing))
 
     def _frame(self, bearing: LIRBearing) -> Frame:
-        return frame_of(self.file.structure, bearing, self.file.project.name, self.folder)
+        loads = loads_of(self.file.loads, self.code().loads)
+        name = self.file.project.name
+        return frame_of(self.file.structure, bearing, name, self.folder, loads)
+
+    def tables(self) -> tuple[Path, ...]:
+        """Return the tables of members that the file names."""
+        given = self.file.structure
+        if not isinstance(given, IrregularFrame):
+            return ()
+        return tuple(self.folder / name for name in (given.columns_table, given.beams_table))
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
@@ -118,9 +147,10 @@ class ProjectInputs:
 
     def rules(self) -> HistoryRules:
         """Return how time histories count: as the code has it, uplift as the file says."""
-        given = self.file.analysis.model_dump(
-            exclude_none=True, include={"uplift_allowed", "least_gap"}
-        )
+        keys = {"uplift_allowed", "least_gap", "accidental_eccentricity"}
+        given = self.file.analysis.model_dump(exclude_none=True, include=keys)
+        if given.get("accidental_eccentricity") == "none":
+            given["accidental_eccentricity"] = 0.0
         rules = self.code().histories
         return in_section("analysis", lambda: replace(rules, **given))
 
@@ -142,19 +172,24 @@ def bearing_of(given: schema.Bearing) -> LIRBearing:
     return in_section("bearing", made)
 
 
-def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+def frame_of(
+    given: Structure,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
-        return moment_frame(
-            given.bays,
-            given.storeys,
-            bearing=bearing,
-            bay_width=given.bay_width,
-            storey_height=given.storey_height,
-            floor_load=given.floor_load,
-            eccentricity=given.eccentricity,
-            name=name,
+        return regular_frame(given, bearing, name, loads)
+    if isinstance(given, IrregularFrame):
+        return irregular_frame(given, bearing, name, folder, loads)
+    if loads is not None:
+        msg = (
+            f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '
+            "masses and loads, leave the section out"
         )
+        raise ProjectError(msg)
     if isinstance(given, ShearBuilding):
         return shear_building(
             bearing,

@@ -43,6 +43,7 @@ def of_the_histories(run: RunToCheck) -> list[Check]:
             limits=run.limits,
             equivalent=run.equivalent if has_minima else None,
             action_level=level,
+            moved=run.moved.get(level),
         )
     return found
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from frames.design.codes.registry import code_named
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
+from frames.design.project.schema_structure import BuildingTable
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -33,10 +35,16 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        About masses of storeys by area, bays that bearings do not fit into, storeys that are far
-        too soft, and an importance that is in one section alone.
+        About sections that are not given, masses of storeys by area, bays that bearings do not
+        fit into, storeys that are far too soft, and an importance that is in one section alone.
     """
-    return (*_of_masses(file), *_of_bays(file), *_of_storeys(file), *_of_importance(file))
+    return (
+        *_of_sections(file),
+        *_of_masses(file),
+        *_of_bays(file),
+        *_of_storeys(file),
+        *_of_importance(file),
+    )
 
 
 def wind_doubts(
@@ -69,10 +77,28 @@ def wind_doubts(
     )
 
 
+def _of_sections(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, MomentFrame):
+        return []
+    keys = ("columns", "beams", "base_beams")
+    assumed = [key for key in keys if getattr(given, key) is None]
+    if not assumed:
+        return []
+    return [
+        f"[structure] {' and '.join(assumed)}: no section is given, those of an example are "
+        "assumed (`lir check` shows them), whatever the building carries: give each its section, "
+        'columns = { section = "HEB 300" }, beams = { rectangle = ["300 mm", "600 mm"], '
+        'material = "C30/37" }'
+    ]
+
+
 def _of_masses(file: ProjectFile) -> list[str]:
     given = file.structure
-    if isinstance(given, MomentFrame):
-        found = {"floor_load": given.floor_load}
+    if isinstance(given, BuildingTable):
+        dead = None if file.loads is None else file.loads.dead / STANDARD_GRAVITY
+        named = {"floor_load": given.floor_load, "[loads] dead over gravity": dead}
+        found = {key: value for key, value in named.items() if value is not None}
     elif isinstance(given, ShearBuilding):
         area = math.prod(n * w for n, w in zip(given.bays, given.bay_width, strict=True))
         masses = {f"storey_mass[{k}]": mass for k, mass in enumerate(given.storey_mass)}

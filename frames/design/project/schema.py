@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from functools import cache
 from typing import Annotated, Any, Literal, Union
 
@@ -20,6 +21,8 @@ from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
 from frames.design.project.schema_hazard import spectrum_table
 from frames.design.project.schema_limits import Limits as Limits
 from frames.design.project.schema_limits import Target as Target
+from frames.design.project.schema_loads import LoadsTable as LoadsTable
+from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
 from frames.design.project.schema_structure import MomentFrame as MomentFrame
 from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel
 from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
@@ -28,11 +31,16 @@ from frames.design.project.schema_structure import SuperstructureTable as Supers
 
 
 class ProjectTable(Table):
-    """``[project]``: its name, the standard that it is designed by, Python files that extend it."""
+    """``[project]``: its name and standard, Python files that extend it, who and when."""
 
     name: str = Field(min_length=1)
     code: str
     extensions: tuple[str, ...] = ()
+    client: str = ""
+    engineer: str = ""
+    checker: str = ""
+    revision: str = ""
+    date: datetime.date | str = ""
 
 
 class ProjectFile(Table):
@@ -40,6 +48,7 @@ class ProjectFile(Table):
 
     project: ProjectTable
     structure: Structure
+    loads: LoadsTable | None = None
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
     spectrum: SpectrumTable

@@ -35,6 +35,7 @@ class Target(Table):
     rim_share: Ratio | None = None
     pressure: Pressure | None = None
     largest_pressure: Pressure | None = None
+    least_pressure: Pressure | None = None
     max_displacement: Length | None = None
     max_base_shear: Ratio | None = None
     max_plan_diameter: Length | None = None

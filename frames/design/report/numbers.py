@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from frames.design.codes.bounds import with_property_bounds
+from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.report.member_groups import member_groups
@@ -26,6 +27,9 @@ _REACHED = {
 }
 """What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
 
+ECCENTRICITY = "eccentricity"
+"""Name of the table of what moved masses raise."""
+
 _COUNT = 6
 TABLES_OF_FORCES = ("member-groups", "members", "storeys", "reactions")
 """Tables that a structure has as far as it has members and levels."""
@@ -43,7 +47,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a bearing; places and displacements [m], forces [N], in the names of the columns.
-        Largest over motions, bounds and levels, whatever the code makes of them.
+        Largest of all runs, those with moved masses among them, whatever the code makes of them.
     """
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
@@ -56,7 +60,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         index=pd.Index(list(links), name="bearing"),
     )
     for title, (name, sign) in _REACHED.items():
-        every = (data for each in run.runs.values() for data in each.values())
+        both = (*run.runs.values(), *run.moved.values())
+        every = (data for each in both for data in each.values())
         values = [peaks_of_runs(data, name).max(axis=0) for data in every]
         table[title] = sign * np.max(values, axis=0)
     return table
@@ -128,8 +133,9 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "programme" of tests, "member-groups"; "members",
-        "storeys" and "reactions" as far as the structure has them (`force_demands`).
+        "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
+        "member-groups"; "members", "storeys" and "reactions" as far as the structure has them
+        (`force_demands`).
     """
     forces = force_demands(run.runs, run.rules)
     return {
@@ -139,4 +145,5 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "member-groups": member_groups(run, forces.get("members")),
         "programme": run.programme,
         **forces,
+        ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }

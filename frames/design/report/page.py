@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _DOTS = 110  # per inch
+_NAME = 18  # letters of a name that stays on one line
 
 
 class Table(NamedTuple):
@@ -27,6 +28,11 @@ class Table(NamedTuple):
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: frozenset[int] = frozenset()
+
+    @property
+    def short(self) -> bool:
+        """Whether the first column has names alone, which are not broken into lines."""
+        return all(len(row[0]) <= _NAME for row in self.rows)
 
 
 class Picture(NamedTuple):

@@ -1,48 +1,25 @@
-"""One radius and friction tried: slider, rims and interface that fit them, and what they lack."""
+"""One radius and friction with what fits them: its numbers, what limits it, what it lacks."""
 
 from __future__ import annotations
 
 import math
-import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.design.calculation.check import Checks
-from frames.design.calculation.trace import Trace
-from frames.design.devices.device import device_checks
-from lir_element import DesignWarning, LIRBearing
-from lir_element.device.bearing_checks import LARGEST_SINE
-
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from frames.design.codes.bounds import PropertyBounds
-    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.calculation.check import Checks
+    from frames.design.calculation.trace import Trace
     from frames.design.codes.outcome import EquivalentLinear
-    from frames.design.sizing.target import DesignTarget
+    from frames.design.sizing.size_groups import Size
+    from lir_element import LIRBearing
     from lir_element.device.friction import FrictionLaw
 
-    Analyse = Callable[[LIRBearing], EquivalentLinear]
 
-_SHALLOW = 0.2
-"""Radius of a slider over that of its concave surface, at most: beyond it is no shallow bowl."""
+class Governing(NamedTuple):
+    """What limits a candidate most: of all that it is asked, the largest demand over its limit."""
 
-_WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
-"""Demands that a larger slider does not lessen."""
-
-
-class Size(NamedTuple):
-    """Loads of the bearings that have sliders of one radius [N].
-
-    Attributes
-    ----------
-    least, average, largest : float
-        Least load of all combinations, largest of the average combination, and of all.
-    """
-
-    least: float
-    average: float
-    largest: float
+    what: str
+    ratio: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,6 +42,12 @@ class Candidate:
         The calculation of rims and interface.
     lacks : tuple of str
         What it does not keep; empty if it can be taken.
+    groups : tuple of Size
+        Loads and number of the bearings of each size.
+    governing : Governing
+        What limits it most, and its ratio: over 1 where it lacks something.
+    least_pressure : float
+        Pressure of the target below which liners rub more than they are meant to [Pa].
     """
 
     radius: float
@@ -74,6 +57,9 @@ class Candidate:
     checks: Checks
     trace: Trace
     lacks: tuple[str, ...]
+    groups: tuple[Size, ...]
+    governing: Governing
+    least_pressure: float
 
     @property
     def plan_diameter(self) -> float:
@@ -84,6 +70,48 @@ class Candidate:
     def base_shear(self) -> float:
         """Largest base shear over weight, without rims [-]."""
         return self.trace.value("V_b") / self.trace.value("W")
+
+    @property
+    def displacement(self) -> float:
+        """Largest displacement that bearings without rims must allow [m]."""
+        return self.trace.value("D")
+
+    @property
+    def bearing_volume(self) -> float:
+        """Volume of all bearings, plates' area times slider's height: a measure of cost [m3].
+
+        It stands for steel to be forged, machined and moved; it is no price.
+        """
+        t, found = self.trace, 0.0
+        for bearing, group in zip(self.bearings, self.groups, strict=False):
+            smaller = t.value("a") - bearing.slider_radius
+            diameter = t.value("d_plan") - 2.0 * smaller
+            found += group.number * math.pi / 4.0 * diameter**2 * bearing.slider_height
+        return found if self.bearings else math.nan
+
+    @property
+    def pressures(self) -> tuple[tuple[float, float, float], ...]:
+        """Of each size of slider under the average combination [Pa]: lightest, typical, heaviest.
+
+        That of the lightest bearing, the mean weighted by the loads, and the heaviest bearing's.
+        """
+        return tuple(
+            (group.lightest / area, group.typical / area, group.average / area)
+            for bearing, group in zip(self.bearings, self.groups, strict=False)
+            for area in [math.pi * bearing.slider_radius**2]
+        )
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What no check holds against it and a liner's maker might: sliders under low pressure."""
+        return tuple(
+            f"sliders of {2e3 * bearing.slider_radius:.0f} mm diameter work at "
+            f"{typical / 1e6:.3g} MPa ({least / 1e6:.3g} to {most / 1e6:.3g} MPa) under the "
+            f"average combination, below least_pressure = {self.least_pressure / 1e6:.3g} MPa: "
+            "friction of PTFE-type liners rises there, and is hardly tested"
+            for bearing, (least, typical, most) in zip(self.bearings, self.pressures, strict=True)
+            if typical < self.least_pressure
+        )
 
     @property
     def beyond_procedure(self) -> tuple[str, ...]:
@@ -98,222 +126,24 @@ class Candidate:
         found: dict[str, object] = {
             "radius [m]": self.radius,
             "friction [-]": self.friction.f_max,
-            "displacement [m]": t.value("D"),
+            "displacement [m]": self.displacement,
             "base shear / weight [-]": self.base_shear,
         }
         for name, each in self.analysis.bounds.items():
             found |= {f"period, {name} [s]": each.period, f"damping, {name} [-]": each.damping}
+        pressures = self.pressures or ((math.nan,) * 3,)
         return found | {
             "slider radius [m]": t.value("a"),
             "capacity [m]": t.value("U_cap"),
             "interface friction [-]": t.value("mu_h"),
             "plan diameter [m]": self.plan_diameter,
+            "bearing volume [m3]": self.bearing_volume,
+            "pressure, lightest bearing [Pa]": min(each[0] for each in pressures),
+            "pressure, typical [Pa]": min(each[1] for each in pressures),
+            "pressure, heaviest bearing [Pa]": max(each[2] for each in pressures),
+            "limited by": self.governing.what,
+            "largest ratio [-]": self.governing.ratio,
             "lacks": "; ".join(self.lacks),
+            "warnings": "; ".join(self.warnings),
             "beyond the procedure": "; ".join(self.beyond_procedure),
         }
-
-
-def fitted(
-    radius: float,
-    friction: FrictionLaw,
-    system: IsolationSystem,
-    sizes: Sequence[Size],
-    target: DesignTarget,
-    bounds: PropertyBounds | None,
-    analyse: Analyse,
-) -> Candidate:
-    """Return a radius and a friction with slider, rims and interface that fit them.
-
-    The sliders begin with the radius that the pressures ask for and grow until they also bear the
-    slip: by its overlap, and by the offset of the resultant, which the interface's friction causes.
-
-    Parameters
-    ----------
-    radius : float
-        Of both concave surfaces [m].
-    friction : FrictionLaw
-        Nominal friction.
-    system : IsolationSystem
-        Places and loads of the bearings.
-    sizes : sequence of Size
-        Loads of the bearings of each size of slider.
-    target : DesignTarget
-        What is asked for.
-    bounds : PropertyBounds or None
-        Lower and upper bound friction properties.
-    analyse : callable
-        Equivalent-linear analysis of the system on one bearing.
-
-    Returns
-    -------
-    Candidate
-        With what it lacks.
-
-    Raises
-    ------
-    CheckError
-        If there is no equivalent-linear displacement.
-    """
-    radii, height = [_by_pressure(size, target) for size in sizes], 0.0
-    while True:
-        height = max(height, rounded_up(target.height_ratio * max(radii), 1e-3))
-        plain = LIRBearing(
-            radius=radius,
-            slider_height=height,
-            slider_radius=max(radii),
-            friction=friction,
-            capacity=math.inf,
-            interface_friction=math.inf,
-        )
-        analysis = analyse(plain)
-        t = _measures(plain, analysis, system, target, bounds)
-        if t.value("e_plate") >= LARGEST_SINE * radius:
-            return _impossible(radius, friction, analysis, t)
-        if t.value("h_min") > height:
-            height = rounded_up(t.value("h_min"), 1e-3)
-            continue
-        bearings = [_rimmed(plain, each, t) for each in radii]
-        found = [
-            device_checks(
-                bearing,
-                (size.least, size.largest),
-                slip=t.value("s"),
-                bounds=bounds,
-                limits=target.limits,
-            )
-            for bearing, size in zip(bearings, sizes, strict=True)
-        ]
-        wanted = [
-            rounded_up(max(t.value("s"), _growth(checks) * each), target.slider_step)
-            for each, checks in zip(radii, found, strict=True)
-        ]
-        if wanted == radii or max(wanted) > _SHALLOW * radius:
-            break
-        radii = wanted
-    checks = Checks(check for each in found for check in each)
-    return Candidate(
-        radius=radius,
-        friction=friction,
-        bearings=tuple(bearings),
-        analysis=analysis,
-        checks=checks,
-        trace=t,
-        lacks=tuple(_lacks(t, analysis, checks, wanted, target, radius)),
-    )
-
-
-def _impossible(
-    radius: float, friction: FrictionLaw, analysis: EquivalentLinear, t: Trace
-) -> Candidate:
-    edge = t["e_plate"].result
-    return Candidate(
-        radius=radius,
-        friction=friction,
-        bearings=(),
-        analysis=analysis,
-        checks=Checks(),
-        trace=t,
-        lacks=(f"the plates reach {edge.value:.3g} m from their middle: too deep a bowl",),
-    )
-
-
-def rounded_up(value: float, step: float) -> float:
-    """Return the least multiple of a step that is not below a value, round-off aside."""
-    return round(math.ceil(value / step - 1e-6) * step, 9)
-
-
-def _by_pressure(size: Size, target: DesignTarget) -> float:
-    area = max(size.average / target.pressure, size.largest / target.largest_pressure)
-    return rounded_up(math.sqrt(area / math.pi), target.slider_step)
-
-
-def _growth(checks: Checks) -> float:
-    # Of a slider's radius, from what it fails: less than it takes, so that none grows too far.
-    ratios = [c.ratio for c in checks.failed if c.symbol not in _WHATEVER_SLIDER]
-    return min(math.sqrt(max(ratios, default=1.0)), 1.2)
-
-
-def _measures(
-    plain: LIRBearing,
-    analysis: EquivalentLinear,
-    system: IsolationSystem,
-    target: DesignTarget,
-    bounds: PropertyBounds | None,
-) -> Trace:
-    # Rims, slip and interface of bearings that go as far as those without rims.
-    t = Trace()
-    t.given("W", system.seismic_weight, "N")
-    t.given("V_b", analysis.base_shear, "N", note="largest, without rims")
-    t.given(
-        "D",
-        analysis.allowed_displacement,
-        "m",
-        shown="mm",
-        note="that bearings must allow, without rims",
-    )
-    t.given("R", plain.radii[0], "m")
-    t.given("a", plain.slider_radius, "m", shown="mm", note="largest slider")
-    t.given("h", plain.slider_height, "m", shown="mm")
-    t("L", "2 * R - h", "m")
-    t.given("r", target.rim_share, note="share of D at which the rims are met")
-    t("U_cap", "r * D", "m", shown="mm", source="docs/design_checks.md")
-    t("s", "D - U_cap", "m", shown="mm", note="left to the interface")
-    t("e_plate", "U_cap * R / L + a", "m", shown="mm", note="edge of the concave surfaces")
-    t.given("c", target.clearance, "m", shown="mm", note="between the plates' edges at rest")
-    t(
-        "h_min",
-        "2 * (R - sqrt(max(R**2 - e_plate**2, 0))) + c",
-        "m",
-        shown="mm",
-        note="least height of the slider",
-    )
-    t.given("mu", plain.frictions[0].f_max, note="nominal")
-    upper, inner = (1.0, 1.0)
-    if bounds is not None:
-        upper, inner = bounds.friction.upper, bounds.interface_factors.lower
-    t.given("lambda_U", upper, note="upper bound of the surfaces")
-    t.given("lambda_h", inner, note="lower bound of the interface")
-    t("mu_e", "lambda_U * mu * 2 * R / L", source="docs/theory.md (2.1)")
-    t.given("gamma", target.limits.margin)
-    source = "docs/theory.md (2.1), (2.7)"
-    needed = t("mu_h_min", "max(gamma * mu_e, mu_e + s / L) / lambda_h", source=source)
-    t.given("mu_h", rounded_up(needed, target.friction_step), note="rounded up")
-    t.given("b", target.rim_width, "m", shown="mm", note="width of the rim")
-    t("d_plan", "2 * (e_plate + b)", "m", shown="mm")
-    t("d_plan_free", "2 * (D * R / L + a + b)", "m", shown="mm", note="without rims met")
-    return t
-
-
-def _rimmed(plain: LIRBearing, slider_radius: float, t: Trace) -> LIRBearing:
-    with warnings.catch_warnings():  # the stable limit of interface slip is among the checks
-        warnings.simplefilter("ignore", DesignWarning)
-        return replace(
-            plain,
-            slider_radius=slider_radius,
-            capacity=t.value("U_cap"),
-            interface_friction=t.value("mu_h"),
-        )
-
-
-def _lacks(
-    t: Trace,
-    analysis: EquivalentLinear,
-    checks: Checks,
-    wanted: Sequence[float],
-    target: DesignTarget,
-    radius: float,
-) -> list[str]:
-    asked = (
-        ("displacement", t.value("D"), target.max_displacement, "m"),
-        ("base shear / weight", t.value("V_b") / t.value("W"), target.max_base_shear, "-"),
-        ("plan diameter", t.value("d_plan"), target.max_plan_diameter, "m"),
-        ("slider radius", max(wanted), _SHALLOW * radius, "m"),
-    )
-    found = [
-        f"{what} {value:.3g} {unit} exceeds {limit:.3g} {unit}".replace(" -", "")
-        for what, value, limit, unit in asked
-        if limit is not None and value > limit
-    ]
-    ill = [*checks.failed]
-    ill += [*analysis.checks.failed]
-    return found + sorted({f"{check.title} (ratio {check.ratio:.2f})" for check in ill})

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import warnings
 from dataclasses import dataclass, replace
-from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
 from frames.design.codes.analysis import equivalent_linear
 from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.spectrum import Spectrum
-from frames.design.sizing.candidate import Candidate, Size, fitted
+from frames.design.sizing.candidate import Candidate
+from frames.design.sizing.fitting import fitted
+from frames.design.sizing.selection import (
+    OBJECTIVES,
+    NoCandidateError,
+    Objective,
+    pareto,
+    ranked,
+    table_of,
+)
+from frames.design.sizing.size_groups import grouped
 from frames.design.sizing.target import DesignTarget
 from frames.frame import Frame
+from lir_element import DesignWarning
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.tables import html_table, text_table
 
@@ -28,7 +38,6 @@ if TYPE_CHECKING:
 
 Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
 DEVICES: tuple[Device, ...] = ("LIR-DCFP", "DCFP", "DCFP without rim contact")
-_PREFERENCES = ("base shear", "displacement", "plan diameter")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,6 +54,8 @@ class Design:
         All that were tried.
     sizes : tuple of int
         Which of the chosen bearings stands at each place.
+    least : str
+        What was made least.
 
     Examples
     --------
@@ -64,6 +75,17 @@ class Design:
     chosen: Candidate
     candidates: tuple[Candidate, ...]
     sizes: tuple[int, ...]
+    least: Objective = "base shear"
+
+    @property
+    def pareto(self) -> tuple[Candidate, ...]:
+        """Those that none beats in displacement, base shear and plan diameter at once."""
+        return pareto(self.candidates)
+
+    @property
+    def ranked(self) -> tuple[Candidate, ...]:
+        """Those that keep what is asked, best first: without warnings, then by `least`."""
+        return ranked(self.candidates, self.least)
 
     def bearings(self, device: Device = "LIR-DCFP") -> tuple[LIRBearing, ...]:
         """Return the bearing at each place.
@@ -134,10 +156,16 @@ class Design:
         return pd.DataFrame.from_dict(rows, orient="index")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Return all candidates with what they lack, a row for each, numbers in SI units."""
-        import pandas as pd
+        """Return all candidates, a row for each, numbers in SI units.
 
-        return pd.DataFrame([candidate.row() for candidate in self.candidates])
+        Returns
+        -------
+        pandas.DataFrame
+            Outcome ("proposed", "Pareto-optimal", "keeps what is asked" or "falls out"), whether
+            none beats it in displacement, base shear and plan diameter at once, its numbers, what
+            limits it most, what it lacks, and warnings.
+        """
+        return table_of(self.candidates, self.chosen)
 
     def __repr__(self) -> str:
         """Return the proposal on one line."""
@@ -178,7 +206,7 @@ def design(
     superstructure: Superstructure | None = None,
     code: AnalysisMethod | str | None = None,
     sizes: int = 1,
-    least: Literal["base shear", "displacement", "plan diameter"] = "base shear",
+    least: Objective = "base shear",
 ) -> Design:
     """Propose LIR-DCFP bearings for a structure, by equivalent-linear analysis.
 
@@ -186,7 +214,7 @@ def design(
     the lower bound of friction lets them, by EN 1998 times gamma_x; rims are put at a share of
     that, and the interface gets the friction that holds until then and stays stable over what is
     left. Of those that keep what is asked, the one with the least base shear is taken, or as
-    `least` says.
+    `least` says; those whose liners work under usual pressures before others.
 
     Parameters
     ----------
@@ -203,8 +231,9 @@ def design(
         As in `equivalent_linear`; checks of the superstructure then count as well.
     sizes : int
         Number of sliders of unlike radius, for bearings of unlike loads.
-    least : {"base shear", "displacement", "plan diameter"}
-        What is made least.
+    least : {"base shear", "displacement", "plan diameter", "bearing volume"}
+        What is made least: the largest base shear, the displacement that bearings must allow, the
+        diameter of the plates, or the volume of all bearings, a measure of their cost.
 
     Returns
     -------
@@ -213,8 +242,16 @@ def design(
 
     Raises
     ------
+    NoCandidateError
+        If no candidate keeps what is asked: the message names the nearest and what it lacks, its
+        `candidates` are all that were tried. It is a CheckError.
     CheckError
-        If no candidate keeps what is asked: the message names the nearest and what it lacks.
+        If an argument is out of bounds.
+
+    Warns
+    -----
+    DesignWarning
+        If even the best has sliders under less than the target's `least_pressure`.
 
     Notes
     -----
@@ -234,7 +271,7 @@ def design(
     >>> device.radii, device.frictions[0].f_max, round(device.slider_radius, 3)
     ((1.5, 1.5), 0.06, 0.2)
     """
-    require_choice("least", least, _PREFERENCES, error=CheckError)
+    require_choice("least", least, tuple(OBJECTIVES), error=CheckError)
     target = DesignTarget() if target is None else target
     require_type("target", target, DesignTarget, "DesignTarget(...)")
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
@@ -256,7 +293,12 @@ def design(
         for radius in target.radii
         for law in target.laws
     )
-    return Design(system, _best(found, least), found, places)
+    best = ranked(found, least)
+    if not best:
+        raise NoCandidateError(found)
+    for text in best[0].warnings:
+        warnings.warn(text, DesignWarning, stacklevel=2)
+    return Design(system, best[0], found, places, least)
 
 
 def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> IsolationSystem:
@@ -264,75 +306,3 @@ def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> Isolation
         return IsolationSystem.from_frame(structure, s_ms=spectrum.parameters.get("S_MS"))
     require_type("structure", structure, IsolationSystem, "a Frame or an IsolationSystem")
     return structure
-
-
-def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple[Size, ...]]:
-    """Return which size each bearing has, smallest first, and the loads of each size.
-
-    The largest loads are parted so that the sliders' areas, all together, are least.
-
-    Parameters
-    ----------
-    system : IsolationSystem
-        The bearings' loads.
-    sizes : int
-        Number of sizes, at least 1; fewer where there are fewer unlike loads.
-
-    Returns
-    -------
-    tuple of int, (n_bearings,)
-        Size of each bearing.
-    tuple of Size
-        Loads of each size.
-
-    Raises
-    ------
-    CheckError
-        If the number is out of bounds.
-    """
-    if sizes < 1:
-        msg = f"sizes = {sizes}: give a number of sliders, at least 1"
-        raise CheckError(msg)
-    columns = list(zip(system.loads, *system.combinations.values(), strict=True))
-    largest = [max(column) for column in columns]
-    rounded = [float(f"{load:.3g}") for load in largest]
-    steps = sorted(set(rounded))
-    counts = [rounded.count(step) for step in steps]
-    inner = range(len(steps) - 1)
-
-    def area(tops: tuple[int, ...]) -> float:
-        ends = (*tops, len(steps) - 1)
-        starts = (0, *(top + 1 for top in tops))
-        return sum(
-            steps[end] * sum(counts[start : end + 1])
-            for start, end in zip(starts, ends, strict=True)
-        )
-
-    tops = min(combinations(inner, min(sizes, len(steps)) - 1), key=area)
-    limits = [steps[top] for top in tops]
-    places = tuple(sum(load > limit for limit in limits) for load in rounded)
-    return places, tuple(
-        _loads([columns[k] for k, size in enumerate(places) if size == number])
-        for number in range(len(limits) + 1)
-    )
-
-
-def _loads(columns: list[tuple[float, ...]]) -> Size:
-    # A bearing that a combination lifts is asked by its least load while it carries.
-    pressed = [load for column in columns for load in column if load > 0.0]
-    return Size(min(pressed), max(column[0] for column in columns), max(pressed))
-
-
-def _best(found: tuple[Candidate, ...], least: str) -> Candidate:
-    rank: Mapping[str, str] = {"base shear": "V_b", "displacement": "D", "plan diameter": "d_plan"}
-    good = [candidate for candidate in found if not candidate.lacks]
-    if good:
-        return min(good, key=lambda candidate: candidate.trace.value(rank[least]))
-    near = min(found, key=lambda candidate: len(candidate.lacks))
-    msg = (
-        f"none of {len(found)} pairs of radius and friction keeps what is asked; nearest: radius "
-        f"{near.radius:g} m, friction {near.friction.f_max:g}, where {'; '.join(near.lacks)}. "
-        "Offer other radii and frictions, rims at a larger share of the displacement (rim_share), "
-        "or narrower bounds of the interface friction"
-    )
-    raise CheckError(msg)

@@ -14,6 +14,16 @@ INTERFACE_PRESSURE = LANDING_PRESSURE
 """Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
 
 
+LEAST_PRESSURE = 10e6
+"""Pressure below which a proposal warns of its liners, and takes others first [Pa].
+
+Liners of the PTFE type usually work at 15 to 60 MPa under permanent load; their friction rises as
+the pressure falls, and tests cover 5 to 45 MPa (for instance Bondonet and Filiatrault 1997, J.
+Bridge Eng. 2(4)). Ten, of all bearings together, leaves the lightest ones about the lower end of
+the tests. A starting point of this package, to be confirmed by the liner's maker.
+"""
+
+
 @dataclass(frozen=True, kw_only=True)
 class DesignTarget:
     """What bearings are chosen from, and what is asked of them.
@@ -35,6 +45,9 @@ class DesignTarget:
         Mean pressure on a slider under the average combination [Pa].
     largest_pressure : float
         The same under the largest load of all combinations [Pa].
+    least_pressure : float
+        Pressure under the average combination, the mean of the bearings of a size weighted by their
+        loads, below which a proposal warns and takes other pairs first [Pa]; see `LEAST_PRESSURE`.
     height_ratio : float
         Height of the whole slider over its radius [-].
     rim_width : float
@@ -70,6 +83,7 @@ class DesignTarget:
     rim_share: float = 0.75
     pressure: float = 30e6
     largest_pressure: float = 60e6
+    least_pressure: float = LEAST_PRESSURE
     height_ratio: float = 1.0
     rim_width: float = 0.025
     clearance: float = 0.010
@@ -96,6 +110,7 @@ class DesignTarget:
             "rim_share",
             "pressure",
             "largest_pressure",
+            "least_pressure",
             "height_ratio",
             "rim_width",
             "clearance",

@@ -1,0 +1,204 @@
+"""The command that proposes bearings: candidates, their table and picture, the proposal."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import pandas as pd
+import typer
+
+from frames.command.console import say, told
+from frames.design._errors import ProjectError
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.level_runs import said_of_runs
+from frames.design.project.reading import read_project
+from frames.design.project.verification import (
+    Verified,
+    section_of,
+    verification_table,
+    verified,
+)
+from frames.design.report.tables import in_mm_and_kn, rows_of
+from frames.design.sizing.proposal import Design, design
+from frames.design.sizing.selection import NoCandidateError, Objective, table_of
+from lir_element.tables import text_table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames.design.sizing.candidate import Candidate
+    from frames.design.sizing.target import DesignTarget
+
+OBJECTIVES: dict[str, Objective] = {
+    "base-shear": "base shear",
+    "displacement": "displacement",
+    "plan": "plan diameter",
+    "cost-like": "bearing volume",
+}
+"""What the command calls the objectives of `design`."""
+
+_SHOWN = [
+    "radius [m]",
+    "friction [-]",
+    "displacement [m]",
+    "base shear / weight [-]",
+    "plan diameter [m]",
+    "bearing volume [m3]",
+    "pressure, typical [Pa]",
+    "limited by",
+    "outcome",
+]
+
+
+def propose(
+    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    sizes: Annotated[int, typer.Option(help="Number of unlike sliders.")] = 1,
+    objective: Annotated[
+        str,
+        typer.Option(
+            "--objective",
+            "--least",
+            help="What is made least: base-shear, displacement, plan (diameter of the plates) or "
+            "cost-like (volume of all bearings).",
+        ),
+    ] = "base-shear",
+    top: Annotated[
+        int, typer.Option(min=1, help="How many of the best are listed, and verified.")
+    ] = 3,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Run the time histories of the best as well.")
+    ] = False,
+    results: Annotated[Path, typer.Option(help="Folder for tables and picture.")] = Path("design"),
+) -> None:
+    """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file.
+
+    All candidates, with why each fell out, are in candidates.csv and candidates.png. With --verify
+    the best are put to the time histories and checks of the project: verified.csv.
+    """
+    with told():
+        least = _objective(objective)
+        _require_one_size(verify, sizes)
+        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        target = parts.target()
+        found = _found(parts, target, sizes, least, results)
+        say(f"{found}\n")
+        _summary(found, objective, top)
+        _written(found.candidates, found, target, results)
+        chosen = found.chosen
+        if verify:
+            chosen = _verify(parts, found.ranked[:top], results) or chosen
+        for bearing in chosen.bearings:
+            say(f"\n{section_of(bearing)}")
+
+
+def _found(
+    parts: ProjectInputs, target: DesignTarget, sizes: int, least: Objective, results: Path
+) -> Design:
+    # Where no candidate keeps what is asked, they are written before the error is told.
+    frame = parts.provisional_frame()
+    try:
+        return design(
+            parts.system(frame, parts.spectrum()),
+            parts.spectrum(),
+            bounds=parts.bounds(),
+            target=target,
+            superstructure=parts.superstructure(frame),
+            code=parts.code().analysis(),
+            sizes=sizes,
+            least=least,
+        )
+    except NoCandidateError as cause:
+        _written(cause.candidates, None, target, results)
+        _reasons(cause.candidates)
+        raise
+
+
+def _verify(
+    parts: ProjectInputs, candidates: Sequence[Candidate], folder: Path
+) -> Candidate | None:
+    # The first of which no check fails, told as they are done; None without.
+    say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
+    done: list[Verified] = []
+    for one in verified(parts, candidates, progress=True):
+        done.append(one)
+        verification_table(done).to_csv(folder / "verified.csv", index=False)
+        say(f"\n{_said(one)}")
+    table = verification_table(done).drop(columns="fails")
+    table.index = pd.Index(range(1, len(table) + 1))
+    shown = in_mm_and_kn(table.rename(columns={"radius [m]": "radius (m)"}))
+    say(f"\n{text_table(rows_of(shown), ('', *map(str, shown.columns)))}")
+    say(f"\nenvelopes over the bounds, in SI units with what fails: {folder / 'verified.csv'}")
+    best = next((one.candidate for one in done if one.passed), None)
+    if best is None:
+        say("\nnone passes all checks of the time histories: the section below is of the first")
+    else:
+        who = f"radius {best.radius:g} m, friction {best.friction.f_max:g}"
+        say(f"\nthe first that passes all checks: {who}")
+    return best
+
+
+def _said(one: Verified) -> str:
+    who = f"radius {one.candidate.radius:g} m, friction {one.candidate.friction.f_max:g}"
+    if one.run is None:
+        return f"{who}: cannot be run: {one.reason}"
+    fails = one.row()["fails"]
+    return f"{who}: {one.run.checks.tally}{f': {fails}' if fails else ''}"
+
+
+def _require_one_size(verify: bool, sizes: int) -> None:
+    if verify and sizes > 1:
+        msg = f"--verify with --sizes {sizes}: [bearing] of a project has one size, leave one out"
+        raise ProjectError(msg)
+
+
+def _objective(word: str) -> Objective:
+    named = OBJECTIVES | {name: name for name in OBJECTIVES.values()}  # as design() has them
+    if word not in named:
+        msg = f"--objective {word!r} is none of {', '.join(OBJECTIVES)}"
+        raise ProjectError(msg)
+    return named[word]
+
+
+def _summary(found: Design, objective: str, top: int) -> None:
+    # The best by the objective, the Pareto set, and why the others fell out.
+    ranked, best = found.ranked, found.pareto
+    say(
+        f"{len(found.candidates)} candidates tried, {len(ranked)} keep what is asked, "
+        f"{len(best)} of them Pareto-optimal (none has less displacement, base shear and plan "
+        "diameter at once)"
+    )
+    _reasons(found.candidates)
+    shown = list(dict.fromkeys((*ranked[:top], *best)))
+    say(f"\nThe best {min(top, len(ranked))} by {objective}, and the Pareto set\n")
+    say(_listed(shown, found.chosen))
+
+
+def _listed(shown: Sequence[Candidate], chosen: Candidate) -> str:
+    table = table_of(shown, chosen)[_SHOWN]
+    table = table.rename(columns={"pressure, typical [Pa]": "pressure [MPa]"})
+    table["pressure [MPa]"] *= 1e-6
+    table.index = range(1, len(table) + 1)
+    shown_table: pd.DataFrame = in_mm_and_kn(table.rename(columns={"radius [m]": "radius (m)"}))
+    return text_table(rows_of(shown_table), ("", *map(str, shown_table.columns)))
+
+
+def _reasons(found: Sequence[Candidate]) -> None:
+    causes = Counter(one.governing.what for one in found if one.lacks)
+    if causes:
+        listed = ", ".join(f"{what} {count}" for what, count in causes.most_common())
+        say(f"fell out, by what they lack most: {listed}")
+
+
+def _written(
+    candidates: Sequence[Candidate], found: Design | None, target: DesignTarget, folder: Path
+) -> None:
+    from frames.design.plots import design_candidates  # with matplotlib
+
+    folder.mkdir(parents=True, exist_ok=True)
+    chosen = None if found is None else found.chosen
+    table_of(candidates, chosen).to_csv(folder / "candidates.csv", index=False)
+    figure = design_candidates(candidates if found is None else found, target=target)
+    figure.savefig(folder / "candidates.png", dpi=150)
+    say(f"all candidates: {folder / 'candidates.csv'}, {folder / 'candidates.png'}")

@@ -1,0 +1,76 @@
+"""Checks as the report shows them: words in place of zeros that nothing may exceed."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from markupsafe import Markup
+
+from frames.design.calculation.unevaluated import NOT_EVALUATED
+from frames.design.report.governs import statistic_of
+
+if TYPE_CHECKING:
+    from frames.design.calculation.check import Check
+
+
+_ZERO = {0.0}  # exact: as it was given
+
+
+class Judged(NamedTuple):
+    """A check as the report shows it.
+
+    Attributes
+    ----------
+    check : Check
+        The check.
+    demand, sign, limit, ratio : str
+        As text, with units.
+    statistic : str
+        Of which runs the demand is.
+    steps : list of (Markup, str, str)
+        Lines of its calculation: formula, source, note.
+    """
+
+    check: Check
+    demand: str
+    sign: str
+    limit: str
+    ratio: str
+    statistic: str
+    steps: list[tuple[Markup, str, str]]
+
+
+def judged(check: Check) -> Judged:
+    """Return a check as the report shows it.
+
+    Parameters
+    ----------
+    check : Check
+        The check.
+
+    Returns
+    -------
+    Judged
+        Where nothing is allowed, and nothing is there, words in place of numbers.
+    """
+    demand, limit, ratio = check.said
+    sign = "" if check.void else "≤" if check.relation == "<=" else "≥"
+    if check.limit in _ZERO and check.relation == "<=":  # nothing may be there: no ratio
+        limit, sign, ratio = "none allowed", "", ""
+        demand = "none" if check.demand in _ZERO and not check.void else demand
+    if math.isinf(check.demand):
+        demand, sign, ratio = NOT_EVALUATED if not check.void else "not known", "", ""
+    if math.isinf(check.limit):
+        limit, sign, ratio = "no limit", "", ""
+    if ratio == "inf":
+        ratio = ""
+    return Judged(
+        check=check,
+        demand=demand,
+        sign=sign,
+        limit=limit,
+        ratio="" if ratio == "-" else ratio,
+        statistic=statistic_of(check),
+        steps=[(Markup(step.mathml()), step.source, step.note) for step in check.trace],  # noqa: S704
+    )

@@ -1,0 +1,156 @@
+"""Which of the candidates are worth a look: by one objective, and those that none beats in all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from frames.design._errors import CheckError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    import pandas as pd
+
+    from frames.design.sizing.candidate import Candidate
+
+Objective = Literal["base shear", "displacement", "plan diameter", "bearing volume"]
+"""What a proposal makes least."""
+
+OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
+    "base shear": lambda one: one.base_shear,
+    "displacement": lambda one: one.displacement,
+    "plan diameter": lambda one: one.plan_diameter,
+    "bearing volume": lambda one: one.bearing_volume,
+}
+"""The number that each makes least, of a candidate that keeps what is asked."""
+
+_WEIGHED = ("displacement", "base shear", "plan diameter")
+
+
+class NoCandidateError(CheckError):
+    """No candidate keeps what is asked; the message names the nearest and what it lacks.
+
+    Parameters
+    ----------
+    candidates : tuple of Candidate
+        All that were tried, with their reasons.
+
+    Examples
+    --------
+    >>> from frames.design import DesignTarget, IsolationSystem, Spectrum, design
+    >>> from lir_element import LIRBearing
+    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
+    ...                      friction=0.06, interface_friction=0.25)
+    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
+    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
+    >>> narrow = DesignTarget(radii=(1.5, 2.0), frictions=(0.06,), max_displacement=0.1)
+    >>> try:
+    ...     design(system, Spectrum.asce7(s_ms=1.2, s_m1=0.6), bounds=None, target=narrow)
+    ... except NoCandidateError as error:
+    ...     [one.governing.what for one in error.candidates]
+    ['displacement', 'displacement']
+    """
+
+    def __init__(self, candidates: tuple[Candidate, ...]) -> None:
+        near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
+        super().__init__(
+            f"none of {len(candidates)} pairs of radius and friction keeps what is asked; nearest: "
+            f"radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
+            f"{'; '.join(near.lacks)}. Offer other radii and frictions, rims at a larger share of "
+            "the displacement (rim_share), or narrower bounds of the interface friction"
+        )
+        self.candidates = candidates
+
+
+class Place(NamedTuple):
+    """A candidate among the others.
+
+    Attributes
+    ----------
+    candidate : Candidate
+        Which.
+    outcome : str
+        "proposed", "Pareto-optimal" (no other that keeps what is asked has less displacement, base
+        shear and plan diameter at once, or is as good in some and better in another), "keeps what
+        is asked", or "falls out".
+    """
+
+    candidate: Candidate
+    outcome: Literal["proposed", "Pareto-optimal", "keeps what is asked", "falls out"]
+
+
+def ranked(found: Sequence[Candidate], least: str) -> tuple[Candidate, ...]:
+    """Return the candidates that keep what is asked, best first.
+
+    Parameters
+    ----------
+    found : sequence of Candidate
+        All that were tried.
+    least : str
+        Of `OBJECTIVES`: what is made least.
+
+    Returns
+    -------
+    tuple of Candidate
+        Those without warnings before those with, each by the objective.
+    """
+    good = [one for one in found if not one.lacks]
+    return tuple(sorted(good, key=lambda one: (bool(one.warnings), OBJECTIVES[least](one))))
+
+
+def pareto(found: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Return those that none beats in displacement, base shear and plan diameter at once.
+
+    Parameters
+    ----------
+    found : sequence of Candidate
+        All that were tried; only those that keep what is asked are compared.
+
+    Returns
+    -------
+    tuple of Candidate
+        In their order.
+    """
+    good = [one for one in found if not one.lacks]
+    values = {id(one): tuple(OBJECTIVES[name](one) for name in _WEIGHED) for one in good}
+
+    def beaten(one: Candidate) -> bool:
+        own = values[id(one)]
+        return any(
+            theirs != own and all(a <= b for a, b in zip(theirs, own, strict=True))
+            for theirs in values.values()
+        )
+
+    return tuple(one for one in good if not beaten(one))
+
+
+def placed(found: Sequence[Candidate], chosen: Candidate | None) -> tuple[Place, ...]:
+    """Return each candidate with its outcome, in their order."""
+    best = {id(one) for one in pareto(found)}
+    return tuple(
+        Place(
+            one,
+            "falls out"
+            if one.lacks
+            else "proposed"
+            if one is chosen
+            else "Pareto-optimal"
+            if id(one) in best
+            else "keeps what is asked",
+        )
+        for one in found
+    )
+
+
+def table_of(found: Sequence[Candidate], chosen: Candidate | None = None) -> pd.DataFrame:
+    """Return all candidates, a row for each, numbers in SI units, with their outcome."""
+    import pandas as pd
+
+    best = {id(one) for one in pareto(found)}
+    return pd.DataFrame(
+        [
+            {"outcome": place.outcome, "Pareto-optimal": id(place.candidate) in best}
+            | place.candidate.row()
+            for place in placed(found, chosen)
+        ]
+    )
