@@ -36,6 +36,7 @@ OWN = {
     "checks",
     "codes",
     "demands",
+    "described",
     "forces",
     "ground",
     "histories",
