@@ -126,7 +126,7 @@ def _groups(project, tally):
     judged = "design" if project.code == "NCh2745" else None
     for row in project.table("member-groups"):
         for title, extreme in (("largest", "max"), ("smallest", "min")):
-            where = row[f"where {title}"].partition(", ")[0]
+            where = row[f"member of {title}"].partition(", ")[0]
             those = [
                 float(each["value"])
                 for each in own[where, row["force"], extreme]

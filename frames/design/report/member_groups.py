@@ -54,7 +54,7 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
             those = part[part["extreme"] == extreme]
             worst = those.iloc[int(np.argmax(sign * those["value"].to_numpy()))]
             row[title] = float(worst["value"])
-            row[f"where {title}"] = f"{worst['member']} {worst['station']}, {worst['bound']}"
+            row[f"member of {title}"] = f"{worst['member']} {worst['station']}, {worst['bound']}"
         rows.append(row)
     table = pd.DataFrame(rows).set_index("group")
     size = table[["smallest", "largest"]].abs().max(axis=1)
