@@ -17,7 +17,6 @@ from frames.model.damping import ModalDamping as ModalDamping
 from frames.model.damping import RayleighDamping as RayleighDamping
 from frames.model.sections import Section as Section
 from frames.motion.ground_motion import GroundMotion as GroundMotion
-from frames.recording.program_tables import program_tables as program_tables
 from frames.recording.recording import Recording as Recording
 from frames.recording.recovery import force_tables as force_tables
 from frames.recording.recovery import member_forces as member_forces
@@ -90,7 +89,6 @@ __all__ = [
     "modes",
     "moment_frame",
     "peaks",
-    "program_tables",
     "save",
     "shear_building",
     "step_sensitivity",

@@ -60,20 +60,10 @@ def program_tables(
 
     Notes
     -----
-    Stations are the two ends of each member, measured from its joint i. P is tension positive;
-    axis 2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and M3 = -My of the section:
-    M3 > 0 where the side of -2 is pulled. Base reactions are about the origin. Drifts are those of
-    the middle of a storey.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, moment_frame, program_tables, time_history
-    >>> from frames.demo import bearing_for
-    >>> frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3))
-    >>> data = time_history(frame, GroundMotion(x=np.ones(11), dt=0.01))
-    >>> list(program_tables(frame, data)["Element Forces - Frames"])[:6]
-    ['Frame', 'Station', 'OutputCase', 'CaseType', 'StepType', 'P']
+    It is `Frame.program_tables`. Stations are the two ends of each member, measured from its joint
+    i. P is tension positive; axis 2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and
+    M3 = -My of the section: M3 > 0 where the side of -2 is pulled. Base reactions are about the
+    origin. Drifts are those of the middle of a storey.
     """
     known = UNITS | _MORE
     if units not in known:

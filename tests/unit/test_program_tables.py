@@ -12,11 +12,11 @@ from frames import (
     ModelError,
     gravity,
     moment_frame,
-    program_tables,
     storey_drift,
     time_history,
 )
 from frames.demo import bearing_for
+from frames.recording.program_tables import program_tables
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +84,7 @@ def test_extremes_and_units(frame: Frame, data: xr.Dataset) -> None:
     drift = storey_drift(data)
     rows = of(tables["Story Drifts"], OutputCase="one", Direction="Y", StepType="Max")
     assert_allclose(rows["Drift"], drift.sel(axis="y").max("time").to_numpy())
-    kn = program_tables(frame, data, units="KN, m")["Element Forces - Frames"]
+    kn = frame.program_tables(data, units="KN, m")["Element Forces - Frames"]
     kip = of(tables["Element Forces - Frames"], OutputCase="one")
     assert_allclose(kip["P"] * 4.4482216152605, kn["P"])
     assert_allclose(kip["M3"] * 4.4482216152605 * 0.0254, kn["M3"])
