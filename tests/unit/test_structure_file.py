@@ -209,6 +209,7 @@ REFUSED = {
     ),
     'columns = { box = ["400 mm", "250 mm"] }': "walls overlap",
     'columns = { box = ["400 mm", 25] }': "has no unit",
+    "columns = [3, 2]": "write [[structure.columns]] and its keys below for each",
     'columns = { boxes = ["400 mm", "25 mm"] }': 'boxes is not known; is "box" meant?',
     'columns = [{ box = ["400 mm", "25 mm"], storeys = [1, 2] }]': "storey 3 has no section",
     'columns = [{ box = ["400 mm", "25 mm"] }, { circle = "1 m", material = "S355" }]': (

@@ -94,6 +94,11 @@ class IrregularFrame(BuildingTable):
     beams_table: Path
     sections: dict[str, SectionTable] = Field(default_factory=dict)
 
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Height of each storey [m]."""
+        return self.storey_height
+
 
 class ShearBuilding(Table):
     """``[structure]`` of kind "shear building": rigid floors on storey springs, which tilt."""
