@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
-from frames import Frame, moment_frame
+from frames import Frame, ModalDamping, moment_frame
 from frames.demo import bearing_for
 from frames.design import ProjectError
 from frames.design.project.inputs import ProjectInputs
@@ -187,6 +187,17 @@ def test_cracked_sections(tmp_path: Path) -> None:
         for key in ("inertia_y", "inertia_z", "torsion_constant", "shear_area_y", "area")
     ]
     assert np.allclose(ratios, [0.35, 0.35, 0.1, 1.0, 1.0])
+
+
+def test_damping_of_the_structure(tmp_path: Path) -> None:
+    """Two per cent in each mode if nothing is said; none at 0."""
+    found = [
+        frame_of(tmp_path, GRID + MEMBERS + text).damping
+        for text in ("", "damping = 0.05\n", 'damping = "3 %"\n', "damping = 0\n")
+    ]
+    assert found == [ModalDamping(0.02), ModalDamping(0.05), ModalDamping(0.03), None]
+    with pytest.raises(ProjectError, match=r"structure\.damping = 5"):
+        frame_of(tmp_path, GRID + MEMBERS + "damping = 5\n")
 
 
 COLUMNS = 'columns = { rectangle = ["400 mm", "600 mm"], material = "C30/37" }'
