@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from frames.design.devices.limits import DesignLimits
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
+    from frames.design.project.bearing_types import TypeOfBearing
     from frames.frame import Frame
     from lir_element import LIRBearing
 
@@ -57,7 +58,7 @@ class RunToCheck:
     frame : Frame
         The structure on its bearings, friction nominal.
     bearing : LIRBearing
-        The bearing under each column, friction nominal.
+        The standard bearing, friction nominal.
     system : IsolationSystem
         The bearings with their places, average loads and combinations.
     superstructure : Superstructure, optional
@@ -83,6 +84,8 @@ class RunToCheck:
     moved : mapping of str to mapping of str to xarray.Dataset
         Time histories with the floors' masses moved, in the way of `runs`; empty without
         accidental eccentricity.
+    types : mapping of str to TypeOfBearing
+        Types of bearings, with what the time histories ask of each.
 
     Examples
     --------
@@ -104,6 +107,7 @@ class RunToCheck:
     rules: HistoryRules
     asked: BearingDemand
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
+    types: Mapping[str, TypeOfBearing] = field(default_factory=dict)
 
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]

@@ -13,6 +13,7 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
+from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
     MomentFrame,
@@ -60,16 +61,37 @@ class ProjectInputs:
         return code_named(self.file.project.code, ProjectError)
 
     def bearing(self) -> LIRBearing:
-        """Return the bearing under each column."""
+        """Return the bearing under each column that no other type is named for."""
         given = self.file.bearing
         if given is None:
             msg = "[bearing] is missing: `lir design` proposes one"
             raise ProjectError(msg)
         return bearing_of(given)
 
+    def devices(self) -> dict[str, LIRBearing]:
+        """Return the bearing of each type: "standard", and those of ``[bearings.<type>]``."""
+        found = {STANDARD: self.bearing()}
+        for name, given in self.file.bearings.items():
+            if name == STANDARD:
+                msg = f"[bearings.{name}] is the name of what [bearing] describes: choose another"
+                raise ProjectError(msg)
+            found[name] = bearing_of(given, f"bearings.{name}")
+        return found
+
     def frame(self) -> Frame:
         """Return the structure on its bearings."""
-        return in_section("structure", lambda: self._frame(self.bearing()))
+        return self.frame_and_types()[0]
+
+    def frame_and_types(self) -> tuple[Frame, dict[str, str]]:
+        """Return the structure on its bearings, and the type of each bearing."""
+        devices = self.devices()
+
+        def made() -> tuple[Frame, dict[str, str]]:
+            frame = self._frame(devices[STANDARD])
+            chosen = types_by_column(self.file.bearings, frame)
+            return on_types(frame, chosen, devices), chosen
+
+        return in_section("structure", made)
 
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
@@ -137,10 +159,10 @@ class ProjectInputs:
         return motions_of(self.file.motions, self.folder)
 
 
-def bearing_of(given: schema.Bearing) -> LIRBearing:
+def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
     made: Callable[[], LIRBearing] = given.made
-    return in_section("bearing", made)
+    return in_section(section, made)
 
 
 def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:

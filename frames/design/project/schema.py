@@ -13,8 +13,10 @@ from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table
 from frames.design.project.schema_analysis import Analysis as Analysis
 from frames.design.project.schema_bearing import Bearing as Bearing
+from frames.design.project.schema_bearing import BearingType as BearingType
 from frames.design.project.schema_bearing import Bounds as Bounds
 from frames.design.project.schema_bearing import bearing_table as bearing_table
+from frames.design.project.schema_bearing import bearing_type_table, completed
 from frames.design.project.schema_hazard import Motions as Motions
 from frames.design.project.schema_hazard import MotionSource as MotionSource
 from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
@@ -48,6 +50,7 @@ class ProjectFile(Table):
     structure: Structure
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
+    bearings: dict[str, BearingType] = Field(default_factory=dict)
     spectrum: SpectrumTable
     motions: Motions
     bounds: Bounds
@@ -66,6 +69,7 @@ class ProjectFile(Table):
                 data = data | {"project": about}
                 if isinstance(given, dict):
                     data = data | {"spectrum": {"code": about["code"]} | given}
+            data = completed(data)
         return data
 
 
@@ -90,10 +94,13 @@ def _file_of(codes: tuple[DesignCode, ...], bearing: Any) -> type[ProjectFile]:
     spectra: Any = tables[0]
     if len(tables) > 1:
         spectra = Annotated[Union[tables], Field(discriminator="code")]  # noqa: UP007
+    kind: Any = bearing_type_table(bearing)
+    types: Any = dict[str, kind]
     return create_model(
         "ProjectFile",
         __base__=ProjectFile,
         project=(about, ...),
         bearing=(bearing | None, None),
+        bearings=(types, Field(default_factory=dict)),
         spectrum=(spectra, ...),
     )

@@ -14,7 +14,7 @@ from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import MOST, what_governs
 from frames.design.report.judged import judged
-from frames.design.report.numbers import ECCENTRICITY
+from frames.design.report.numbers import ECCENTRICITY, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -80,7 +80,7 @@ def report_html(
         model=model_table(run.model),
         loads=in_parts(loads_table(run.model)),
         notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
-        bearing=device_table(device),
+        devices=[(kind, device_table(one)) for kind, one in devices_by_type(run).items()],
         schedule=in_parts(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=_friction(tables["friction"]),
         modes=in_parts(page_table(tables["modes"], "mode")),
