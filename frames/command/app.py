@@ -19,9 +19,9 @@ from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
+from frames.design.project.bearing_types import columns_by_type
 from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
 from frames.design.project.example import write_example
-from frames.design.project.bearing_types import columns_by_type
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
 from frames.design.project.preliminary import inputs_of, preliminary

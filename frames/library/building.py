@@ -2,103 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import accumulate
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from frames._errors import ModelError
 from frames.frame import Frame
+from frames.library.building_checks import require_whole
+from frames.library.building_plan import BuildingPlan, level_name
+from frames.library.building_walls import add_arms, add_braces, add_wall_nodes, add_walls
 from frames.library.grid import require_device
 from frames.library.moment_frames import DEFAULT_DAMPING
-from frames.model.names import likely
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from frames.model.components import Vector
     from frames.model.damping import Damping
-    from frames.model.sections import Section
     from lir_element import LIRBearing
-
-
-class ColumnPart(NamedTuple):
-    """A column over one storey.
-
-    Attributes
-    ----------
-    line : str
-        The line in plan that it stands on.
-    storey : int
-        1 is the one on the base.
-    section : Section
-        Its section.
-    up : tuple of 3 floats, optional
-        As in `Frame.add_member`; None has the depth of the section along global x.
-    """
-
-    line: str
-    storey: int
-    section: Section
-    up: Vector | None = None
-
-
-class BeamPart(NamedTuple):
-    """A beam between two lines at a level.
-
-    Attributes
-    ----------
-    name : str
-        What its name begins with, "beam-x" or "beam".
-    level : int
-        0 is the base, k the floor on storey k.
-    start, end : str
-        Its lines in plan.
-    section : Section
-        Its section.
-    """
-
-    name: str
-    level: int
-    start: str
-    end: str
-    section: Section
-
-
-@dataclass(frozen=True, kw_only=True)
-class BuildingPlan:
-    """What a building is made of.
-
-    Parameters
-    ----------
-    lines : mapping of str to (float, float)
-        Lines in plan on which columns stand, by name: x and y [m].
-    heights : tuple of float
-        Height of each storey, the lowest first [m].
-    columns : tuple of ColumnPart
-        A bearing stands under each column of the first storey.
-    beams : tuple of BeamPart
-        Those of the base, level 0, among them.
-    """
-
-    lines: Mapping[str, tuple[float, float]]
-    heights: tuple[float, ...]
-    columns: tuple[ColumnPart, ...]
-    beams: tuple[BeamPart, ...]
-
-    def standing(self, storey: int) -> list[ColumnPart]:
-        """Return the columns of a storey."""
-        return [part for part in self.columns if part.storey == storey]
-
-    def at_level(self, level: int) -> list[str]:
-        """Return the lines that have a node at a level: column heads below it, feet above it."""
-        below = [part.line for part in self.standing(level)]
-        above = [part.line for part in self.standing(level + 1)]
-        return list(dict.fromkeys([*below, *above]))
-
-
-def level_name(level: int) -> str:
-    """Return the name of a level, "base" or "floor-<k>"."""
-    return f"floor-{level}" if level else "base"
 
 
 def build(
@@ -127,10 +44,11 @@ def build(
     Returns
     -------
     Frame
-        Levels "base", "floor-1", ..., each a diaphragm with nodes "<level>-<line>"; fixed nodes
-        "ground-<line>", bearings "bearing-<line>", members "column-<storey>-<line>" and
-        "<name of the beam>-<level>-<line>" with the line that it begins at; where several begin
-        there, the line that it ends at follows.
+        Levels "base", "floor-1", ... with nodes "<level>-<line>", a diaphragm for what beams join
+        on each; fixed nodes "ground-<line>", bearings "bearing-<line>", members
+        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that
+        it begins at; where several begin there, the line that it ends at follows; walls and
+        braces as in `frames.library.building_walls`.
 
     Raises
     ------
@@ -138,7 +56,7 @@ def build(
         If a column or beam does not go from node to node, or a node hangs in the air.
     """
     require_device("bearing", bearing)
-    _require_whole(plan)
+    require_whole(plan)
     frame = Frame(name, gravity)
     heights = [bearing.height + z for z in accumulate(plan.heights, initial=0.0)]
     for line in plan.at_level(0):
@@ -159,6 +77,8 @@ def build(
                 foot, head = f"{below}-{line}", f"{floor}-{line}"
                 frame.add_member(f"column-{storey}-{line}", foot, head, part.section, part.up)
         _add_level(frame, plan, storey)
+        add_walls(frame, plan, storey)
+        add_braces(frame, plan, storey)
     frame.set_damping(damping)
     return frame
 
@@ -166,7 +86,7 @@ def build(
 def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
     # Beams, diaphragm and level; beams in the order of the lines that they begin at.
     floor, lines = level_name(level), plan.at_level(level)
-    beams = [part for part in plan.beams if part.level == level]
+    beams = plan.beams_at(level)
     order = {line: k for k, line in enumerate(lines)}
     for part in sorted(beams, key=lambda part: order[part.start]):
         start, end = f"{floor}-{part.start}", f"{floor}-{part.end}"
@@ -174,47 +94,28 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
         alone = sum((b.name, b.start) == (part.name, part.start) for b in beams) == 1
         frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
     nodes = [f"{floor}-{line}" for line in lines]
-    if len(nodes) > 1:
-        frame.add_diaphragm(floor, nodes)
+    axes = add_wall_nodes(frame, plan, level)
+    add_arms(frame, plan, level)
+    if level not in plan.flexible:
+        for k, slab in enumerate(_slabs([*nodes, *axes], plan.edges(level))):
+            if len(slab) > 1:
+                first = slab[0].removeprefix(f"{floor}-")
+                frame.add_diaphragm(floor if k == 0 else f"{floor}-{first}", slab)
     frame.add_level(floor, nodes)
 
 
-def _require_whole(plan: BuildingPlan) -> None:
-    # Columns and beams that begin and end where there is something.
-    count = len(plan.heights)
-    for part in plan.columns:
-        _require_line(plan, part.line, f"a column of storey {part.storey}")
-        if not 1 <= part.storey <= count:
-            msg = f'column on line "{part.line}": storey {part.storey} is none of the {count}'
-            raise ModelError(msg)
-    for level in range(count + 1):
-        nodes = set(plan.at_level(level))
-        if not nodes:
-            msg = f"no column reaches level {level}: each storey needs one"
-            raise ModelError(msg)
-        ends = set()
-        for beam in (beam for beam in plan.beams if beam.level == level):
-            for line in (beam.start, beam.end):
-                where = f'beam from "{beam.start}" to "{beam.end}" at {level_name(level)}'
-                _require_line(plan, line, where)
-                if line not in nodes:
-                    msg = (
-                        f'{where}: no column on line "{line}" has its head or its foot there: '
-                        "give the column that storey, or leave the beam out"
-                    )
-                    raise ModelError(msg)
-                ends.add(line)
-        heads = {part.line for part in plan.standing(level)} if level else nodes
-        hanging = sorted(nodes - heads - ends)
-        if hanging:
-            msg = (
-                f'column "{hanging[0]}" begins at {level_name(level)}, where no beam reaches it: '
-                "let it begin on the base, or give the beams that carry it"
-            )
-            raise ModelError(msg)
+def _slabs(nodes: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
+    # Nodes that beams join, one list for each part of a level that stands apart.
+    group = {node: node for node in nodes}
 
+    def root(node: str) -> str:
+        while group[node] != node:
+            node = group[node]
+        return node
 
-def _require_line(plan: BuildingPlan, line: str, where: str) -> None:
-    if line not in plan.lines:
-        msg = f'{where}: there is no column line "{line}" ({likely(line, plan.lines)})'
-        raise ModelError(msg)
+    for start, end in edges:
+        group[root(end)] = root(start)
+    found: dict[str, list[str]] = {}
+    for node in nodes:
+        found.setdefault(root(node), []).append(node)
+    return list(found.values())

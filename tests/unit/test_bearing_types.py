@@ -81,7 +81,8 @@ def parts_of(folder: Path, text: str) -> ProjectInputs:
 
 
 def test_columns_and_loads_choose(folder: Path) -> None:
-    frame, types = parts_of(folder, BY_COLUMN).frame_and_types()
+    parts = parts_of(folder, BY_COLUMN)
+    frame, types = parts.frame(), parts.types()
     assert [name for name, kind in types.items() if kind == "middle"] == [
         "bearing-1-0",
         "bearing-1-1",
@@ -93,9 +94,9 @@ def test_columns_and_loads_choose(folder: Path) -> None:
     loads = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
     between = 0.5e-3 * (loads["bearing-1-0"] + loads["bearing-0-0"])
     rule = BY_COLUMN.replace('columns = ["1-0", "bearing-1-1"]', f'above = "{between} kN"')
-    assert parts_of(folder, rule).frame_and_types()[1] == types
+    assert parts_of(folder, rule).types() == types
     both = rule + '[bearings.corner]\ncolumns = ["1-0"]\ncapacity = "150 mm"\n'
-    mixed = parts_of(folder, both).frame_and_types()[1]
+    mixed = parts_of(folder, both).types()
     assert mixed == types | {"bearing-1-0": "corner"}
     taller = both + 'slider_height = "260 mm"\n'
     high = parts_of(folder, taller).frame()
@@ -117,7 +118,7 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
     done = run(app, ["run", "--no-figures", str(folder / "types.toml"), "--results", str(out)])
     assert done.exit_code in {0, 1}, done.output
     runs = load(out / "runs-lower.nc")
-    frame, types = parts.frame_and_types()
+    frame, types = parts.frame(), parts.types()
     checks = pd.read_csv(out / "checks.csv", keep_default_na=False)
     names = list(frame.bearings)
     table = pd.read_csv(out / "bearings.csv", index_col=0)

@@ -34,7 +34,7 @@ from frames.design.report.comparison_words import verdicts
 from tests.unit.test_project import ASCE
 
 ONE = ASCE.replace(', "artificial-3", "artificial-5"', "").replace(
-    "[limits]", '[analysis]\nlevel = "pendulum"\nbounds = ["nominal", "upper"]\n[limits]'
+    "[analysis]\n", '[analysis]\nlevel = "pendulum"\nbounds = ["nominal", "upper"]\n'
 )
 WEAK = ONE.replace("scale = 0.8", "scale = 0.3")
 

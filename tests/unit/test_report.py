@@ -20,19 +20,31 @@ pytest.importorskip("typer")
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 from typer.testing import CliRunner
 
 from frames import load, modes, moment_frame
 from frames.command.app import app
-from frames.design import Check
+from frames.design import HISTORY_RULES, Check
 from frames.design._errors import ProjectError
+from frames.design.project.design_run import ProjectRun, evaluate_run
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.reading import read_project
 from frames.design.report import printing
 from frames.design.report.columns import in_parts
 from frames.design.report.cover import css_string
+from frames.design.report.files import read_histories
 from frames.design.report.judged import judged
 from frames.design.report.numbers import mode_table
 from frames.design.report.page import Table
 from frames.design.report.printing import pages_of, print_report
+from frames.design.report.suite_figures import (
+    motions_figure,
+    profiles_figure,
+    typical_bearing,
+    utilisation,
+)
 from frames.design.report.terms import TERMS, device_table
 from frames.design.report.writing import SECTIONS
 from lir_element import LIRBearing, VelocityFriction
@@ -441,6 +453,10 @@ def test_wide_tables_are_in_parts() -> None:
     assert {part.head[k] for part in parts for k in part.left} == {head[3], head[20]}
     assert all(part.head[0] == "name" and part.rows[0][0] == "a" for part in parts)
     narrow = Table(head[:4], [["a", "1", "2", "3"]], frozenset())
+    assert in_parts(Table(("members",), []), keep=3) == [Table(["members"], [])]
+    kept = in_parts(whole, keep=3)
+    assert all(list(part.head[:3]) == head[:3] for part in kept)
+    assert [h for part in kept for h in part.head[3:]] == head[3:]
     assert in_parts(narrow) == [Table(head[:4], [["a", "1", "2", "3"]], frozenset())]
 
 
@@ -490,3 +506,86 @@ def test_prints_that_never_agree_are_told(
     with pytest.raises(ProjectError, match="after 4 prints the contents still name"):
         print_report(results / "report.html", tmp_path / "report.pdf")
     assert next(prints) == 4
+
+
+@pytest.fixture(scope="module")
+def evaluated(results: Path) -> ProjectRun:
+    """The run as `lir report` evaluates it."""
+    file = results.parent / "project.toml"
+    parts = ProjectInputs(read_project(file), file.parent)
+    known = preliminary(parts)
+    return evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))
+
+
+def test_lines_of_the_figure_of_motions_are_the_demands(
+    results: Path, evaluated: ProjectRun
+) -> None:
+    demands = pd.read_csv(results / "demands.csv", index_col=0)
+    figure = motions_figure(evaluated)
+    rows = (("isolator displacement", 1e3), ("interface slip", 1e3), ("storey drift ratio", 1e2))
+    for panel, (name, factor) in zip(figure.axes, rows, strict=True):
+        assert panel.get_title(loc="left").startswith(f"{name}: ")
+        marks, lines = panel.lines[0::2], panel.lines[1::2]
+        for k, bound in enumerate(("lower", "upper")):
+            design = factor * demands.filter(like=f"{bound},").loc[name].item()
+            assert lines[k].get_ydata()[0] == pytest.approx(design, rel=1e-12)
+            assert np.mean(marks[k].get_ydata()) <= design * (1.0 + 1e-12)  # moved masses raise it
+            assert len(marks[k].get_ydata()) == 7
+
+
+def test_bearings_in_plan_reach_the_ratio_that_governs(
+    results: Path, evaluated: ProjectRun
+) -> None:
+    check, shares = utilisation(evaluated)
+    checks = pd.read_csv(results / "checks.csv", keep_default_na=False)
+    of_bearings = checks[checks["subject"].isin(list(evaluated.frame.bearings))]
+    assert check.ratio == pytest.approx(of_bearings["ratio"].max(), rel=1e-12)
+    assert shares.max() == pytest.approx(check.ratio, rel=1e-12)
+    assert list(evaluated.frame.bearings)[int(shares.argmax())] == check.subject
+    runs = load(results / f"runs-{check.bound}.nc")
+    mean = runs["reached_displacement"].mean("run").to_numpy()
+    raised = pd.read_csv(results / "eccentricity.csv")
+    of = (raised["bound"] == check.bound) & (raised["quantity"] == "displacement")
+    mean = mean * raised[of]["factor"].max()
+    least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
+    assert check.title == "isolator displacement"
+    assert shares == pytest.approx(np.maximum(mean, least) / check.limit, rel=1e-12)
+
+
+def test_the_typical_bearing_is_the_median() -> None:
+    names = ["a", "b", "c", "d"]
+    path = np.zeros((2, 4, 3))
+    path[1, :, 0] = 4.0, 1.0, 2.0, 3.0
+    data = xr.Dataset(
+        {"bearing_displacement": (("time", "bearing", "axis"), path)},
+        coords={"time": [0.0, 1.0], "bearing": names, "axis": ["x", "y", "z"]},
+    )
+    assert typical_bearing(data) == "c"
+
+
+@pytest.mark.parametrize("storeys", [1, 3])
+def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
+    drift = np.arange(1.0, 1.0 + 7 * storeys).reshape(7, storeys) * 1e-3
+    lasting = np.zeros((7, 1))
+    data = xr.Dataset(
+        {
+            "reached_drift": (("run", "storey"), drift),
+            "reached_time_lifted": (("run", "bearing"), lasting),
+            "reached_gap": (("run", "bearing"), lasting),
+            "status": ("run", ["ok"] * 7),
+            "motion": ("run", list("abcdefg")),
+            "scale": ("run", np.ones(7)),
+        },
+        coords={"storey": [f"floor-{k + 1}" for k in range(storeys)]},
+    )
+    rules = HISTORY_RULES["ASCE 7-22"]
+    level = rules.levels[0].name
+    run = SimpleNamespace(rules=rules, runs={level: {"lower": data}}, moved={})
+    figure = profiles_figure(run)
+    if storeys == 1:
+        assert figure is None
+        return
+    stairs = [patch.get_data().values for patch in figure.axes[0].patches]
+    assert len(stairs) == 8
+    assert stairs[-1] == pytest.approx(1e2 * drift.mean(axis=0))
+    assert [t.get_text() for t in figure.axes[0].get_yticklabels()] == list(data["storey"].values)

@@ -250,12 +250,17 @@ def test_sections_of_beams_that_are_refused(tmp_path: Path) -> None:
 
 PAGE = Path(__file__).parents[2] / "docs/structure.md"
 BLOCKS = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
+TABLES = re.findall(
+    r"`(\w+\.csv)`:\n\n```text\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL
+)
 
 
 @pytest.mark.parametrize("block", BLOCKS, ids=range(len(BLOCKS)))
 def test_examples_of_the_page(tmp_path: Path, block: str) -> None:
     """Each is a building whose mass the bearings carry."""
     pytest.importorskip("steel_sections")
+    for name, table in TABLES:
+        (tmp_path / name).write_text(table)
     parts = parts_of(tmp_path, block)
     checked = parts.frame().check()
     assert checked.carried == pytest.approx(checked.weight)

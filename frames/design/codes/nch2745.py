@@ -18,6 +18,7 @@ from frames.design.codes.common import (
 )
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM, ActionLevel
+from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import (
     DesignToTest,
@@ -239,6 +240,19 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     yield from static_tests(d, clause)
 
 
+_LOADS = LoadRule(
+    "NCh433 5.5.1* and NCh2745 8.4* (UBC-97 1661): 25 % of the live load of dwellings and offices "
+    "is mass; no vertical earthquake in the combinations",
+    {"D": 1.0, "L": 0.25, "S": 0.0},
+    fixed_combinations(
+        {
+            "average": {"D": 1.0, "L": 0.5, "S": 0.0},
+            "maximum": {"D": 1.2, "L": 1.0, "S": 0.2},
+            "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
+        }
+    ),
+)
+
 CODE = DesignCode(
     name=NCh2745.name,
     aliases=("NCh 2745", "NCh2745:2013"),
@@ -260,6 +274,7 @@ CODE = DesignCode(
     ),
     # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
     scaling=(ScalingRule("NCh2745", "SRSS", 1.17, 0.0, 7, "NCh2745 8.4", (0.5, 1.25)),),
+    loads=_LOADS,
     histories=HistoryRules(
         code=NCh2745.name,
         least=3,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
 from frames.design.hazard.code_rules import HazardRules, add_rules, known_rules, rules_named
 from lir_element.argument_checks import require_type
@@ -171,6 +172,8 @@ class DesignCode(HazardRules):
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
         Clause of the limits that measured loops are held against.
+    loads : LoadRule
+        What it makes of dead, live and snow load.
     example : ExampleProject, optional
         What ``lir new`` writes; without it there is no example.
     uses_importance : bool
@@ -197,6 +200,7 @@ class DesignCode(HazardRules):
     rims: RimRule
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
     acceptance: str = NO_LIMITS
+    loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None
     uses_importance: bool = True
 

@@ -6,7 +6,7 @@ import difflib
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design._errors import ProjectError
-from frames.design.codes.isolation import IsolationSystem
+from frames.statics.gravity import gravity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -48,8 +48,8 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
     given : mapping of str to BearingType
         ``[bearings.<type>]`` of the file.
     frame : Frame
-        The structure on standard bearings: the loads that ``above`` goes by are theirs, of the
-        average combination.
+        The structure on standard bearings under the average combination: the loads that ``above``
+        goes by are theirs.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
         if kind.above is not None:
             by_load[name] = kind.above
     if by_load:
-        loads = IsolationSystem.from_frame(frame).loads
+        loads = gravity(frame).axial_forces
         for bearing, load in zip(frame.bearings, loads, strict=True):
             heavy = [name for name, above in by_load.items() if load >= above]
             if heavy:

@@ -24,6 +24,7 @@ from frames.design.project.level_runs import (
     moved_at_levels,
 )
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -90,6 +91,10 @@ class ProjectRun:
         Time histories with the floors' masses moved, in the way of `runs`.
     doubts : tuple of str
         What of the input was warned of.
+    structure : tuple of (str, str)
+        What the structure is, in words.
+    tables : tuple of Path
+        Tables that the file names, which are kept with the results.
     """
 
     frame: Frame
@@ -111,6 +116,8 @@ class ProjectRun:
     types: Mapping[str, str] = field(default_factory=dict)
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
+    structure: tuple[tuple[str, str], ...] = ()
+    tables: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -245,6 +252,8 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         about=parts.file.project,
         types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        structure=tuple(structure_rows(parts.file, frame)),
+        tables=parts.tables(),
     )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.isolation import AVERAGE, IsolationSystem
 from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
@@ -16,14 +17,17 @@ from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
+    IrregularFrame,
     MomentFrame,
     OpenSeesModel,
     ShearBuilding,
 )
-from frames.design.project.structure_plan import regular_frame
+from frames.design.project.structure_loads import BuildingLoads, loads_of
+from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
+from frames.statics.gravity import gravity
 from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
@@ -79,19 +83,41 @@ class ProjectInputs:
         return found
 
     def frame(self) -> Frame:
-        """Return the structure on its bearings."""
-        return self.frame_and_types()[0]
+        """Return the structure on its bearings, under the average combination of its loads."""
+        return self._averaged(self.loaded_frame())
 
-    def frame_and_types(self) -> tuple[Frame, dict[str, str]]:
-        """Return the structure on its bearings, and the type of each bearing."""
+    def loaded_frame(self) -> Frame:
+        """Return the structure on its bearings, with its load cases "D", "L" and "S"."""
+        return self._loaded_and_types()[0]
+
+    def types(self) -> dict[str, str]:
+        """Return the type of each bearing: "standard", or of ``[bearings.<type>]``."""
+        return self._loaded_and_types()[1]
+
+    def _loaded_and_types(self) -> tuple[Frame, dict[str, str]]:
         devices = self.devices()
 
         def made() -> tuple[Frame, dict[str, str]]:
             frame = self._frame(devices[STANDARD])
-            chosen = types_by_column(self.file.bearings, frame)
+            chosen = types_by_column(self.file.bearings, self._averaged(frame))
             return on_types(frame, chosen, devices), chosen
 
         return in_section("structure", made)
+
+    def _averaged(self, frame: Frame) -> Frame:
+        # Under the average combination of its loads.
+        if not frame.load_cases:
+            return frame
+        return frame.combined(self.code().loads.combinations(None)[AVERAGE])
+
+    def system(self, frame: Frame, spectrum: Spectrum) -> IsolationSystem:
+        """Return the bearings of the structure with its load cases, by the code's combinations."""
+        s_ms = spectrum.parameters.get("S_MS")
+        if not frame.load_cases:
+            return IsolationSystem.from_frame(frame, s_ms=s_ms)
+        chosen = self.code().loads.combinations(s_ms)
+        weight = frame.gravity * float(gravity(frame).system.node_mass[:, 0].sum())
+        return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
@@ -106,7 +132,16 @@ class ProjectInputs:
         return in_section("structure", lambda: self._frame(bearing))
 
     def _frame(self, bearing: LIRBearing) -> Frame:
-        return frame_of(self.file.structure, bearing, self.file.project.name, self.folder)
+        loads = loads_of(self.file.loads, self.code().loads)
+        name = self.file.project.name
+        return frame_of(self.file.structure, bearing, name, self.folder, loads)
+
+    def tables(self) -> tuple[Path, ...]:
+        """Return the tables of members that the file names."""
+        given = self.file.structure
+        if not isinstance(given, IrregularFrame):
+            return ()
+        return tuple(self.folder / name for name in (given.columns_table, given.beams_table))
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
@@ -165,10 +200,24 @@ def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
     return in_section(section, made)
 
 
-def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+def frame_of(
+    given: Structure,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
-        return regular_frame(given, bearing, name)
+        return regular_frame(given, bearing, name, loads)
+    if isinstance(given, IrregularFrame):
+        return irregular_frame(given, bearing, name, folder, loads)
+    if loads is not None:
+        msg = (
+            f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '
+            "masses and loads, leave the section out"
+        )
+        raise ProjectError(msg)
     if isinstance(given, ShearBuilding):
         return shear_building(
             bearing,

@@ -12,7 +12,7 @@ from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.model.sections import Section
 
 if TYPE_CHECKING:
-    from frames.design.project.schema_sections import PropertiesTable, SectionTable
+    from frames.design.project.schema_sections import CrackedTable, PropertiesTable, SectionTable
 
 T = TypeVar("T", bound=ColumnsTable | BeamsTable)
 
@@ -84,13 +84,71 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
         said = "I " + " x ".join(map(_mm, given.i_shape)) + " mm"
     else:
         section, said = _by_properties(given.properties, material), "given constants"
-    cracked = given.cracked
     said = f"{said}, {material.name} (E {1e-9 * material.elastic_modulus:.4g} GPa)"
-    if cracked is not None:
-        parts = (cracked, None, None) if isinstance(cracked, float) else cracked.factors
-        section = section.cracked(parts[0], torsion=parts[1], shear=parts[2])
-        said += f", cracked: {parts[0]:g} of the bending stiffness"
-    return NamedSection(section, (0.0, 1.0, 0.0) if given.depth_along == "y" else None, said)
+    section, cracked = cracked_said(section, given.cracked)
+    up = (0.0, 1.0, 0.0) if given.depth_along == "y" else None
+    return NamedSection(section, up, said + cracked)
+
+
+def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tuple[Section, str]:
+    """Return a section with the stiffness of cracked concrete, and what is said of it.
+
+    Parameters
+    ----------
+    section : Section
+        The uncracked one.
+    cracked : float, CrackedTable or None
+        One factor, one for each kind of stiffness, or none.
+
+    Returns
+    -------
+    section : Section
+        With the factors.
+    said : str
+        Of the factor on bending; empty without one.
+
+    Raises
+    ------
+    ModelError
+        If a factor is out of bounds.
+    """
+    if cracked is None:
+        return section, ""
+    bending, torsion, shear = (
+        (cracked, None, None) if isinstance(cracked, float) else cracked.factors
+    )
+    found = section.cracked(bending, torsion=torsion, shear=shear)
+    return found, f", cracked: {bending:g} of the bending stiffness"
+
+
+def storeys_of(given: tuple[int, int] | None, count: int) -> range:
+    """Return a range of storeys, all if none is given.
+
+    Parameters
+    ----------
+    given : (int, int) or None
+        First and last.
+    count : int
+        Number of storeys of the building.
+
+    Returns
+    -------
+    range
+        The storeys.
+
+    Raises
+    ------
+    ProjectError
+        If it is none of this building.
+    """
+    first, last = given or (1, count)
+    if not 1 <= first <= last <= count:
+        msg = (
+            f"storeys = [{first}, {last}] must be a range from the lower to the upper storey, "
+            f"within the {count} of the building: [1, {count}] is all"
+        )
+        raise ProjectError(msg)
+    return range(first, last + 1)
 
 
 def _mm(length: float) -> str:
@@ -142,14 +200,7 @@ def by_storey(given: Sequence[T], storeys: int, direction: str | None = None) ->
         own = getattr(one, "direction", None)
         if direction is not None and own not in {None, direction}:
             continue
-        first, last = one.storeys or (1, storeys)
-        if not first <= last <= storeys:
-            msg = (
-                f"storeys = [{first}, {last}] must be a range from the lower to the upper "
-                f"storey, within the {storeys} of the building: [1, {storeys}] is all"
-            )
-            raise ProjectError(msg)
-        for storey in range(first, last + 1):
+        for storey in storeys_of(one.storeys, storeys):
             if found[storey - 1] is not None:
                 msg = (
                     f"storey {storey}{which} has two sections: give each storey one, by "

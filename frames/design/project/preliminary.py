@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from frames._errors import ModelError, ModelWarning, MotionWarning
 from frames.design._errors import ProjectError
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
@@ -22,6 +21,7 @@ from frames.library.moved_masses import with_moved_masses
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
+    from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
@@ -37,9 +37,9 @@ class Preliminary:
     Attributes
     ----------
     frame : Frame
-        The structure on its bearings, friction nominal.
+        The structure on its bearings, friction nominal, under the average combination of loads.
     system : IsolationSystem
-        The bearings with their places and loads.
+        The bearings with their places, and their loads in all combinations.
     spectrum : Spectrum
         The design spectrum.
     superstructure : Superstructure, optional
@@ -110,8 +110,8 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
 def _made(parts: ProjectInputs) -> Preliminary:
     parts.limits(), parts.rules()  # refused before anything is run
     _warn(file_doubts(parts.file))
-    (frame, types), spectrum = parts.frame_and_types(), parts.spectrum()
-    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    frame, spectrum = parts.frame(), parts.spectrum()
+    system = parts.system(parts.loaded_frame() if frame.load_cases else frame, spectrum)
     _warn(wind_doubts(parts.file, system, parts.bounds()))
     above = parts.superstructure(frame)
     equivalent = equivalent_linear(
@@ -130,7 +130,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
         equivalent=equivalent,
         motions=motions,
         moved=moved_frames(parts, frame),
-        types=types,
+        types=parts.types(),
     )
 
 
@@ -247,9 +247,13 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
             name: kind.model_dump(mode="json", exclude_none=True)
             for name, kind in file.bearings.items()
         }
+    if file.loads is not None:
+        said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+    if tables := parts.tables():
+        found["tables of members"] = _digest(b"".join(table.read_bytes() for table in tables))
     samples = [
         name.encode()
         + repr(motion.dt).encode()

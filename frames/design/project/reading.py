@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Table)
 
-_KINDS = {"moment frame", "shear building", "opensees", "Friction"}
+_KINDS = {"moment frame", "irregular frame", "shear building", "opensees", "Friction"}
 """Of unions, which the place of an error names besides its keys, and names of codes."""
 
 
@@ -165,7 +165,9 @@ def _of_a_kind(name: str, key: str, error: Any) -> str:
     told = error.get("ctx", {})
     which = str(told.get("discriminator", "kind")).strip("'")
     where = "project.code" if which == "code" else f"{key}.{which}"
-    known = told.get("expected_tags", "'moment frame', 'shear building', 'opensees'")
+    known = told.get(
+        "expected_tags", "'moment frame', 'irregular frame', 'shear building', 'opensees'"
+    )
     choices = str(known).replace("'", '"')
     if "tag" in told:
         return f'{name}: {where} = "{told["tag"]}" is not known: choose one of {choices}'

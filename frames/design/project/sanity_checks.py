@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from frames.design.codes.registry import code_named
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
+from frames.design.project.schema_structure import BuildingTable
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -93,8 +95,10 @@ def _of_sections(file: ProjectFile) -> list[str]:
 
 def _of_masses(file: ProjectFile) -> list[str]:
     given = file.structure
-    if isinstance(given, MomentFrame):
-        found = {"floor_load": given.floor_load}
+    if isinstance(given, BuildingTable):
+        dead = None if file.loads is None else file.loads.dead / STANDARD_GRAVITY
+        named = {"floor_load": given.floor_load, "[loads] dead over gravity": dead}
+        found = {key: value for key, value in named.items() if value is not None}
     elif isinstance(given, ShearBuilding):
         area = math.prod(n * w for n, w in zip(given.bays, given.bay_width, strict=True))
         masses = {f"storey_mass[{k}]": mass for k, mass in enumerate(given.storey_mass)}

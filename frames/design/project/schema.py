@@ -23,6 +23,8 @@ from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
 from frames.design.project.schema_hazard import spectrum_table
 from frames.design.project.schema_limits import Limits as Limits
 from frames.design.project.schema_limits import Target as Target
+from frames.design.project.schema_loads import LoadsTable as LoadsTable
+from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
 from frames.design.project.schema_structure import MomentFrame as MomentFrame
 from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel
 from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
@@ -48,6 +50,7 @@ class ProjectFile(Table):
 
     project: ProjectTable
     structure: Structure
+    loads: LoadsTable | None = None
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
     bearings: dict[str, BearingType] = Field(default_factory=dict)

@@ -166,6 +166,32 @@ class BaseBeamsTable(BeamsTable):
         return self
 
 
+class BraceTable(SectionTable):
+    """``[[structure.braces]]``: rods hinged at both ends, in one bay of some storeys."""
+
+    between: tuple[str, str]
+    storeys: tuple[Count, Count] | None = None
+    pattern: Literal["x", "up", "down"] = "x"
+
+    @model_validator(mode="after")
+    def _lies(self) -> Self:
+        if self.depth_along is not None:
+            msg = "depth_along is for columns: rods carry axial force alone"
+            raise ValueError(msg)
+        return self
+
+
+class WallTable(Table):
+    """``[[structure.walls]]``: a wall from column to column, as a column on its axis."""
+
+    between: tuple[str, str]
+    thickness: Size
+    material: Material
+    length: Size | None = None
+    cracked: Cracked | None = None
+    storeys: tuple[Count, Count] | None = None
+
+
 Columns = Annotated[
     Annotated[ColumnsTable, Tag("[ColumnsTable]")]
     | Annotated[tuple[ColumnsTable, ...], Tag("[[ColumnsTable]]"), Field(min_length=1)],
@@ -182,3 +208,10 @@ BaseBeams = Annotated[
     Discriminator(one_or_more("BaseBeamsTable")),
 ]
 """One table, or a list of them."""
+
+Heights = Annotated[
+    Annotated[Size, Tag("[number]")]
+    | Annotated[tuple[Size, ...], Tag("[list]"), Field(min_length=1)],
+    Discriminator(lambda v: "[list]" if isinstance(v, (list, tuple)) else "[number]"),
+]
+"""Height of all storeys, or one for each."""

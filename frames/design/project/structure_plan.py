@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
+from frames.design.project.irregular_plan import irregular_plan
 from frames.design.project.member_sections import NamedSection, by_storey, named_section
+from frames.design.project.schema_loads import LoadsTable
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.structure_loads import BuildingLoads, apply_loads
+from frames.design.project.walls_and_braces import with_walls_and_braces
 from frames.frame import Frame
-from frames.library.building import BeamPart, BuildingPlan, ColumnPart, build, level_name
+from frames.library.building import build
+from frames.library.building_plan import BeamPart, BuildingPlan, ColumnPart, level_name
 from frames.library.moment_frames import (
     DEFAULT_BASE_BEAM,
     DEFAULT_BASE_DEPTH,
@@ -21,14 +26,16 @@ from frames.library.moment_frames import (
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
-    from frames.design.project.schema_structure import MomentFrame
+    from frames.design.project.schema_structure import IrregularFrame, MomentFrame
     from frames.model.sections import Section
     from lir_element import LIRBearing
 
 T = TypeVar("T", bound=ColumnsTable | BeamsTable)
 
 DIRECTIONS = ("x", "y")
+
 
 _DEFAULTS: dict[str, tuple[Section, str]] = {
     "columns": (DEFAULT_COLUMN, "box 400 x 400 x 25 mm"),
@@ -105,7 +112,9 @@ def _sections(
     return [made[id(one)] for one in chosen]
 
 
-def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
+def regular_frame(
+    given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
+) -> Frame:
     """Return a regular frame on its bearings.
 
     Parameters
@@ -116,6 +125,8 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
         Under each column.
     name : str
         Name of the model.
+    loads : BuildingLoads, optional
+        Loads of its floors in place of ``floor_load``.
 
     Returns
     -------
@@ -127,7 +138,13 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
     ProjectError, ModelError
         If it cannot be.
     """
-    frame = build(_plan(given, sections_of(given)), bearing, name=name)
+    _require_one_load(given, loads)
+    plan = with_walls_and_braces(regular_plan(given), given)
+    frame = build(plan, bearing, name=name)
+    if given.floor_load is None:
+        if loads is not None:
+            apply_loads(frame, plan, loads, given.eccentricity)
+        return frame
     masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
     for level in range(given.storeys + 1):
         for (ix, iy), mass in masses.items():
@@ -138,7 +155,80 @@ def regular_frame(given: MomentFrame, bearing: LIRBearing, name: str) -> Frame:
     return frame
 
 
-def _plan(given: MomentFrame, sections: MemberSections) -> BuildingPlan:
+def irregular_frame(
+    given: IrregularFrame,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
+    """Return an irregular frame on its bearings.
+
+    Parameters
+    ----------
+    given : IrregularFrame
+        The section of the file.
+    bearing : LIRBearing
+        Under each column of the first storey.
+    name : str
+        Name of the model.
+    folder : Path
+        Folder of its tables.
+    loads : BuildingLoads, optional
+        Loads of its floors; ``floor_load`` stands for dead load that is mass.
+
+    Returns
+    -------
+    Frame
+        The parts have the names of `frames.library.building.build`.
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If it cannot be.
+    """
+    _require_one_load(given, loads)
+    plan = with_walls_and_braces(irregular_plan(given, folder), given)
+    frame = build(plan, bearing, name=name)
+    if given.floor_load is not None:
+        dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
+        loads = BuildingLoads(dead, {"D": 1.0})
+    if loads is not None:
+        apply_loads(frame, plan, loads, given.eccentricity)
+    return frame
+
+
+def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:
+    if given.floor_load is not None and loads is not None:
+        msg = "[structure] floor_load and [loads] both say what floors weigh: leave one of them out"
+        raise ProjectError(msg)
+    if given.floor_load is None and loads is None:
+        msg = (
+            "[structure] floor_load is missing: give the mass of the floors, "
+            'floor_load = "450 kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
+        )
+        raise ProjectError(msg)
+
+
+def regular_plan(given: MomentFrame) -> BuildingPlan:
+    """Return the plan of a regular frame.
+
+    Parameters
+    ----------
+    given : MomentFrame
+        The section of the file.
+
+    Returns
+    -------
+    BuildingPlan
+        Its lines are named "<ix>-<iy>".
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If a section cannot be.
+    """
+    sections = sections_of(given)
     (n_x, n_y), (b_x, b_y) = given.bays, given.bay_width
     places = list(product(range(n_x + 1), range(n_y + 1)))
     columns, beams = [], []
@@ -158,7 +248,7 @@ def _plan(given: MomentFrame, sections: MemberSections) -> BuildingPlan:
                     beams.append(BeamPart(name, level, f"{ix}-{iy}", end, own.section))
     return BuildingPlan(
         lines={f"{ix}-{iy}": (ix * b_x, iy * b_y) for ix, iy in places},
-        heights=(given.storey_height,) * given.storeys,
+        heights=given.heights,
         columns=tuple(columns),
         beams=tuple(beams),
     )

@@ -14,8 +14,8 @@ _GAP = 3  # letters between two columns
 _WRAPPED = 26  # letters: words that are longer are broken into lines
 
 
-def in_parts(table: Table, width: int = PAGE) -> list[Table]:
-    """Return a table in parts that fit a page, each with the first column.
+def in_parts(table: Table, width: int = PAGE, *, keep: int = 1) -> list[Table]:
+    """Return a table in parts that fit a page, each with the first columns.
 
     Parameters
     ----------
@@ -23,6 +23,8 @@ def in_parts(table: Table, width: int = PAGE) -> list[Table]:
         The table.
     width : int
         Letters that a line holds.
+    keep : int
+        How many columns, the first ones, each part has.
 
     Returns
     -------
@@ -30,12 +32,14 @@ def in_parts(table: Table, width: int = PAGE) -> list[Table]:
         The table itself where it fits; else parts of about the same width.
     """
     sizes = [_size(table, k) for k in range(len(table.head))]
-    count = 1
-    while (groups := _grouped(sizes, count)) and any(
-        sizes[0] + sum(sizes[k] for k in group) > width and len(group) > 1 for group in groups
+    keep = min(keep, len(table.head))
+    kept, count = tuple(range(keep)), 1
+    while (groups := _grouped(sizes, keep, count)) and any(
+        sum(sizes[:keep]) + sum(sizes[k] for k in group) > width and len(group) > 1
+        for group in groups
     ):
         count += 1
-    return [_part(table, (0, *group)) for group in groups]
+    return [_part(table, (*kept, *group)) for group in groups]
 
 
 def _size(table: Table, column: int) -> int:
@@ -46,12 +50,12 @@ def _size(table: Table, column: int) -> int:
     return max(whole, *(len(word) for word in words)) + _GAP
 
 
-def _grouped(sizes: Sequence[int], count: int) -> list[list[int]]:
-    # Columns but the first in `count` groups of about the same width, in order.
-    share = sum(sizes[1:]) / count
+def _grouped(sizes: Sequence[int], keep: int, count: int) -> list[list[int]]:
+    # Columns but the first `keep` in `count` groups of about the same width, in order.
+    share = sum(sizes[keep:]) / count
     groups: list[list[int]] = [[] for _ in range(count)]
     before = 0.0
-    for k, size in enumerate(sizes[1:], start=1):
+    for k, size in enumerate(sizes[keep:], start=keep):
         groups[min(int((before + 0.5 * size) / share), count - 1)].append(k)
         before += size
     return [group for group in groups if group] or [[]]

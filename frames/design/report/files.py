@@ -50,13 +50,14 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
     Returns
     -------
     list of Path
-        ``project.toml``; ``runs-<bound>.nc``, the time histories, ``runs-<level>-<bound>.nc``
-        where a code has several levels of the seismic action, and ``moved-...nc`` in the same way,
-        those with the masses moved, whose table is ``eccentricity.csv``; ``equivalent-linear.csv``,
-        ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
-        ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
-        ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
-        outcome. What an interrupted run left is removed.
+        ``project.toml`` and the tables of members that it names; ``runs-<bound>.nc``, the time
+        histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
+        action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
+        ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
+        ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``members.csv``, ``programme.csv`` in SI
+        units; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
+        ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
+        removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
@@ -70,6 +71,10 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
     for label, (_, _, data) in _labelled(run.moved).items():
         written[f"moved {label}"] = folder / f"moved-{label}.nc"
         save(data, written[f"moved {label}"])
+    for table in run.tables:
+        written[table.name] = folder / table.name
+        if table.resolve() != written[table.name].resolve():
+            shutil.copyfile(table, written[table.name])
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
     judged = write_judgement(run, folder, source, figures=figures)
