@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import runpy
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
@@ -17,6 +18,7 @@ from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
+    ImportedModel,
     IrregularFrame,
     MomentFrame,
     OpenSeesModel,
@@ -229,7 +231,34 @@ def frame_of(
             eccentricity=given.eccentricity,
             name=name,
         )
+    if isinstance(given, ImportedModel):
+        return _imported(given, bearing, name, folder)
     return _opensees(given, bearing, name, folder)
+
+
+def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    from lir_element.opensees.library import opensees
+
+    path = folder / given.file
+    if not path.is_file():
+        msg = f"file = {given.file} is no file in {folder}: name the exported model"
+        raise ProjectError(msg)
+    with contextlib.suppress(ImportError):  # which shells alone need
+        opensees().wipe()
+    read = Frame.from_sap2000 if given.kind == "sap2000" else Frame.from_etabs
+    return read(
+        path,
+        bearing,
+        at=given.bearings_at or None,
+        loads=given.loads,
+        mass=given.mass,
+        allow=given.allow,
+        mesh=given.mesh,
+        base_rotations=given.base_rotations,
+        base_diaphragm=given.base_diaphragm,
+        decimal=given.decimal,
+        name=name,
+    )
 
 
 def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:

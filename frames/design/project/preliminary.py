@@ -16,7 +16,7 @@ from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
-from frames.design.project.schema import OpenSeesModel
+from frames.design.project.schema import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
 from lir_element.results.dataset import package_version
 
@@ -252,6 +252,8 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+    if isinstance(file.structure, ImportedModel):
+        found["model file"] = _digest((parts.folder / file.structure.file).read_bytes())
     if tables := parts.tables():
         found["tables of members"] = _digest(b"".join(table.read_bytes() for table in tables))
     samples = [

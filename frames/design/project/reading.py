@@ -23,7 +23,15 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Table)
 
-_KINDS = {"moment frame", "irregular frame", "shear building", "opensees", "Friction"}
+_KINDS = {
+    "moment frame",
+    "irregular frame",
+    "shear building",
+    "opensees",
+    "sap2000",
+    "etabs",
+    "Friction",
+}
 """Of unions, which the place of an error names besides its keys, and names of codes."""
 
 

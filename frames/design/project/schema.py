@@ -24,6 +24,7 @@ from frames.design.project.schema_hazard import spectrum_table
 from frames.design.project.schema_limits import Limits as Limits
 from frames.design.project.schema_limits import Target as Target
 from frames.design.project.schema_loads import LoadsTable as LoadsTable
+from frames.design.project.schema_structure import ImportedModel as ImportedModel
 from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
 from frames.design.project.schema_structure import MomentFrame as MomentFrame
 from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel

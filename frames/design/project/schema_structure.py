@@ -118,8 +118,24 @@ class OpenSeesModel(Table):
     force_unit: Annotated[Force, Positive] = 1.0
 
 
+class ImportedModel(Table):
+    """``[structure]`` of kind "sap2000" or "etabs": a model of those programs, as text tables."""
+
+    kind: Literal["sap2000", "etabs"]
+    file: Path
+    bearings_at: tuple[str, ...] = ()
+    loads: dict[str, float] | str = "all"
+    mass: dict[str, float] | None = None
+    allow: tuple[str, ...] = ()
+    mesh: Size = 1.25
+    base_rotations: Literal["kept", "free", "fixed"] = "kept"
+    base_diaphragm: bool = True
+    decimal: Literal[".", ","] = "."
+
+
 Structure = Annotated[
-    MomentFrame | IrregularFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")
+    MomentFrame | IrregularFrame | ShearBuilding | OpenSeesModel | ImportedModel,
+    Field(discriminator="kind"),
 ]
 
 

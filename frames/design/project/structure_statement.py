@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from frames.design.project.schema import ProjectFile
     from frames.design.project.schema_loads import LoadsTable
     from frames.design.project.schema_sections import BraceTable, WallTable
+    from frames.exchange.account import Account
     from frames.frame import Frame
 
 Rows = list[tuple[str, str]]
@@ -69,6 +70,21 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
         rows += _loads(file, file.loads)
+    if frame.imported is not None:
+        rows += _import(frame.imported)
+    return rows
+
+
+def _import(account: Account) -> Rows:
+    # What became of the file of another program, a row for each kind of object.
+    rows = [("import", f"of {account.file}")]
+    for fate, table, what, count, weight, stiffness in account.rows():
+        shares = [
+            f"{share} of {word}"
+            for share, word in ((weight, "own weight"), (stiffness, "stiffness"))
+            if share
+        ]
+        rows.append((fate, f"{table}: {what} ({', '.join([count, *shares])})"))
     return rows
 
 
