@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from frames.design._errors import ProjectError
 from frames.statics.gravity import gravity
@@ -11,7 +11,6 @@ from frames.statics.gravity import gravity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from frames.design.project.check_register import BearingDemand
     from frames.design.project.schema import BearingType
     from frames.frame import Frame
     from lir_element import LIRBearing
@@ -20,24 +19,6 @@ STANDARD = "standard"
 """Name of the type that ``[bearing]`` describes."""
 
 _NAMED = 6  # columns that a message lists
-
-
-class TypeOfBearing(NamedTuple):
-    """A type of bearing of a project, and what its time histories ask of it.
-
-    Attributes
-    ----------
-    bearing : LIRBearing
-        The device, friction nominal.
-    columns : tuple of str
-        Names of the frame's bearings that are of this type.
-    asked : BearingDemand
-        What the time histories ask of these.
-    """
-
-    bearing: LIRBearing
-    columns: tuple[str, ...]
-    asked: BearingDemand
 
 
 def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str, str]:

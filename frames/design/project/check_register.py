@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from frames.design.devices.limits import DesignLimits
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
-    from frames.design.project.bearing_types import TypeOfBearing
     from frames.frame import Frame
     from lir_element import LIRBearing
 
@@ -45,6 +44,24 @@ class BearingDemand(NamedTuple):
     loads: tuple[float, float]
     slip: float
     void: str
+
+
+class TypeOfBearing(NamedTuple):
+    """A type of bearing of a project, and what its time histories ask of it.
+
+    Attributes
+    ----------
+    bearing : LIRBearing
+        The device, friction nominal.
+    columns : tuple of str
+        Names of the frame's bearings that are of this type.
+    asked : BearingDemand
+        What the time histories ask of these.
+    """
+
+    bearing: LIRBearing
+    columns: tuple[str, ...]
+    asked: BearingDemand
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
