@@ -132,6 +132,9 @@ def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
+    language: Annotated[
+        str, typer.Option(help="Of the report, in place of the file's: en or es.")
+    ] = "",
     pdf: Annotated[
         bool, typer.Option("--pdf", help="Print it as well: report.pdf, by Chromium.")
     ] = False,
@@ -151,7 +154,7 @@ def report(
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = file.read_text(encoding="utf-8")
-        written = write_judgement(found, results, source, figures=figures)
+        written = write_judgement(found, results, source, figures=figures, language=language)
         if pdf:
             written.append(print_report(results / "report.html", results / "report.pdf"))
         _told_of(found, written, results)

@@ -3,6 +3,7 @@
 import math
 
 import checks
+import described
 import motions
 import numpy as np
 import reading
@@ -39,6 +40,7 @@ def compare(project, tally):
         else:
             kind(project, head, rows, tally)
     wanted = [
+        _described,
         _model,
         _loads,
         _modes,
@@ -52,12 +54,15 @@ def compare(project, tally):
         _checks,
         _programme,
     ]
+    columns = {title for title in project.table("equivalent-linear")[0] if title}
+    tally.words("tables of the report", "columns of linear", project.shown == columns, True)
     for kind in wanted:
         tally.words("tables of the report", f"table {kind.__name__} is there", kind in seen, True)
 
 
 def _kind(heading, head):
     named = {
+        ("Structure", "of the structure"): _described,
         ("Structure", "quantity"): _model,
         ("Structure", "mode"): _modes,
         ("Bearings", "property"): _device,
@@ -86,6 +91,10 @@ def shown(tally, label, text, value, factor=1.0, category="tables of the report"
         digits = 0.5000001 * 10.0 ** (math.floor(math.log10(abs(value * factor) or 1.0)) - 3)
         off = abs(float(plain(text).split(" ")[0]) - value * factor)
         tally.words(category, f"{label}: four digits of {value * factor!r}", off <= digits, True)
+
+
+def _described(project, head, rows, tally):
+    described.compare(project, rows, tally)
 
 
 def _model(project, head, rows, tally):
@@ -215,11 +224,15 @@ def _friction(project, head, rows, tally):
 
 
 def _linear(project, head, rows, tally):
+    # A wide table is shown in parts, each with its bounds.
     own = project.table("equivalent-linear")
+    places = {title.partition(" [")[0].replace("_", " "): title for title in own[0] if title}
+    project.shown = getattr(project, "shown", set())
     for row, given in zip(rows, own, strict=True):
-        values = list(given.values())
-        for title, text, value in zip(head[1:], row[1:], values[1:], strict=True):
-            unit = title.partition("[")[2].removesuffix("]")
+        for title, text in zip(head[1:], row[1:], strict=True):
+            name, _, unit = title.removesuffix("]").partition(" [")
+            project.shown.add(places[name])
+            value = given[places[name]]
             if value == "":
                 tally.words("tables of the report", title, text, "")
             else:
@@ -364,8 +377,8 @@ def _limit(project, row):
     if title == "effective stiffness ratio, d_dc to 0.2 d_dc":
         return e["k"], e["k_02"] / 2.0
     if title.startswith("no uplift") and "not evaluated" not in title:
-        part = 0.2 * project.file["spectrum"]["s_ms"]
-        share = 1.2 + part if title.endswith("maximum") else 0.9 - part
+        most, least = codes.dead_shares(project)
+        share = most if title.endswith("maximum") else least
         return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {

@@ -30,7 +30,18 @@ LEAST = {
 }
 """Numbers of values that each project of three bounds compares at least: a comparison that is
 skipped is seen."""
-OWN = {"checks", "codes", "demands", "ground", "histories", "motions", "reading", "report", "tally"}
+OWN = {
+    "checks",
+    "codes",
+    "demands",
+    "described",
+    "ground",
+    "histories",
+    "motions",
+    "reading",
+    "report",
+    "tally",
+}
 MODULES = [GOLDEN / f"{name}.py" for name in (*sorted(OWN), "recompute")]
 
 

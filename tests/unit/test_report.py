@@ -36,7 +36,7 @@ from frames.design.report.columns import in_parts
 from frames.design.report.cover import css_string
 from frames.design.report.files import read_histories
 from frames.design.report.judged import judged
-from frames.design.report.numbers import mode_table
+from frames.design.report.numbers import mode_table, run_tables
 from frames.design.report.page import Table
 from frames.design.report.printing import pages_of, print_report
 from frames.design.report.suite_figures import (
@@ -46,7 +46,8 @@ from frames.design.report.suite_figures import (
     utilisation,
 )
 from frames.design.report.terms import TERMS, device_table
-from frames.design.report.writing import SECTIONS
+from frames.design.report.words import Words
+from frames.design.report.writing import SECTIONS, report_in
 from lir_element import LIRBearing, VelocityFriction
 from tests.patience import patience
 
@@ -180,7 +181,7 @@ def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> 
 
 
 def test_doubtful_input_is_named_under_the_verdict(page: str) -> None:
-    verdict = page.partition('<div class="verdict')[2].partition("</div>")[0]
+    verdict = page.partition('class="verdict')[2].partition("</div>")[0]
     assert "Doubtful input" in verdict
     assert "wind_shear = 500 kN is above" in verdict
     assert verdict.count("slides in wind") == 1
@@ -356,7 +357,7 @@ def test_masses_of_modes_along_both_axes() -> None:
 
 
 def test_the_cover_has_lines_to_sign(page: str) -> None:
-    cover = page.partition('<header class="cover">')[2].partition("</header>")[0]
+    cover = page.partition('<header class="cover" id="cover">')[2].partition("</header>")[0]
     assert re.search(r"<th>engineer</th><td>R. Structure</td>", cover)
     assert '<th>checker</th><td><span class="sign"></span></td>' in cover
     assert "<th>date</th><td>2026-11-25</td>" in cover
@@ -589,3 +590,52 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     assert len(stairs) == 8
     assert stairs[-1] == pytest.approx(1e2 * drift.mean(axis=0))
     assert [t.get_text() for t in figure.axes[0].get_yticklabels()] == list(data["storey"].values)
+
+
+def test_the_report_in_spanish(results: Path, evaluated: ProjectRun, page: str) -> None:
+    """Every text that is ours is said, those of figures included; numbers and clauses are alike."""
+    pytest.importorskip("babel")
+    names = {*evaluated.frame.bearings, *evaluated.frame.nodes, *evaluated.motions}
+    words = Words("es", ",", {evaluated.frame.name, *names})
+    tables = run_tables(evaluated)
+    said = report_in(words, evaluated, PROJECT, tables)
+    assert words.missing == set()
+    assert '<html lang="es">' in said
+    assert "Qué controla" in said
+    own, ours = (texts_of(text) for text in (page, said))
+    assert len(own) == len(ours)
+    numbers = sorted(n.replace(",", ".") for cell in ours for n in NUMBER.findall(cell))
+    assert len(numbers) > 500
+    assert numbers == sorted(n for cell in own for n in NUMBER.findall(cell))
+    assert not any(re.search(r"(?<![\w.])\d+\.\d+(?![\w.])", cell) for cell in ours)
+
+
+NUMBER = re.compile(r"(?<![\w.,])\d+(?:[.,]\d+)?(?![\w.]|,\d)")
+
+
+def texts_of(page: str) -> list[str]:
+    """Return the cells of all tables under headings but those of first columns, and clauses."""
+    part = page.partition('<h2 id="structure">')[2].partition('<h2 id="calculations">')[0]
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row, re.S) for row in part.split("</tr>")]
+    cells = [unescape(c) for row in rows for c in row[1:]]  # tables are in other parts
+    return [c for c in cells if not re.search(r"ASCE|theory", c)]
+
+
+def test_lir_report_takes_a_language(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    words = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    assert CliRunner().invoke(app, [*words, "--no-figures", "--language", "es"]).exit_code == 1
+    text = (folder / "results" / "report.html").read_text(encoding="utf-8")
+    assert "No se cumplen" in text
+    done = CliRunner().invoke(app, [*words, "--language", "fr"])
+    assert done.exit_code == 2
+    assert "language = 'fr' is not one of reports" in " ".join(done.output.split())
+
+
+def test_each_point_of_the_check_list_has_its_place(page: str) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "report_checklist.md").read_text(encoding="utf-8")
+    points = re.findall(r"^\| (\d+) \| .*\? \| `#([a-z-]+)` \|$", text, re.M)
+    assert [int(number) for number, _ in points] == list(range(1, 31))
+    anchors = {anchor for _, anchor in points} | set(re.findall(r"`#([a-z-]+)`", text))
+    assert anchors <= set(re.findall(r' id="([a-z-]+)"', page))
+    assert len(anchors) > 15

@@ -34,7 +34,7 @@ from frames.design.project.schema_structure import SuperstructureTable as Supers
 
 
 class ProjectTable(Table):
-    """``[project]``: its name and standard, Python files that extend it, who and when."""
+    """``[project]``: its name and standard, Python files that extend it, who and when, language."""
 
     name: str = Field(min_length=1)
     code: str
@@ -44,6 +44,8 @@ class ProjectTable(Table):
     checker: str = ""
     revision: str = ""
     date: datetime.date | str = ""
+    language: Literal["en", "es"] = "en"
+    decimal: Literal[".", ","] = "."
 
 
 class ProjectFile(Table):

@@ -33,18 +33,21 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames.design.project.design_run import ProjectRun
+    from frames.design.report.words import Words
 
     Plan: TypeAlias = tuple[str, Callable[[], Figure | None]]
     """Title of a figure, and what draws it; None where there is nothing to draw."""
 
 
-def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
+def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
     """Return the figures of a run, by the section that they stand in.
 
     Parameters
     ----------
     run : ProjectRun
         The run.
+    words : Words
+        The language.
 
     Returns
     -------
@@ -84,7 +87,7 @@ def pictures(run: ProjectRun) -> dict[str, list[Picture]]:
         ],
         "histories": _of_one_run(run),
     }
-    return {section: list(_drawn(made)) for section, made in plans.items()}
+    return {section: list(_drawn(made, words)) for section, made in plans.items()}
 
 
 def _of_one_run(run: ProjectRun) -> list[Plan]:
@@ -102,16 +105,16 @@ def _of_one_run(run: ProjectRun) -> list[Plan]:
         plans.append((title, lambda: hysteresis(data, typical)))
     return [
         *plans,
+        (f"Energy; {where}", lambda: energy(data)),
         (f"Orbits, {bearing}; {where}", lambda: orbits(data, bearing)),
         (f"Storeys; {where}", lambda: storey_profiles(data)),
         (f"Bearings in plan; {where}", lambda: bearing_plan(data)),
-        (f"Energy; {where}", lambda: energy(data)),
     ]
 
 
-def _drawn(made: list[Plan]) -> Iterator[Picture]:
+def _drawn(made: list[Plan], words: Words) -> Iterator[Picture]:
     # One after the other: a figure is closed before the next is drawn.
     for title, draw in made:
         figure = draw()
         if figure is not None:
-            yield picture(title, figure)
+            yield picture(title, figure, words)

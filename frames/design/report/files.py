@@ -32,7 +32,9 @@ UNFINISHED = "unfinished"
 _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
 
-def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = True) -> list[Path]:
+def write_run(
+    run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
+) -> list[Path]:
     """Write what a run gave.
 
     Parameters
@@ -46,6 +48,8 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
         Text of the project's file, which is kept beside the results.
     figures : bool
         Whether the report has figures.
+    language : str
+        Of the report, in place of that of the project's file.
 
     Returns
     -------
@@ -77,7 +81,7 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
             shutil.copyfile(table, written[table.name])
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    judged = write_judgement(run, folder, source, figures=figures)
+    judged = write_judgement(run, folder, source, figures=figures, language=language)
     kept = [*judged, *written.values(), governing]
     (folder / "interrupted.nc").unlink(missing_ok=True)
     shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
@@ -85,7 +89,7 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
 
 
 def write_judgement(
-    run: ProjectRun, folder: Path, source: str, *, figures: bool = True
+    run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
 ) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
     for stale in ("view.html", "report.pdf"):  # with the checks of before
@@ -98,7 +102,7 @@ def write_judgement(
         "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
-        "report.html": report_html(run, source, tables, figures=figures),
+        "report.html": report_html(run, source, tables, figures=figures, language=language),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     if len(tables[ECCENTRICITY]):

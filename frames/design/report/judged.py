@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from markupsafe import Markup
-
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.report.governs import statistic_of
 
@@ -28,8 +26,8 @@ class Judged(NamedTuple):
         As text, with units.
     statistic : str
         Of which runs the demand is.
-    steps : list of (Markup, str, str)
-        Lines of its calculation: formula, source, note.
+    steps : list of (str, str, str)
+        Lines of its calculation: formula as MathML, source, note.
     """
 
     check: Check
@@ -38,7 +36,7 @@ class Judged(NamedTuple):
     limit: str
     ratio: str
     statistic: str
-    steps: list[tuple[Markup, str, str]]
+    steps: list[tuple[str, str, str]]
 
 
 def judged(check: Check) -> Judged:
@@ -72,5 +70,5 @@ def judged(check: Check) -> Judged:
         limit=limit,
         ratio="" if ratio == "-" else ratio,
         statistic=statistic_of(check),
-        steps=[(Markup(step.mathml()), step.source, step.note) for step in check.trace],  # noqa: S704
+        steps=[(step.mathml(), step.source, step.note) for step in check.trace],
     )

@@ -6,6 +6,7 @@ import math
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
+from frames.design.calculation.rendering import number as written
 from frames.design.report.page import Table
 from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import FrictionLaw
@@ -60,6 +61,7 @@ _SHOWN = {
     "kg/m3": ("kg/m³", 1.0),
     "kg m2": ("kg m²", 1.0),
 }
+_LONG = 1e5  # from here on with a power of ten
 _ONLY_WITH = {"bouc_wen_exponent": ("friction_law", "bouc-wen")}
 
 
@@ -206,7 +208,10 @@ def _quantity(value: object, unit: str, endless: str) -> str:
     if not _is_number(value):
         return str(value)
     number = float(value)  # type: ignore[arg-type]  # a number
-    return f"{_SHOWN.get(unit, (unit, 1.0))[1] * number:.4g}" if math.isfinite(number) else endless
+    if not math.isfinite(number):
+        return endless
+    shown = _SHOWN.get(unit, (unit, 1.0))[1] * number
+    return f"{shown:.4g}" if abs(shown) < _LONG else written(shown)
 
 
 def _friction(law: FrictionLaw) -> str:

@@ -12,12 +12,13 @@ from frames.design.report.columns import in_parts
 from frames.design.report.cover import cover_of, css_string
 from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
-from frames.design.report.governs import MOST, what_governs
+from frames.design.report.governs import what_governs
 from frames.design.report.judged import judged
 from frames.design.report.numbers import ECCENTRICITY, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
+from frames.design.report.words import Words
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,7 +41,12 @@ SECTIONS = (
 
 
 def report_html(
-    run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame], *, figures: bool = True
+    run: ProjectRun,
+    source: str,
+    tables: Mapping[str, pd.DataFrame],
+    *,
+    figures: bool = True,
+    language: str = "",
 ) -> str:
     """Return a run as a self-contained HTML page.
 
@@ -54,52 +60,80 @@ def report_html(
         Of `run_tables`.
     figures : bool
         Whether with figures, which take half of the time of a small project.
+    language : str
+        One of `words.LANGUAGES` in place of that of the project's file.
 
     Returns
     -------
     str
         The page: styles and pictures are in it, nothing is fetched.
     """
+    return report_in(_words(run, language), run, source, tables, figures=figures)
+
+
+def report_in(
+    words: Words,
+    run: ProjectRun,
+    source: str,
+    tables: Mapping[str, pd.DataFrame],
+    *,
+    figures: bool = True,
+) -> str:
+    """Return the page of `report_html` in a language; `words` then knows what it lacked."""
     device = next(iter(run.frame.bearings.values())).bearing
     attrs = run.governing.attrs
-    return page_template("report.html.j2").render(
+
+    def fit(table: Table, keep: int = 1) -> list[Table]:
+        return in_parts(words.table(table), keep=keep)
+
+    return page_template("report.html.j2", words=words).render(
+        language=words.language,
         name=run.frame.name,
         code=run.equivalent.code,
-        device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
+        device="DCFP" if device.is_dcfp else "LIR-DCFP",
         cover=cover_of(run, source),
         css_string=css_string,
         sections=SECTIONS,
         case=run.governing_case,
         failed=[judged(check) for check in run.checks.failed],
         governing=what_governs(run.checks),
-        most=MOST,
         judged=judged,
         doubts=run.doubts,
         checks=[judged(check) for check in run.checks],
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
-        structure=Table(("of the structure", "as described"), run.structure, frozenset({0, 1})),
-        model=model_table(run.model),
-        loads=in_parts(loads_table(run.model)),
+        structure=words.table(
+            Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
+        ),
+        model=words.table(model_table(run.model)),
+        loads=fit(loads_table(run.model)),
         notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
-        devices=[(kind, device_table(one)) for kind, one in devices_by_type(run).items()],
-        schedule=in_parts(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
-        friction=_friction(tables["friction"]),
-        modes=in_parts(page_table(tables["modes"], "mode")),
-        members=in_parts(page_table(tables["members"], "members"), keep=3),
-        programme=in_parts(_programme(tables["programme"])),
-        motions=in_parts(page_table(run.motions.table().rename(columns=_named), "motion")),
-        equivalent=in_parts(Table(run.equivalent.head(), run.equivalent.rows())),
-        demands=in_parts(_demands(run.demands)),
+        devices=[
+            (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
+        ],
+        schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
+        friction=words.table(_friction(tables["friction"])),
+        modes=fit(page_table(tables["modes"], "mode")),
+        members=fit(page_table(tables["members"], "members"), keep=3),
+        programme=fit(_programme(tables["programme"])),
+        motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
+        equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
+        demands=fit(_demands(run.demands)),
         void=void_said(run.demands),
-        raised=raised_tables(tables[ECCENTRICITY]),
+        raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
         eccentricity=eccentricity_said(run),
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=attrs["audit"].splitlines(),
-        pictures=pictures(run) if figures else {},
+        pictures=pictures(run, words) if figures else {},
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
+
+
+def _words(run: ProjectRun, language: str) -> Words:
+    names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
+    names |= {*run.motions, *(level.name for level in run.frame.levels)}
+    return Words(language or run.about.language, run.about.decimal, names)
 
 
 def _levels(run: ProjectRun) -> str:
