@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import runpy
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from frames.design._errors import ProjectError
@@ -24,6 +25,8 @@ from frames.design.project.schema import (
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.schema_hazard import PointsTable
+from frames.design.project.spectrum_points import read_points
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
@@ -34,7 +37,6 @@ from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
@@ -155,8 +157,20 @@ class ProjectInputs:
 
     def spectrum(self) -> Spectrum:
         """Return the design spectrum."""
-        keys = self.file.spectrum.model_dump(exclude={"code"})
+        given = self.file.spectrum
+        if isinstance(given, PointsTable):
+            return in_section("spectrum", lambda: self._by_points(given))
+        keys = given.model_dump(exclude={"code"})
         return in_section("spectrum", lambda: self.code().spectrum(**keys))
+
+    def _by_points(self, given: PointsTable) -> Spectrum:
+        points = given.points
+        if isinstance(points, Path):
+            points = read_points(self.folder / points)
+        periods = [period for period, _ in points]
+        levels = [level for _, level in points]
+        keys = given.model_dump(exclude={"code", "points"}, exclude_none=True)
+        return self.code().by_points(periods, levels, **keys)
 
     def bounds(self) -> PropertyBounds:
         """Return the lower and upper bound friction properties."""
