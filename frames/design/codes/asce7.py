@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
@@ -331,7 +331,7 @@ class ASCE7:
         return Checks([*found, *drift])
 
 
-def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: float) -> Spectrum:
+def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: Any) -> Spectrum:
     # A multi-period or site-specific spectrum, points in m/s2.
     in_g = [level / STANDARD_GRAVITY for level in accelerations]
     return Spectrum.asce7_multi_period(periods, in_g, **keys)
