@@ -17,6 +17,7 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
+from frames.design.codes.factor_sources import factors_of_asce7
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import MCE_R, ActionLevel
 from frames.design.codes.outcome import BoundResult, Symbols
@@ -407,6 +408,7 @@ CODE = DesignCode(
         "s_m1": SpectrumKey(),
         "t_l": SpectrumKey(unit="s", default=8.0),
     },
+    factors=factors_of_asce7,
     spectrum_by_points=_by_points,
     points_keys={
         "s_ms": SpectrumKey(),

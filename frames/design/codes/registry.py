@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
+from frames.design.codes.factor_sources import factors_by_source
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
@@ -16,6 +17,7 @@ from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import PropertyModificationFactors
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
@@ -169,6 +171,8 @@ class DesignCode(HazardRules):
     spectrum_by_points : callable, optional
         Returns its design spectrum through points: periods [s], pseudo-accelerations [m/s2], and
         the keys below; without it points are joined as `Spectrum.given` does.
+    factors : callable
+        Puts factors on friction together of their sources, `factors_by_source` if not given.
     points_keys : mapping of str to SpectrumKey
         Keys of ``[spectrum]`` beside ``points``; none must be given.
     rims : RimRule
@@ -208,6 +212,7 @@ class DesignCode(HazardRules):
     loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None
     uses_importance: bool = True
+    factors: Callable[..., PropertyModificationFactors] = field(default=factors_by_source)
     spectrum_by_points: Callable[..., Spectrum] | None = None
     points_keys: Mapping[str, SpectrumKey] = field(default_factory=dict)
 

@@ -25,6 +25,7 @@ from frames.design.project.schema import (
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.schema_bearing import FactorSources
 from frames.design.project.schema_hazard import PointsTable
 from frames.design.project.spectrum_points import read_points
 from frames.design.project.structure_loads import BuildingLoads, loads_of
@@ -177,12 +178,16 @@ class ProjectInputs:
         given = self.file.bounds
 
         def made() -> PropertyBounds:
-            inner = (
-                None if given.interface is None else PropertyModificationFactors(*given.interface)
-            )
-            return PropertyBounds(PropertyModificationFactors(*given.friction), inner)
+            inner = None if given.interface is None else self._factors(given.interface)
+            return PropertyBounds(self._factors(given.friction), inner)
 
         return in_section("bounds", made)
+
+    def _factors(self, given: tuple[float, float] | FactorSources) -> PropertyModificationFactors:
+        # As given, or put together of their sources as the code does.
+        if isinstance(given, FactorSources):
+            return self.code().factors(**given.model_dump(exclude_unset=True))
+        return PropertyModificationFactors(*given)
 
     def limits(self) -> DesignLimits:
         """Return what the engineer allows."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import create_model
+from pydantic import Discriminator, Tag, create_model
 
 from frames.design.project.derived import DerivedTable, Table, table_of
 from frames.design.project.quantities import Force, Positive, Ratio
@@ -78,8 +78,31 @@ def _bearing_of(table: type[DerivedTable]) -> type[Bearing]:
     return create_model("Bearing", __base__=Bearing, __doc__=Bearing.__doc__, friction=(kind, key))
 
 
+class FactorSources(Table):
+    """``[bounds.friction]``: factors lower and upper by source, put together as the code does."""
+
+    ageing: Pair = (1.0, 1.0)
+    contamination: Pair = (1.0, 1.0)
+    temperature: Pair = (1.0, 1.0)
+    wear: Pair = (1.0, 1.0)
+    test: Pair = (1.0, 1.0)
+    specification: Pair = (1.0, 1.0)
+    full_scale_tests: bool | None = None
+    importance_class: Literal["I", "II", "III"] | None = None
+
+
+def _way(given: object) -> str:
+    return "[FactorSources]" if isinstance(given, (dict, FactorSources)) else "[pair]"
+
+
+_Factors = Annotated[
+    Annotated[Pair, Tag("[pair]")] | Annotated[FactorSources, Tag("[FactorSources]")],
+    Discriminator(_way),
+]
+
+
 class Bounds(Table):
     """``[bounds]``: factors on friction, lower and upper; the interface's own if given."""
 
-    friction: Pair
-    interface: Pair | None = None
+    friction: _Factors
+    interface: _Factors | None = None
