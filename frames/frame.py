@@ -278,6 +278,39 @@ class Frame(FrameEditor):
         frame._imported = building.account
         return frame
 
+    def to_sap2000(
+        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
+    ) -> None:
+        """Write the frame as SAP2000's text tables, to check one program by the other.
+
+        Parameters
+        ----------
+        path : str or Path
+            The .s2k file.
+        displacement : float, optional
+            Of the equivalent-linear analysis [m]: bearings become friction isolator links with
+            their effective stiffness and damping at it. Needed where there are bearings.
+        units : str
+            Units of the file.
+
+        Raises
+        ------
+        ModelError
+            If the frame has superelements, nonlinear links, plastic hinges, or something else that
+            the tables cannot hold; the message names it.
+
+        Notes
+        -----
+        Weights of masses and members are loads of joints, as here, not self weight. A link has the
+        radius, Q/W by the speed and the axial stiffness of its bearing
+        (`frames.exchange.write_sap2000.pendulum_link`). Rims, interface and slip have no link:
+        write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
+        """
+        from frames.exchange.write_sap2000 import Writer, text_of
+
+        text = text_of(Writer(self, displacement, units).tables())
+        Path(path).write_text(text, encoding="utf-8", newline="")
+
     @property
     def imported(self) -> Account | None:
         """What became of the file that the frame was read from; None of one that was built."""

@@ -29,9 +29,10 @@ PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
 def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
     """Return the DCFP that slides like a friction isolator link.
 
-    Two equal surfaces whose effective radius R_1 + R_2 - h is the link's radius, each with the
-    link's friction. Each slides at half the speed of the link: its rate parameter is twice
-    the link's. The slider is rigid, without rims; its axial stiffness is that of U1.
+    Two equal surfaces of radius R_1 with L = 2 R_1 - h, the link's radius. At a displacement u each
+    slides by u R_1 / L, and Q/W = 2 mu R_1 / L: so friction coefficients are the link's times
+    L / (2 R_1), and the rate parameter is the link's times L / R_1. The slider is rigid, without
+    rims; its axial stiffness is that of U1.
 
     Parameters
     ----------
@@ -67,15 +68,17 @@ def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
         )
         raise ModelError(message)
     radius, slow, fast, rate = pairs[0]
-    law: FrictionLaw = CoulombFriction(fast)
+    surface = 0.5 * (radius + SLIDER_HEIGHT)
+    share = radius / (2.0 * surface)
+    law: FrictionLaw = CoulombFriction(share * fast)
     if fast > slow and rate > 0.0:
-        law = VelocityFriction(fast, slow, 2.0 * rate)
+        law = VelocityFriction(share * fast, share * slow, rate * radius / surface)
     axial = link.dofs.get("U1")
     values = {} if axial is None else axial.values
     stiffness = values.get("stiffness", 0.0) or (0.0 if axial is None else axial.stiffness)
     try:
         return LIRBearing(
-            radius=0.5 * (radius + SLIDER_HEIGHT),
+            radius=surface,
             slider_height=SLIDER_HEIGHT,
             slider_radius=SLIDER_RADIUS,
             friction=law,

@@ -318,10 +318,10 @@ def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
     assert_allclose(bearing.effective_radius, 2.2)
     assert bearing.is_dcfp
     assert bearing.axial_stiffness == 2e9
-    # at a speed v of the link each surface slides at v / 2
-    law = bearing.frictions[0]
-    expected = 0.06 - 0.03 * np.exp(-20.0 * 0.1)
-    assert_allclose(law.at_speed(0.05), expected)
+    # at a speed v of the link the surfaces, of R = 1.15 m, slide at v R / L each: Q/W by the speed
+    assert_allclose(bearing.effective_friction, 0.06)
+    law, speed = bearing.frictions[0], 0.1 * 1.15 / 2.2
+    assert_allclose(law.at_speed(speed) * 2.3 / 2.2, 0.06 - 0.03 * np.exp(-20.0 * 0.1))
     assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))
     assert "friction isolators, as DCFP" in str(frame.imported)
     given = Frame.from_sap2000(isolated(tmp_path), {"FP": BEARING})

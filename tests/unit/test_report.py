@@ -639,3 +639,15 @@ def test_each_point_of_the_check_list_has_its_place(page: str) -> None:
     anchors = {anchor for _, anchor in points} | set(re.findall(r"`#([a-z-]+)`", text))
     assert anchors <= set(re.findall(r' id="([a-z-]+)"', page))
     assert len(anchors) > 15
+
+
+def test_factors_of_moved_masses_are_pure_numbers(results: Path, page: str) -> None:
+    raised = pd.read_csv(results / "eccentricity.csv")
+    worst = raised[raised["quantity"] == "displacement"].groupby("bound")["factor"].max()
+    part = page.partition('id="accidental-eccentricity"')[2].partition("</table>")[0]
+    head = re.findall(r"<th[^>]*>([^<]*)</th>", part)
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in part.split("</tr>")]
+    place, of = head.index("factor"), head.index("bound")
+    shown = {row[of]: row[place] for row in rows if row and row[0] == "displacement"}
+    assert shown == {bound: f"{factor:.4g}" for bound, factor in worst.items()}
+    assert set(shown) == {"lower", "upper"}

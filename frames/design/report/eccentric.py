@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from frames.design.codes.registry import code_named
@@ -21,10 +22,15 @@ def raised_tables(table: pd.DataFrame) -> list[Table]:
     size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
     worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
     worst = worst.sort_index().set_index("quantity")
+    worst["factor"] = worst["factor"].map(_factor)  # a pure number, whatever unit its row has
     order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
     if worst["level"].nunique() == 1:
         order.remove("level")
     return in_parts(page_table(worst[order], "largest"))
+
+
+def _factor(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.4g}"
 
 
 def eccentricity_said(run: ProjectRun) -> str:
