@@ -14,6 +14,7 @@ from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.histories.demand_table import bearing_values
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
+from frames.design.project import moat_checks as moat_checks  # which it registers
 from frames.design.project import run_checks as run_checks  # which it registers
 from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
