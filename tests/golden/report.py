@@ -265,7 +265,7 @@ def _demands(project, head, rows, tally):
 
 
 def _members(project, head, rows, tally):
-    own = project.table("members")
+    own = project.table("member-groups")
     for row, given in zip(rows, own, strict=True):
         factor = FACTORS[UNIT[given["unit"]]]
         tally.words("tables of the report", "members", row[0], given["group"])

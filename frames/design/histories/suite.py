@@ -136,6 +136,36 @@ class Suite:
         mean = float(good.mean())
         return max(mean, self.median_factor * self._median(values)) if any(self.failed) else mean
 
+    def values(self, values: FloatArray) -> FloatArray:
+        """Return the values for design of many quantities at once: `value` of each.
+
+        Parameters
+        ----------
+        values : ndarray, (n_runs, ...)
+            Largest value of each run; of a smallest one its opposite.
+
+        Returns
+        -------
+        ndarray, (...)
+            As `value` gives them one by one.
+        """
+        if not self.is_usable:
+            gone = ~np.isfinite(values).any(axis=0)
+            known = np.where(np.isfinite(values), values, np.nan)
+            known = np.where(gone, 0.0, known)
+            of_all = np.nanmean if self.statistic == "mean" else np.nanmax
+            return np.asarray(np.where(gone, math.nan, of_all(known, axis=0)))
+        failed = np.array(self.failed)
+        good = values[~failed]
+        if self.statistic != "mean":
+            return np.asarray(good.max(axis=0))
+        mean = good.mean(axis=0)
+        if not failed.any():
+            return np.asarray(mean)
+        above = failed.reshape(-1, *(1,) * (values.ndim - 1))
+        median = np.median(np.where(above, math.inf, values), axis=0)
+        return np.asarray(np.maximum(mean, self.median_factor * median))
+
     def enter(
         self,
         t: Trace,

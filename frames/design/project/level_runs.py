@@ -73,7 +73,7 @@ def histories_at_levels(
     }
     places = [(level, bound) for level in levels for bound in given.bounds]
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
-    record = Recording.everything() if given.histories == "all" else Recording(every=None)
+    record = Recording(every=1 if given.histories == "all" else None, forces=True)
     data = time_histories(
         models,
         motions,

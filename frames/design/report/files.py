@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
-from frames.design.report.numbers import ECCENTRICITY, run_tables
+from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import load, save
 from lir_element.results.dataset import package_version
@@ -58,9 +58,10 @@ def write_run(
         histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
         action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
         ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
-        ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``members.csv``, ``programme.csv`` in SI
-        units; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
-        ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
+        ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
+        ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
+        with members; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one
+        run; ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
@@ -95,6 +96,10 @@ def write_judgement(
     for stale in ("view.html", "report.pdf"):  # with the checks of before
         (folder / stale).unlink(missing_ok=True)
     tables = run_tables(run)
+    for name in TABLES_OF_FORCES:
+        if not len(tables.get(name, ())):  # those of an earlier run, of another structure
+            (folder / f"{name}.csv").unlink(missing_ok=True)
+            tables.pop(name, None)
     texts = {
         "project.toml": source,
         **{f"{name}.csv": table.to_csv() for name, table in tables.items() if name != ECCENTRICITY},
@@ -157,6 +162,14 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
+    every = (data for each in runs.values() for data in each.values())
+    if any("reached_reaction_force" not in data for data in every):
+        version = kept["lir_dcfp_version"]
+        msg = (
+            f"the time histories in {folder} were made by a version ({version}) that kept no "
+            "forces of members and bearings: `lir run` makes new ones"
+        )
+        raise ProjectError(msg)
     case = kept["governing_case"]
     return Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
 

@@ -1,8 +1,7 @@
-"""Tables of a run that a report shows and its folder keeps: bearings, friction, modes, members."""
+"""Tables of a run that a report shows and its folder keeps: bearings, friction, modes, forces."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,9 +9,9 @@ import pandas as pd
 
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
+from frames.design.histories.force_demands import force_demands
 from frames.design.histories.suite import peaks_of_runs
-from frames.recording.recovery import member_forces
-from frames.results.envelopes import envelope
+from frames.design.report.member_groups import member_groups
 from frames.statics.modes import modes
 
 if TYPE_CHECKING:
@@ -40,8 +39,8 @@ _FRICTIONS = (
     "interface",
 )
 _COUNT = 6
-_ROUND_OFF = 1e-6  # of the largest force, or moment: histories are kept in single precision
-_COMPONENTS = {"N": "N", "Vy": "N", "Vz": "N", "T": "N m", "My": "N m", "Mz": "N m"}
+TABLES_OF_FORCES = ("member-groups", "members", "storeys", "reactions")
+"""Tables that a structure has as far as it has members and levels."""
 
 
 def bearing_table(run: ProjectRun) -> pd.DataFrame:
@@ -151,61 +150,6 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
     return pd.DataFrame({name: values[:length] for name, values in columns.items()}, index=index)
 
 
-def member_table(run: ProjectRun) -> pd.DataFrame:
-    """Return the extremes of the members' forces in the governing run, by group.
-
-    Members of the same kind of name at the same heights are a group.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a group and component, in local axes: number of members, unit, smallest and largest
-        value, each with its member. Empty for a structure without members. What is below a
-        millionth of the largest of its unit is left out: round-off.
-    """
-    frame = run.frame
-    if not frame.members:
-        return pd.DataFrame()
-    found = envelope(member_forces(frame, run.governing))
-    largest = found["largest"].transpose("member", "end", "component").to_numpy()
-    smallest = found["smallest"].transpose("member", "end", "component").to_numpy()
-    names = [str(name) for name in found["member"].to_numpy()]
-    components = [str(name) for name in found["component"].to_numpy()]
-    groups: dict[str, list[int]] = {}
-    for k, name in enumerate(names):
-        ends = (frame.nodes[frame.members[name].i].z, frame.nodes[frame.members[name].j].z)
-        heights = " to ".join(f"{height:g}" for height in sorted(set(ends)))
-        kind = re.sub(r"[-_ ]*\d+", "", name)
-        groups.setdefault(f"{kind} at {heights} m", []).append(k)
-    rows = []
-    for group, members in groups.items():
-        for c, component in enumerate(components):
-            high, low = (
-                largest[members][:, :, c].max(axis=1),
-                smallest[members][:, :, c].min(axis=1),
-            )
-            rows.append(
-                {
-                    "group": group,
-                    "members": len(members),
-                    "force": component,
-                    "unit": _COMPONENTS[component],
-                    "smallest": float(low.min()),
-                    "member of smallest": names[members[int(low.argmin())]],
-                    "largest": float(high.max()),
-                    "member of largest": names[members[int(high.argmax())]],
-                }
-            )
-    table = pd.DataFrame(rows).set_index("group")
-    size = table[["smallest", "largest"]].abs().max(axis=1)
-    return table[size > _ROUND_OFF * size.groupby(table["unit"]).transform("max")]
-
-
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     """Return all tables of this module, by name.
 
@@ -217,13 +161,17 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "members", "programme" of tests, "eccentricity" of masses.
+        "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
+        "member-groups"; "members", "storeys" and "reactions" as far as the structure has them
+        (`force_demands`).
     """
+    forces = force_demands(run.runs, run.rules)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),
         "modes": mode_table(run),
-        "members": member_table(run),
+        "member-groups": member_groups(run, forces.get("members")),
         "programme": run.programme,
+        **forces,
         ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }

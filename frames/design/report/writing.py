@@ -114,7 +114,7 @@ def report_in(
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
-        members=fit(page_table(tables["members"], "members"), keep=3),
+        members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
         programme=fit(_programme(tables["programme"])),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
