@@ -42,6 +42,8 @@ def described(project):
         names = {"columns": "columns", "beams": "beams", "base_beams": "base beams"}
         found |= {said: section(given[key]) for key, said in names.items()}
         found |= stiffened(given)
+        damping = 100.0 * given.get("damping", 0.02)
+        found["damping above the bearings"] = f"{damping:g} % in each mode"
         if "floor_load" in given:
             mass = f"{given['floor_load']:.4g} kg/m2"
             found["mass of a floor besides its members"] = mass

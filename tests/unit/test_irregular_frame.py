@@ -17,6 +17,7 @@ from frames.command.app import app
 from frames.design import ProjectError
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
 from tests.unit.test_structure_file import GRID, MEMBERS, parts_of
 
@@ -274,6 +275,11 @@ def test_heights_of_storeys(tmp_path: Path) -> None:
     text = GRID.replace('"3.5 m"', '["4 m", "3 m", "3 m"]') + MEMBERS
     levels = parts_of(tmp_path, text).frame().levels
     assert np.diff([level.z for level in levels]) == pytest.approx([4.0, 3.0, 3.0])
+    low = GRID.replace('"3.5 m"', '["4 m", "3 cm", "3 m"]') + MEMBERS
+    (doubt,) = file_doubts(parts_of(tmp_path, low).file)
+    assert "storey_height of storey 2 is 0.03 m" in doubt
+    (doubt,) = file_doubts(project(tmp_path, structure=STRUCTURE.replace("4 m", "4 ft")).file)
+    assert "storey_height of storey 1 is 1.219 m" in doubt
     with pytest.raises(ProjectError, match="2 heights for 3 storeys"):
         parts_of(tmp_path, GRID.replace('"3.5 m"', '["4 m", "3 m"]') + MEMBERS)
 

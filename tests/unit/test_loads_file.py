@@ -184,6 +184,21 @@ def test_check_says_the_loads(tmp_path: Path) -> None:
     assert "dead over gravity is 0.306 kg" in doubt
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('live = "3000 kN/m2"', "live = 3000 kN/m2 is more than 25"),
+        ('snow = "30 kN/m2"', "snow = 30 kN/m2 is more than 25"),
+        ('facade = "600 kN/m"', "facade = 600 kN/m is more than 60"),
+        ("", ""),
+    ],
+)
+def test_loads_in_another_unit_are_doubted(tmp_path: Path, text: str, said: str) -> None:
+    doubts = file_doubts(parts_of(tmp_path, BARE + f'[loads]\ndead = "4 kN/m2"\n{text}\n').file)
+    assert said in " ".join(doubts)
+    assert len(doubts) == bool(said)
+
+
 def test_fields_of_an_l_shaped_plan() -> None:
     """Three fields of four squares; eight outer edges, and a corner that points inwards."""
     points = {f"{x}{y}": (float(x), float(y)) for x in range(3) for y in range(3)}

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
-from frames import Frame, moment_frame
+from frames import Frame, ModalDamping, moment_frame
 from frames.demo import bearing_for
 from frames.design import ProjectError
 from frames.design.project.inputs import ProjectInputs
@@ -189,6 +189,17 @@ def test_cracked_sections(tmp_path: Path) -> None:
     assert np.allclose(ratios, [0.35, 0.35, 0.1, 1.0, 1.0])
 
 
+def test_damping_of_the_structure(tmp_path: Path) -> None:
+    """Two per cent in each mode if nothing is said; none at 0."""
+    found = [
+        frame_of(tmp_path, GRID + MEMBERS + text).damping
+        for text in ("", "damping = 0.05\n", 'damping = "3 %"\n', "damping = 0\n")
+    ]
+    assert found == [ModalDamping(0.02), ModalDamping(0.05), ModalDamping(0.03), None]
+    with pytest.raises(ProjectError, match=r"structure\.damping = 5"):
+        frame_of(tmp_path, GRID + MEMBERS + "damping = 5\n")
+
+
 COLUMNS = 'columns = { rectangle = ["400 mm", "600 mm"], material = "C30/37" }'
 REFUSED = {
     'columns = { rectangle = ["400 mm", "600 mm"] }': "rectangle needs its material",
@@ -209,6 +220,7 @@ REFUSED = {
     ),
     'columns = { box = ["400 mm", "250 mm"] }': "walls overlap",
     'columns = { box = ["400 mm", 25] }': "has no unit",
+    "columns = [3, 2]": "write [[structure.columns]] and its keys below for each",
     'columns = { boxes = ["400 mm", "25 mm"] }': 'boxes is not known; is "box" meant?',
     'columns = [{ box = ["400 mm", "25 mm"], storeys = [1, 2] }]': "storey 3 has no section",
     'columns = [{ box = ["400 mm", "25 mm"] }, { circle = "1 m", material = "S355" }]': (

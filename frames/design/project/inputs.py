@@ -7,6 +7,7 @@ import runpy
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
+from frames.assembly.assemble import assemble
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
 from frames.design.codes.history_rules import HistoryRules
@@ -28,7 +29,6 @@ from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
-from frames.statics.gravity import gravity
 from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class ProjectInputs:
         if not frame.load_cases:
             return IsolationSystem.from_frame(frame, s_ms=s_ms)
         chosen = self.code().loads.combinations(s_ms)
-        weight = frame.gravity * float(gravity(frame).system.node_mass[:, 0].sum())
+        weight = frame.gravity * float(assemble(frame).node_mass[:, 0].sum())
         return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
     def provisional_frame(self) -> Frame:

@@ -149,6 +149,9 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
         bound = "at most" if kind == "too_long" else "at least"
         return f"{name}: {key} has {error['ctx']['actual_length']} entries: give {bound} {held}"
+    if kind in _TABLES and place[-1].isdigit():
+        listed = ".".join(place[:-1])
+        return f"{name}: {key} must be a table: write [[{listed}]] and its keys below for each"
     if kind in _TABLES:
         return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
     text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")

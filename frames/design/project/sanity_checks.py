@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from frames.design.codes.registry import code_named
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
-from frames.design.project.schema_structure import BuildingTable
+from frames.design.project.schema_structure import BuildingTable, IrregularFrame
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -23,6 +23,12 @@ which on it is strange: whole buildings have about 0.1 s a storey."""
 FLOOR_MASS = (50.0, 6000.0)
 """Mass of a storey over its plan [kg/m2]; buildings have 300 to 1500."""
 
+STOREY = (2.0, 20.0)
+"""Height of storeys that buildings have [m]."""
+
+HEAVY_FLOOR, HEAVY_FACADE = 25e3, 60e3
+"""Live load or snow [N/m2], and facade [N/m], from which on they are strange."""
+
 
 def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     """Return what is strange about a project's file, a sentence for each thing.
@@ -35,12 +41,15 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        About sections that are not given, masses of storeys by area, bays that bearings do not
-        fit into, storeys that are far too soft, and an importance that is in one section alone.
+        About sections that are not given, masses of storeys by area, heights, loads, bays that
+        bearings do not fit into, storeys that are far too soft, and an importance that is in one
+        section alone.
     """
     return (
         *_of_sections(file),
         *_of_masses(file),
+        *_of_heights(file),
+        *_of_loads(file),
         *_of_bays(file),
         *_of_storeys(file),
         *_of_importance(file),
@@ -117,6 +126,38 @@ def _of_masses(file: ProjectFile) -> list[str]:
         f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to 1500: "
         f"{unit} Masses are written with their unit, 300 t or 300000 kg"
     ]
+
+
+def _of_heights(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, (MomentFrame, IrregularFrame)):
+        return []
+    low, high = STOREY
+    for k, height in enumerate(given.heights, start=1):
+        if not low <= height <= high:
+            return [
+                f"[structure] storey_height of storey {k} is {height:.4g} m, storeys have {low:g} "
+                f"to {high:g} m: look at its unit"
+            ]
+    return []
+
+
+def _of_loads(file: ProjectFile) -> list[str]:
+    given = file.loads
+    if given is None:
+        return []
+    named = {
+        "live": (given.live, HEAVY_FLOOR, "kN/m2"),
+        "snow": (given.snow, HEAVY_FLOOR, "kN/m2"),
+        "facade": (given.facade, HEAVY_FACADE, "kN/m"),
+    }
+    for key, (load, most, unit) in named.items():
+        if load > most:
+            return [
+                f"[loads] {key} = {1e-3 * load:.4g} {unit} is more than {1e-3 * most:g} {unit}, "
+                "which hardly any building has: look at its unit"
+            ]
+    return []
 
 
 def _of_bays(file: ProjectFile) -> list[str]:

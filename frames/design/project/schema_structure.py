@@ -17,6 +17,7 @@ from frames.design.project.quantities import (
     Mass,
     NotNegative,
     Positive,
+    Ratio,
     Stiffness,
 )
 from frames.design.project.schema_sections import (
@@ -39,6 +40,7 @@ class BuildingTable(Table):
 
     floor_load: Annotated[AreaMass, Positive] | None = None
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+    damping: Annotated[Ratio, Field(ge=0.0, le=0.2)] = 0.02
     braces: tuple[BraceTable, ...] = ()
     walls: tuple[WallTable, ...] = ()
     floor_diaphragm: Literal["rigid", "flexible"] = "rigid"
@@ -93,6 +95,11 @@ class IrregularFrame(BuildingTable):
     columns_table: Path
     beams_table: Path
     sections: dict[str, SectionTable] = Field(default_factory=dict)
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Height of each storey [m]."""
+        return self.storey_height
 
 
 class ShearBuilding(Table):

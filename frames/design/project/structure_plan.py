@@ -23,6 +23,7 @@ from frames.library.moment_frames import (
     DEFAULT_COLUMN,
     tributary_masses,
 )
+from frames.model.damping import ModalDamping
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,7 +141,7 @@ def regular_frame(
     """
     _require_one_load(given, loads)
     plan = with_walls_and_braces(regular_plan(given), given)
-    frame = build(plan, bearing, name=name)
+    frame = build(plan, bearing, name=name, damping=_damping(given))
     if given.floor_load is None:
         if loads is not None:
             apply_loads(frame, plan, loads, given.eccentricity)
@@ -189,13 +190,17 @@ def irregular_frame(
     """
     _require_one_load(given, loads)
     plan = with_walls_and_braces(irregular_plan(given, folder), given)
-    frame = build(plan, bearing, name=name)
+    frame = build(plan, bearing, name=name, damping=_damping(given))
     if given.floor_load is not None:
         dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
         loads = BuildingLoads(dead, {"D": 1.0})
     if loads is not None:
         apply_loads(frame, plan, loads, given.eccentricity)
     return frame
+
+
+def _damping(given: MomentFrame | IrregularFrame) -> ModalDamping | None:
+    return ModalDamping(given.damping) if given.damping > 0.0 else None
 
 
 def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:

@@ -66,6 +66,7 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
     if isinstance(given, BuildingTable):
         rows += _areas(frame)
         rows += _walls_and_braces(given)
+        rows.append(("damping above the bearings", f"{100.0 * given.damping:g} % in each mode"))
     if isinstance(given, BuildingTable) and given.floor_load is not None:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
