@@ -12,6 +12,9 @@ from frames.model.editing import FrameEditor
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
     from frames.exchange.account import Account
     from frames.exchange.building import Building
     from frames.exchange.options import BaseRotations, Options
@@ -303,13 +306,55 @@ class Frame(FrameEditor):
         -----
         Weights of masses and members are loads of joints, as here, not self weight. A link has the
         radius, Q/W by the speed and the axial stiffness of its bearing
-        (`frames.exchange.write_sap2000.pendulum_link`). Rims, interface and slip have no link:
+        (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
         write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
         """
         from frames.exchange.write_sap2000 import Writer, text_of
 
         text = text_of(Writer(self, displacement, units).tables())
         Path(path).write_text(text, encoding="utf-8", newline="")
+
+    def program_tables(
+        self, data: xr.Dataset | Mapping[str, xr.Dataset], *, units: str = "KN, m"
+    ) -> dict[str, pd.DataFrame]:
+        """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
+
+        Parameters
+        ----------
+        data : xarray.Dataset or mapping
+            Of `time_history` with this frame; or several by name of the output case.
+        units : str
+            Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
+
+        Returns
+        -------
+        dict of str to pandas.DataFrame
+            "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames"
+            and "Story Drifts", as far as the model has them; `write_tables` writes them as a
+            workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case,
+            whose values are not of one instant; stations at the ends of members, signs by axes
+            1, 2 and 3 (docs/exchange.md).
+
+        Raises
+        ------
+        ModelError
+            If the frame is not the one that was analysed, or the units are not known.
+        ValueError
+            If the recording does not have what is needed.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from frames import GroundMotion, moment_frame, time_history
+        >>> from frames.demo import bearing_for
+        >>> frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3))
+        >>> data = time_history(frame, GroundMotion(x=np.ones(11), dt=0.01))
+        >>> list(frame.program_tables(data)["Element Forces - Frames"])[:6]
+        ['Frame', 'Station', 'OutputCase', 'CaseType', 'StepType', 'P']
+        """
+        from frames.recording.program_tables import program_tables
+
+        return program_tables(self, data, units=units)
 
     @property
     def imported(self) -> Account | None:

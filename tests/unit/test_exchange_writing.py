@@ -11,8 +11,8 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError, gravity, lumped_mass, moment_frame
 from frames.assembly.assemble import assemble
 from frames.demo import bearing_for
+from frames.exchange.pendulum_link import pendulum_link
 from frames.exchange.sap2000 import read_sap2000
-from frames.exchange.write_sap2000 import pendulum_link
 from frames.model.sections import Section
 from lir_element import LIRBearing, VelocityFriction
 

@@ -280,7 +280,7 @@ def test_new_writes_over_nothing(folder: Path) -> None:
 def test_a_report_without_figures_says_so_and_lir_report_draws_them(
     done: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(writing, "pictures", lambda _: {"model": []})
+    monkeypatch.setattr(writing, "pictures", lambda *_: {"model": []})
     assert "Written without figures" in (done / "out" / "report.html").read_text(encoding="utf-8")
     run(app, ["report", str(done / "small.toml"), "--results", str(done / "out")])
     text = (done / "out" / "report.html").read_text(encoding="utf-8")

@@ -116,7 +116,8 @@ def test_texts_in_spanish_with_decimal_commas(text: str, said: str) -> None:
 def test_what_is_not_known_stays_and_is_told() -> None:
     words = Words("es", ",")
     assert words.say("a sentence of another package") == "a sentence of another package"
-    assert words.missing == {"a sentence of another package"}
+    assert words.say("a proposal; a word") == "una propuesta; a word"
+    assert words.missing == {"a sentence of another package", "a word"}
 
 
 @pytest.mark.parametrize("text", ["ASCE 7-22 17.2.4.5", "numpy 2.4.6", "(17.5-1)", "a.b", "v0.2.0"])

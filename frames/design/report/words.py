@@ -177,9 +177,12 @@ class Words:
 
     def _said(self, text: str) -> str:
         found = self._known(text)
-        if found is None:
-            self.missing.add(text)
-        return text if found is None else found
+        if found is not None:
+            return found
+        if "; " in text:  # sentences: those that are known
+            return "; ".join(self._said(part) for part in text.split("; "))
+        self.missing.add(text)
+        return text
 
     def _known(self, text: str) -> str | None:
         # A text in the language, None where it is not known.
