@@ -19,6 +19,7 @@ from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
+from frames.design.project.bearing_types import columns_by_type
 from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
 from frames.design.project.example import write_example
 from frames.design.project.inputs import ProjectInputs
@@ -84,6 +85,8 @@ def check(file: File = FILE) -> None:
         parts = _parts(file)
         ground = preliminary(parts)
         say(text_table(structure_rows(parts.file, ground.frame), left=2))
+        for kind, columns in columns_by_type(ground.types).items():
+            say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))

@@ -23,7 +23,7 @@ import pandas as pd
 import xarray as xr
 from typer.testing import CliRunner
 
-from frames import load, modes, moment_frame
+from frames import load, modes, moment_frame, save
 from frames.command.app import app
 from frames.design import HISTORY_RULES, Check
 from frames.design._errors import ProjectError
@@ -322,6 +322,40 @@ def test_results_of_another_input_are_refused(
     done = CliRunner().invoke(app, ["report", str(file), "--results", str(folder / "results")])
     assert done.exit_code == 2
     assert words in " ".join(done.output.split())
+
+
+def test_forces_for_design_are_there_as_far_as_the_structure_has_them(
+    results: Path, tmp_path: Path
+) -> None:
+    """A building of springs has no members: neither their tables, nor those of an earlier run."""
+    storeys = pd.read_csv(results / "storeys.csv")
+    reactions = pd.read_csv(results / "reactions.csv")
+    assert set(storeys["bound"]) == set(reactions["bound"]) == {"lower", "upper"}
+    assert len(reactions) == 2 * 4 * 2 * 6 * 2  # bounds, bearings, sides, forces, extremes
+    resting = reactions[(reactions["force"] == "N") & (reactions["side"] == "above")]
+    weight = resting[resting["extreme"] == "max"].groupby("bound")["permanent"].sum()
+    foot = storeys[(storeys["force"] == "Fz") & (storeys["extreme"] == "max")]
+    carried = -foot.groupby("bound")["permanent"].first()
+    assert weight.to_numpy() == pytest.approx(carried.to_numpy(), rel=1e-6)
+    assert carried.to_numpy() == pytest.approx(200e3 * 9.80665, rel=1e-3)
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    kept = folder / "results"
+    (kept / "members.csv").write_text("of another structure")
+    again = ["report", str(folder / "project.toml"), "--results", str(kept), "--no-figures"]
+    assert CliRunner().invoke(app, again).exit_code in {0, 1}
+    assert not {path.name for path in kept.iterdir()} & {"members.csv", "member-groups.csv"}
+
+
+def test_results_of_a_version_without_forces_are_refused(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    path = folder / "results" / "runs-upper.nc"
+    data = load(path)
+    path.unlink()
+    save(data.drop_vars([n for n in data.data_vars if n.startswith("reached_reaction")]), path)
+    again = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    done = CliRunner().invoke(app, again)
+    assert done.exit_code == 2
+    assert "that kept no forces of members and bearings" in " ".join(done.output.split())
 
 
 def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> None:

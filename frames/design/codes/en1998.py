@@ -17,6 +17,7 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
+from frames.design.codes.factor_sources import factors_of_en1998
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import DESIGN
 from frames.design.codes.load_rules import LoadRule, fixed_combinations
@@ -351,6 +352,7 @@ CODE = DesignCode(
         force_clause="10.10",
         eccentricity_clause="4.3.2",
     ),
+    factors=factors_of_en1998,
     spectrum=Spectrum.en1998,
     spectrum_keys={
         "a_g": SpectrumKey(unit="m/s^2"),

@@ -57,6 +57,9 @@ if TYPE_CHECKING:
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
 _MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+GIVEN = "given"
+"""Shape of spectra that are given point by point."""
+
 _LONG = 4.0  # s, beyond all T_d
 
 
@@ -138,7 +141,11 @@ class NCh2745:
             factor = spectrum.damping_factor(t.value("beta_M"))
             t.looked_up("B_M", factor, ["beta_M"], source="NCh2745 7.3")
             t.given("M_M", self.maximum)
-            t("C_M", "M_M * C_D", "m", shown="mm")
+            if spectrum.shape == GIVEN:
+                _enter_given(t, spectrum, "T_M", "S_aM", "C_D_M")
+                t("C_M", "M_M * C_D_M", "m", shown="mm")
+            else:
+                t("C_M", "M_M * C_D", "m", shown="mm")
             t("D_M", "C_M / B_M", "m", source="NCh2745 7.3", shown="mm")
             return t
 
@@ -169,6 +176,10 @@ class NCh2745:
         secant(t, "D_0", _DESIGN, "NCh2745 7")
         factor = spectrum.damping_factor(t.value("beta_D"))
         t.looked_up("B_D", factor, ["beta_D"], source="NCh2745 7.3")
+        if spectrum.shape == GIVEN:
+            _enter_given(t, spectrum, "T_D", "S_aD", "C_D")
+            t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
+            return t
         plateau = spectrum.acceleration(_LONG) * (0.5 * _LONG / math.pi) ** 2
         note = "200 Z, 300 Z, 330 Z mm for soils I, II, III: the spectrum's displacement, B = 1"
         t.given("C_D", plateau, "m", shown="mm", source="NCh2745 7.3", note=note)
@@ -217,6 +228,19 @@ class NCh2745:
             note="overturning, unreduced, at the maximum level",
         )
         t.given("o", self.orthogonal, note="share of the other direction")
+
+
+def _enter_given(t: Trace, spectrum: Spectrum, period: str, level: str, symbol: str) -> None:
+    # The displacement of a spectrum that is given point by point, at an effective period, B = 1.
+    at = float(spectrum.acceleration(t.value(period)))
+    t.looked_up(level, at, [period], "m/s2", note="of the spectrum as given")
+    t(
+        symbol,
+        f"{level} * {period}**2 / (4 * pi**2)",
+        "m",
+        shown="mm",
+        note="its displacement, B = 1",
+    )
 
 
 def _tests(d: DesignToTest) -> Iterable[PlannedTest]:

@@ -129,6 +129,37 @@ def _numbers(
     }
 
 
+def bearing_values(
+    runs: Mapping[Bound, xr.Dataset],
+    rules: HistoryRules,
+    name: str,
+    moved: Mapping[Bound, xr.Dataset] | None = None,
+) -> FloatArray:
+    """Return what time histories give for design of each bearing, the largest of all bounds.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Runs by bound.
+    rules : HistoryRules
+        The code's.
+    name : str
+        A quantity of bearings, such as "slip".
+    moved : mapping of str to xarray.Dataset, optional
+        Runs with moved masses by bound.
+
+    Returns
+    -------
+    ndarray, (n_bearings,)
+        In the order of the frame's bearings; NaN of what is not known.
+    """
+    rows = []
+    for bound, data in runs.items():
+        suite = raised_suite(data, (moved or {}).get(bound), rules)
+        rows.append([suite.value(column, name) for column in _reached(data, name).T])
+    return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
+
+
 def _reached(data: xr.Dataset, name: str) -> FloatArray:
     # Values (n_runs, m); of what is left, none of runs that stopped before their end.
     values = peaks_of_runs(data, name)

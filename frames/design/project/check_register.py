@@ -46,6 +46,24 @@ class BearingDemand(NamedTuple):
     void: str
 
 
+class TypeOfBearing(NamedTuple):
+    """A type of bearing of a project, and what its time histories ask of it.
+
+    Attributes
+    ----------
+    bearing : LIRBearing
+        The device, friction nominal.
+    columns : tuple of str
+        Names of the frame's bearings that are of this type.
+    asked : BearingDemand
+        What the time histories ask of these.
+    """
+
+    bearing: LIRBearing
+    columns: tuple[str, ...]
+    asked: BearingDemand
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RunToCheck:
     """All that is known of a project when its checks are made.
@@ -57,7 +75,7 @@ class RunToCheck:
     frame : Frame
         The structure on its bearings, friction nominal.
     bearing : LIRBearing
-        The bearing under each column, friction nominal.
+        The standard bearing, friction nominal.
     system : IsolationSystem
         The bearings with their places, average loads and combinations.
     superstructure : Superstructure, optional
@@ -83,6 +101,8 @@ class RunToCheck:
     moved : mapping of str to mapping of str to xarray.Dataset
         Time histories with the floors' masses moved, in the way of `runs`; empty without
         accidental eccentricity.
+    types : mapping of str to TypeOfBearing
+        Types of bearings, with what the time histories ask of each.
 
     Examples
     --------
@@ -104,6 +124,7 @@ class RunToCheck:
     rules: HistoryRules
     asked: BearingDemand
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
+    types: Mapping[str, TypeOfBearing] = field(default_factory=dict)
 
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]

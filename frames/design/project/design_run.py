@@ -5,16 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import bounds_of
+from frames.design.histories.demand_table import bearing_values
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
+from frames.design.project import moat_checks as moat_checks  # which it registers
 from frames.design.project import run_checks as run_checks  # which it registers
-from frames.design.project.check_register import BearingDemand, RunToCheck, checks_of
+from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
 from frames.design.project.level_runs import (
     demands_at_levels,
@@ -81,6 +83,8 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    types : mapping of str to str
+        Type of each bearing: "standard", or of ``[bearings.<type>]``.
     about : ProjectTable
         ``[project]`` of the file: its name, client, engineer, checker, revision, date.
     moved : mapping of str to mapping of str to xarray.Dataset
@@ -109,6 +113,7 @@ class ProjectRun:
     programme: pd.DataFrame
     rules: HistoryRules
     about: ProjectTable
+    types: Mapping[str, str] = field(default_factory=dict)
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
@@ -207,7 +212,8 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
     moved = histories.moved
     demands = demands_at_levels(runs, rules, moved)
     level = rules.bearing_level
-    asked = _asked(parts, known, history_demands(runs[level], rules, moved=moved.get(level)))
+    types = _types(parts, known, runs[level], moved.get(level, {}))
+    asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
         frame=frame,
@@ -224,6 +230,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         limits=parts.limits(),
         rules=rules,
         asked=asked,
+        types=types,
     )
     return ProjectRun(
         frame=frame,
@@ -243,6 +250,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         programme=_programme(parts, known, histories, asked),
         rules=rules,
         about=parts.file.project,
+        types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
         structure=tuple(structure_rows(parts.file, frame)),
         tables=parts.tables(),
@@ -253,19 +261,50 @@ def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
     return [data for each in runs.values() for data in each.values()]
 
 
-def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> BearingDemand:
-    # Least axial load that presses at all and the largest, of all combinations and of the histories
-    # at each bound at the level of the bearings [N], and the slip of these [m].
-    loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
-    slip = float(demands.loc["interface slip", "envelope"])
-    void = next((str(why) for why in demands["void"] if why), "")
-    if void:  # runs failed: the most that it holds
-        slip = parts.bearing().resolved()["slip_capacity"]
-    bearing, factor = parts.bearing(), parts.rules().displacement_factor
-    moved = float(demands.loc["isolator displacement", "envelope"])
-    if factor > 1.0 and not void:  # what is beyond the rims by the code
-        slip = max(slip, factor * moved - bearing.lateral_capacity)
-    return BearingDemand((min(loads), max(loads)), slip, void)
+def _types(
+    parts: ProjectInputs,
+    known: Preliminary,
+    runs: Mapping[Bound, xr.Dataset],
+    moved: Mapping[Bound, xr.Dataset],
+) -> dict[str, TypeOfBearing]:
+    # Of each type of bearing what combinations and histories ask, those at the level of bearings.
+    rules, found = parts.rules(), {}
+    void = next((str(why) for why in history_demands(runs, rules, moved=moved)["void"] if why), "")
+    values = {
+        name: bearing_values(runs, rules, name, moved)
+        for name in ("axial_force", "axial_tension", "slip", "displacement")
+    }
+    loads = np.array(
+        [
+            known.system.loads,
+            *known.system.combinations.values(),
+            values["axial_force"],
+            -values["axial_tension"],
+        ]
+    )
+    for kind, bearing in parts.devices().items():
+        columns = tuple(name for name, each in known.types.items() if each == kind)
+        places = [k for k, name in enumerate(known.frame.bearings) if name in columns]
+        if not places:
+            continue
+        own = loads[:, places]
+        pressed = own[(own > 0.0) & np.isfinite(own)]
+        slip = float(np.nanmax(values["slip"][places]))
+        if void:  # runs failed: the most that it holds
+            slip = bearing.resolved()["slip_capacity"]
+        elif rules.displacement_factor > 1.0:  # what is beyond the rims by the code
+            reached = rules.displacement_factor * float(np.nanmax(values["displacement"][places]))
+            slip = max(slip, reached - bearing.lateral_capacity)
+        range_ = float(pressed.min()), float(pressed.max())
+        found[kind] = TypeOfBearing(bearing, columns, BearingDemand(range_, slip, void))
+    return found
+
+
+def _of_all(types: Mapping[str, TypeOfBearing]) -> BearingDemand:
+    # Of all types the least and the largest load, and the largest slip.
+    each = [kind.asked for kind in types.values()]
+    loads = min(one.loads[0] for one in each), max(one.loads[1] for one in each)
+    return BearingDemand(loads, max(one.slip for one in each), each[0].void)
 
 
 def _programme(
@@ -285,14 +324,3 @@ def _programme(
         of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
         table.loc[of_runs, "standing"] += f"; no values for design: {asked.void}"
     return table
-
-
-def _loads(known: Preliminary, demands: pd.DataFrame) -> list[float]:
-    # Axial loads of all combinations and of the histories at each bound [N].
-    found = [*known.system.loads]
-    for loads in known.system.combinations.values():
-        found += loads
-    bounds = demands[bounds_of(demands)]
-    for which in ("minimum", "maximum"):
-        found += [float(load) for load in bounds.loc[f"{which} axial force"]]
-    return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import runpy
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from frames.assembly.assemble import assemble
@@ -16,6 +17,7 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
+from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
     ImportedModel,
@@ -24,6 +26,9 @@ from frames.design.project.schema import (
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.schema_bearing import FactorSources
+from frames.design.project.schema_hazard import PointsTable
+from frames.design.project.spectrum_points import read_points
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
@@ -33,7 +38,6 @@ from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
@@ -66,23 +70,50 @@ class ProjectInputs:
         return code_named(self.file.project.code, ProjectError)
 
     def bearing(self) -> LIRBearing:
-        """Return the bearing under each column."""
+        """Return the bearing under each column that no other type is named for."""
         given = self.file.bearing
         if given is None:
             msg = "[bearing] is missing: `lir design` proposes one"
             raise ProjectError(msg)
         return bearing_of(given)
 
+    def devices(self) -> dict[str, LIRBearing]:
+        """Return the bearing of each type: "standard", and those of ``[bearings.<type>]``."""
+        found = {STANDARD: self.bearing()}
+        for name, given in self.file.bearings.items():
+            if name == STANDARD:
+                msg = f"[bearings.{name}] is the name of what [bearing] describes: choose another"
+                raise ProjectError(msg)
+            found[name] = bearing_of(given, f"bearings.{name}")
+        return found
+
     def frame(self) -> Frame:
         """Return the structure on its bearings, under the average combination of its loads."""
-        found = self.loaded_frame()
-        if not found.load_cases:
-            return found
-        return found.combined(self.code().loads.combinations(None)[AVERAGE])
+        return self._averaged(self.loaded_frame())
 
     def loaded_frame(self) -> Frame:
         """Return the structure on its bearings, with its load cases "D", "L" and "S"."""
-        return in_section("structure", lambda: self._frame(self.bearing()))
+        return self._loaded_and_types()[0]
+
+    def types(self) -> dict[str, str]:
+        """Return the type of each bearing: "standard", or of ``[bearings.<type>]``."""
+        return self._loaded_and_types()[1]
+
+    def _loaded_and_types(self) -> tuple[Frame, dict[str, str]]:
+        devices = self.devices()
+
+        def made() -> tuple[Frame, dict[str, str]]:
+            frame = self._frame(devices[STANDARD])
+            chosen = types_by_column(self.file.bearings, self._averaged(frame))
+            return on_types(frame, chosen, devices), chosen
+
+        return in_section("structure", made)
+
+    def _averaged(self, frame: Frame) -> Frame:
+        # Under the average combination of its loads.
+        if not frame.load_cases:
+            return frame
+        return frame.combined(self.code().loads.combinations(None)[AVERAGE])
 
     def system(self, frame: Frame, spectrum: Spectrum) -> IsolationSystem:
         """Return the bearings of the structure with its load cases, by the code's combinations."""
@@ -127,20 +158,36 @@ class ProjectInputs:
 
     def spectrum(self) -> Spectrum:
         """Return the design spectrum."""
-        keys = self.file.spectrum.model_dump(exclude={"code"})
+        given = self.file.spectrum
+        if isinstance(given, PointsTable):
+            return in_section("spectrum", lambda: self._by_points(given))
+        keys = given.model_dump(exclude={"code"})
         return in_section("spectrum", lambda: self.code().spectrum(**keys))
+
+    def _by_points(self, given: PointsTable) -> Spectrum:
+        points = given.points
+        if isinstance(points, Path):
+            points = read_points(self.folder / points)
+        periods = [period for period, _ in points]
+        levels = [level for _, level in points]
+        keys = given.model_dump(exclude={"code", "points"}, exclude_none=True)
+        return self.code().by_points(periods, levels, **keys)
 
     def bounds(self) -> PropertyBounds:
         """Return the lower and upper bound friction properties."""
         given = self.file.bounds
 
         def made() -> PropertyBounds:
-            inner = (
-                None if given.interface is None else PropertyModificationFactors(*given.interface)
-            )
-            return PropertyBounds(PropertyModificationFactors(*given.friction), inner)
+            inner = None if given.interface is None else self._factors(given.interface)
+            return PropertyBounds(self._factors(given.friction), inner)
 
         return in_section("bounds", made)
+
+    def _factors(self, given: tuple[float, float] | FactorSources) -> PropertyModificationFactors:
+        # As given, or put together of their sources as the code does.
+        if isinstance(given, FactorSources):
+            return self.code().factors(**given.model_dump(exclude_unset=True))
+        return PropertyModificationFactors(*given)
 
     def limits(self) -> DesignLimits:
         """Return what the engineer allows."""
@@ -168,10 +215,10 @@ class ProjectInputs:
         return motions_of(self.file.motions, self.folder)
 
 
-def bearing_of(given: schema.Bearing) -> LIRBearing:
+def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
     made: Callable[[], LIRBearing] = given.made
-    return in_section("bearing", made)
+    return in_section(section, made)
 
 
 def frame_of(

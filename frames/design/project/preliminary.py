@@ -51,6 +51,8 @@ class Preliminary:
     moved : mapping of str to Frame
         The structure with its floors' masses moved, by the way; none where accidental eccentricity
         is left out.
+    types : mapping of str to str
+        Type of each bearing of the frame.
     doubts : tuple of str
         What was warned of on the way: of the file, the bearing and the motions.
     """
@@ -62,6 +64,7 @@ class Preliminary:
     equivalent: EquivalentLinear
     motions: MotionSet
     moved: Mapping[str, Frame] = field(default_factory=dict)
+    types: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
 
 
@@ -127,6 +130,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
         equivalent=equivalent,
         motions=motions,
         moved=moved_frames(parts, frame),
+        types=parts.types(),
     )
 
 
@@ -238,6 +242,11 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
         "bounds": file.bounds.model_dump(mode="json"),
         "analysis": analysis,
     }
+    if file.bearings:
+        said["bearings"] = {
+            name: kind.model_dump(mode="json", exclude_none=True)
+            for name, kind in file.bearings.items()
+        }
     if file.loads is not None:
         said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}

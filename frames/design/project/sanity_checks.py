@@ -161,13 +161,12 @@ def _of_loads(file: ProjectFile) -> list[str]:
 
 
 def _of_bays(file: ProjectFile) -> list[str]:
-    given, bearing = file.structure, file.bearing
-    if bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
+    given = file.structure
+    if file.bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
         return []
-    own = bearing_of(bearing)
-    if not math.isfinite(own.lateral_capacity):
-        return []
-    side = own.lateral_capacity + 2.0 * own.slider_radius  # both plates go half of the capacity
+    each = [bearing_of(one) for one in (file.bearing, *file.bearings.values())]
+    sides = [own.lateral_capacity + 2.0 * own.slider_radius for own in each]  # plates go half of it
+    side = max((side for side in sides if math.isfinite(side)), default=0.0)
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
         return []

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from frames.design.hazard.plot_hazard import motion_spectra
+from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
 from frames.design.report.suite_figures import (
     motions_figure,
@@ -53,10 +55,15 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
         "structure", "bearings", "motions", "suite" of all runs, "histories" of the run that
         displaces a bearing most.
     """
-    device = next(iter(run.frame.bearings.values())).bearing
     plans: dict[str, list[Plan]] = {
         "structure": [("The model", lambda: model_view(run.frame))],
-        "bearings": [("The bearing, to scale", lambda: bearing_dimensions(device))],
+        "bearings": [
+            (
+                f"The bearing, type {kind}, to scale" if kind else "The bearing, to scale",
+                partial(bearing_dimensions, device),
+            )
+            for kind, device in devices_by_type(run).items()
+        ],
         "motions": [
             (
                 "Spectra of the motions as they were run, and the design spectrum",

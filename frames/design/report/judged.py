@@ -10,7 +10,7 @@ from frames.design.report.governs import statistic_of
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Check
-
+    from frames.design.codes.bounds import PropertyBounds
 
 _ZERO = {0.0}  # exact: as it was given
 
@@ -72,3 +72,28 @@ def judged(check: Check) -> Judged:
         statistic=statistic_of(check),
         steps=[(step.mathml(), step.source, step.note) for step in check.trace],
     )
+
+
+def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """Return the calculations of factors on friction that are given by source.
+
+    Parameters
+    ----------
+    bounds : PropertyBounds
+        Bounds of the bearings' properties.
+
+    Returns
+    -------
+    list of (str, list)
+        What the factors are on, and the steps as those of a check; nothing of factors that are
+        given as they are.
+    """
+    both = {
+        "Factors on the friction of the surfaces": bounds.friction,
+        "Factors on the friction of the interface": bounds.interface,
+    }
+    return [
+        (what, [(step.mathml(), step.source, step.note) for step in one.trace])
+        for what, one in both.items()
+        if one is not None and len(one.trace)
+    ]

@@ -17,6 +17,7 @@ from frames.statics.modes import modes
 if TYPE_CHECKING:
     from frames.design.codes.bounds import BoundName
     from frames.design.project.design_run import ProjectRun
+    from lir_element import LIRBearing
 
 _REACHED = {
     "displacement [m]": ("displacement", 1.0),
@@ -30,6 +31,13 @@ _REACHED = {
 ECCENTRICITY = "eccentricity"
 """Name of the table of what moved masses raise."""
 
+_FRICTIONS = (
+    "bottom surface",
+    "top surface",
+    "bottom surface, slow",
+    "top surface, slow",
+    "interface",
+)
 _COUNT = 6
 TABLES_OF_FORCES = ("member-groups", "members", "storeys", "reactions")
 """Tables that a structure has as far as it has members and levels."""
@@ -59,6 +67,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         },
         index=pd.Index(list(links), name="bearing"),
     )
+    if len(set(run.types.values())) > 1:
+        table.insert(0, "type", [run.types[name] for name in links])
     for title, (name, sign) in _REACHED.items():
         both = (*run.runs.values(), *run.moved.values())
         every = (data for each in both for data in each.values())
@@ -81,21 +91,39 @@ def friction_table(run: ProjectRun) -> pd.DataFrame:
         Rows: both surfaces at high and at low speed, and the interface (infinite: rigid slider);
         columns: bounds [-].
     """
-    nominal = next(iter(run.frame.bearings.values())).bearing
-    columns: dict[str, list[float]] = {}
-    bounds: tuple[BoundName, ...] = ("lower", "nominal", "upper")
-    for bound in bounds:
-        device = with_property_bounds(nominal, bound, run.bounds)
-        fast, slow = (
-            [law.f_max for law in device.frictions],
-            [law.f_min for law in device.frictions],
-        )
-        columns[bound] = [*fast, *slow, device.interface_friction]
-    index = pd.Index(
-        ["bottom surface", "top surface", "bottom surface, slow", "top surface, slow", "interface"],
-        name="friction coefficient",
-    )
-    return pd.DataFrame(columns, index=index)
+    tables = []
+    for kind, nominal in devices_by_type(run).items():
+        columns: dict[str, list[float]] = {}
+        bounds: tuple[BoundName, ...] = ("lower", "nominal", "upper")
+        for bound in bounds:
+            device = with_property_bounds(nominal, bound, run.bounds)
+            fast, slow = (
+                [law.f_max for law in device.frictions],
+                [law.f_min for law in device.frictions],
+            )
+            columns[bound] = [*fast, *slow, device.interface_friction]
+        rows = [f"{row}, {kind}" if kind else row for row in _FRICTIONS]
+        tables.append(pd.DataFrame(columns, index=pd.Index(rows, name="friction coefficient")))
+    return pd.concat(tables)
+
+
+def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
+    """Return a bearing of each type, the type's name "" where there is one alone.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    dict of str to LIRBearing
+        Friction nominal.
+    """
+    found: dict[str, LIRBearing] = {}
+    for name, link in run.frame.bearings.items():
+        found.setdefault(run.types.get(name, ""), link.bearing)
+    return found if len(found) > 1 else {"": next(iter(found.values()))}
 
 
 def mode_table(run: ProjectRun) -> pd.DataFrame:

@@ -13,8 +13,8 @@ from frames.design.report.cover import cover_of, css_string
 from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import what_governs
-from frames.design.report.judged import judged
-from frames.design.report.numbers import ECCENTRICITY
+from frames.design.report.judged import factor_steps, judged
+from frames.design.report.numbers import ECCENTRICITY, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -107,7 +107,10 @@ def report_in(
         model=words.table(model_table(run.model)),
         loads=fit(loads_table(run.model)),
         notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
-        bearing=words.table(device_table(device)),
+        factors=factor_steps(run.bounds),
+        devices=[
+            (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
+        ],
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
