@@ -23,9 +23,13 @@ Edge = tuple[str, str]
 
 @dataclass
 class Mesh:
-    """Elements of shells: the area each belongs to, and its nodes in order (3 or 4)."""
+    """Elements of shells: the area each belongs to, and its nodes in order (3 or 4).
+
+    `between` has the nodes made along edges, and the two corners each lies between.
+    """
 
     elements: list[tuple[str, tuple[str, ...]]] = field(default_factory=list)
+    between: dict[str, tuple[str, str]] = field(default_factory=dict)
 
     def of(self, area: str) -> list[tuple[str, ...]]:
         """Return the elements of an area."""
@@ -68,8 +72,11 @@ def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh
             )
             raise ModelError(message)
     cuts = _cuts(areas, points, size)
+    joints = set(points)
     names = {edge: _names(edge, shares, points) for edge, shares in cuts.items()}
     mesh = Mesh()
+    for edge, along in names.items():
+        mesh.between |= {node: edge for node in along if node not in joints}
     for area in areas:
         if len(area.joints) == 4:
             _quad(area, names, cuts, points, mesh)

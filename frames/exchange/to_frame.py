@@ -68,6 +68,7 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     add_members(frame, divided, sections)
     _add_shells(frame, building, mesh)
     add_supports(frame, building, places, options)
+    _hold_edges(frame, building, places, mesh)
     _hold_pins(frame, building, divided, mesh)
     Links(frame, building, places).add()
     add_constraints(frame, building, places, options)
@@ -234,6 +235,24 @@ def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
         what = f"shells, in {len(mesh.elements)} elements of OpenSees"
         building.account.read_as("areas", what, areas, *Shares(building).of(areas))
+
+
+def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Mesh) -> None:
+    # Nodes of a mesh along an edge whose corners are both held: held as they are.
+    fixed, free = [], []
+    for node, (one, two) in mesh.between.items():
+        both = set(building.restraints.get(one, ())) & set(building.restraints.get(two, ()))
+        if not both:
+            continue
+        if one in places.joints or two in places.joints:
+            free.append(node)
+        else:
+            frame.fix(node, *sorted(both))
+            fixed.append(node)
+    what = "nodes of the mesh along edges whose corners are supports, held as these"
+    building.account.read_as("supports", what, fixed)
+    what = "nodes of the mesh along edges whose corners stand on bearings, free between these"
+    building.account.read_as("supports", what, free)
 
 
 def _hold_pins(frame: FrameEditor, building: Building, divided: list[Divided], mesh: Mesh) -> None:

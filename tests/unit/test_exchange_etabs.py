@@ -131,6 +131,18 @@ def test_a_semirigid_floor_is_shells(tmp_path: Path) -> None:
     assert_allclose(frame.check().weight, rigid.check().weight, rtol=1e-9)
 
 
+def test_the_foot_of_a_wall_is_held_between_its_corners(tmp_path: Path) -> None:
+    opensees().wipe()
+    path = written(tmp_path, etabs_models.building(walls=True))
+    frame = Frame.from_etabs(path, mesh=1.5)
+    feet = [name for name, node in frame.nodes.items() if node.z == 0.0 and "~" in name]
+    assert len(feet) == 2 * 3  # two walls 6 m long, in four parts
+    assert all(len(frame.fixed_dofs[name]) == 6 for name in feet)
+    isolated = Frame.from_etabs(path, BEARING, mesh=1.5)
+    assert not set(feet) & set(isolated.fixed_dofs)
+    assert "corners stand on bearings, free between these" in str(isolated.imported)
+
+
 def test_bearings_stand_under_the_supports(tmp_path: Path) -> None:
     frame = Frame.from_etabs(written(tmp_path, TEXT), BEARING, loads="G")
     assert list(frame.bearings) == [f"bearing-{k}-Base" for k in range(1, 5)]
