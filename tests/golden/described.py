@@ -4,7 +4,7 @@ import math
 
 STEELS = {"S": 210, "A": 200}  # GPa, by the first letter of a grade
 COMBINATIONS = {  # of dead load, live load and snow, without S_MS
-    "ASCE 7-22": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.2), "minimum": (0.9, 0, 0)},
+    "ASCE 7-22": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.15), "minimum": (0.9, 0, 0)},
     "EN 1998": {"average": (1.0, 0.3, 0.0), "maximum": (1.0, 0.3, 0.2), "minimum": (1.0, 0, 0)},
     "NCh2745": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.2), "minimum": (0.8, 0, 0)},
 }

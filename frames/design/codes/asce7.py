@@ -383,7 +383,7 @@ CODE = DesignCode(
             "ASCE 7-22", "RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3", (0.75, 1.25), fault_axes=True
         ),
         ScalingRule(
-            "ASCE 7-10", "SRSS", 1.0, 0.0, 7, "ASCE 7-10 17.3.2", (0.75, 1.25), fault_axes=True
+            "ASCE 7-16", "SRSS", 1.0, 0.0, 7, "ASCE 7-16 17.3.3", (0.75, 1.25), fault_axes=True
         ),
     ),
     histories=HistoryRules(
