@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Literal, Self
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, Self, cast
 
 from frames._errors import ModelError, ModelWarning
 from frames.model.editing import FrameEditor
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from frames.exchange.account import Account
+    from frames.exchange.building import Building
+    from frames.exchange.options import BaseRotations, Options
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
@@ -151,6 +158,208 @@ class Frame(FrameEditor):
         for note in taken.notes:
             warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=2)
         return frame
+
+    @classmethod
+    def from_sap2000(
+        cls,
+        path: str | Path,
+        bearing: LIRBearing | Mapping[str, LIRBearing] | None = None,
+        *,
+        at: Sequence[str] | None = None,
+        loads: Mapping[str, float] | str | None = None,
+        mass: Mapping[str, float] | None = None,
+        allow: Collection[str] = (),
+        mesh: float = 1.25,
+        base_rotations: BaseRotations = "kept",
+        base_diaphragm: bool = True,
+        decimal: Literal[".", ","] = ".",
+        name: str | None = None,
+    ) -> Self:
+        """Read a SAP2000 model, and put it on bearings; docs/exchange.md says what is read and how.
+
+        Parameters
+        ----------
+        path : str or Path
+            A .s2k or .$2k text file, or an .xlsx workbook with the same tables.
+        bearing : LIRBearing or mapping, optional
+            One for all joints that are restrained vertically and in plan, or one by name of a
+            group, joint, link or link property. None: supports and links as the file has them.
+        at : sequence of str, optional
+            Groups, joints, links or link properties at which the one bearing stands.
+        loads : mapping or str, optional
+            Permanent loads: factors by load pattern, or the name of a combination of static loads.
+            "all": dead, live and snow patterns in full, as the cases "D", "L" and "S" that codes
+            combine. None: dead loads, and others by their share in the mass source.
+        mass : mapping, optional
+            Shares of load patterns that are mass, instead of the file's mass source.
+        allow : collection of str
+            What may be left out although it changes the answer, by the key in the refusal.
+        mesh : float
+            Longest side of the shell elements of walls and slabs [m].
+        base_rotations : {"kept", "free", "fixed"}
+            Rotations of joints on bearings about horizontal axes: as the supports hold them, free,
+            or held.
+        base_diaphragm : bool
+            Whether joints on bearings at one elevation move in plan as one rigid body.
+        decimal : {".", ","}
+            Decimal sign of a text file.
+        name : str, optional
+            Name of the frame; that of the file if None.
+
+        Returns
+        -------
+        Frame
+            Nodes and members have the names of joints and frame objects; `imported` says what was
+            read, what as something else, and what was left out.
+
+        Raises
+        ------
+        ModelError
+            If the file cannot be used, or holds what would change the answer if left out: the
+            message has line, table and remedy.
+        ImportError
+            If openseespy, which has the shells, or openpyxl, which reads workbooks, is needed and
+            not installed.
+        """
+        from frames.exchange.options import Options
+        from frames.exchange.sap2000 import read_sap2000
+
+        options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
+        return cls._of(read_sap2000(path, allow=allow, decimal=decimal), options, name)
+
+    @classmethod
+    def from_etabs(
+        cls,
+        path: str | Path,
+        bearing: LIRBearing | Mapping[str, LIRBearing] | None = None,
+        *,
+        at: Sequence[str] | None = None,
+        loads: Mapping[str, float] | str | None = None,
+        mass: Mapping[str, float] | None = None,
+        allow: Collection[str] = (),
+        mesh: float = 1.25,
+        base_rotations: BaseRotations = "kept",
+        base_diaphragm: bool = True,
+        decimal: Literal[".", ","] = ".",
+        name: str | None = None,
+    ) -> Self:
+        """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
+
+        Parameters
+        ----------
+        path : str or Path
+            A .e2k or .$et text file.
+        bearing, at, loads, mass, allow, mesh, base_rotations, base_diaphragm, decimal, name
+            As in `from_sap2000`; joints are named by point and story, "12-Story2".
+
+        Returns
+        -------
+        Frame
+            Nodes are points at stories, members lines at stories, "C1-Story2"; levels are the
+            stories. `imported` says what was read, what as something else, what was left out.
+
+        Raises
+        ------
+        ModelError
+            If the file cannot be used, or holds what would change the answer if left out: the
+            message has line, section and remedy.
+        ImportError
+            If openseespy, which has the shells, is needed and not installed.
+        """
+        from frames.exchange.etabs import read_etabs
+        from frames.exchange.options import Options
+
+        options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
+        return cls._of(read_etabs(path, allow=allow, decimal=decimal), options, name)
+
+    @classmethod
+    def _of(cls, building: Building, options: Options, name: str | None) -> Self:
+        from frames.exchange.to_frame import fill
+
+        frame = cls(building.name if name is None else name)
+        fill(frame, building, options)
+        frame._imported = building.account
+        return frame
+
+    def to_sap2000(
+        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
+    ) -> None:
+        """Write the frame as SAP2000's text tables, to check one program by the other.
+
+        Parameters
+        ----------
+        path : str or Path
+            The .s2k file.
+        displacement : float, optional
+            Of the equivalent-linear analysis [m]: bearings become friction isolator links with
+            their effective stiffness and damping at it. Needed where there are bearings.
+        units : str
+            Units of the file.
+
+        Raises
+        ------
+        ModelError
+            If the frame has superelements, nonlinear links, plastic hinges, or something else that
+            the tables cannot hold; the message names it.
+
+        Notes
+        -----
+        Weights of masses and members are loads of joints, as here, not self weight. A link has the
+        radius, Q/W by the speed and the axial stiffness of its bearing
+        (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
+        write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
+        """
+        from frames.exchange.write_sap2000 import Writer, text_of
+
+        text = text_of(Writer(self, displacement, units).tables())
+        Path(path).write_text(text, encoding="utf-8", newline="")
+
+    def program_tables(
+        self, data: xr.Dataset | Mapping[str, xr.Dataset], *, units: str = "KN, m"
+    ) -> dict[str, pd.DataFrame]:
+        """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
+
+        Parameters
+        ----------
+        data : xarray.Dataset or mapping
+            Of `time_history` with this frame; or several by name of the output case.
+        units : str
+            Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
+
+        Returns
+        -------
+        dict of str to pandas.DataFrame
+            "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames"
+            and "Story Drifts", as far as the model has them; `write_tables` writes them as a
+            workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case,
+            whose values are not of one instant; stations at the ends of members, signs by axes
+            1, 2 and 3 (docs/exchange.md).
+
+        Raises
+        ------
+        ModelError
+            If the frame is not the one that was analysed, or the units are not known.
+        ValueError
+            If the recording does not have what is needed.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from frames import GroundMotion, moment_frame, time_history
+        >>> from frames.demo import bearing_for
+        >>> frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3))
+        >>> data = time_history(frame, GroundMotion(x=np.ones(11), dt=0.01))
+        >>> list(frame.program_tables(data)["Element Forces - Frames"])[:6]
+        ['Frame', 'Station', 'OutputCase', 'CaseType', 'StepType', 'P']
+        """
+        from frames.recording.program_tables import program_tables
+
+        return program_tables(self, data, units=units)
+
+    @property
+    def imported(self) -> Account | None:
+        """What became of the file that the frame was read from; None of one that was built."""
+        return cast("Account | None", self._imported)
 
     def check(self, motion: GroundMotion | None = None) -> ModelCheck:
         """Add the model up, and say what looks as if given in other units or put in a wrong place.

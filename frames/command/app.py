@@ -12,19 +12,22 @@ import typer
 from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
+from frames.command.comparing import compare
 from frames.command.console import FAILED_CHECKS, err, out, say, told
 from frames.command.designing import propose
 from frames.command.viewing import view
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import CONFIRMED, Checks
 from frames.design.histories.demand_table import headed, void_said
-from frames.design.project.design_run import ProjectRun, compare_devices, evaluate_run, run_project
+from frames.design.project.bearing_types import columns_by_type
+from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
 from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import said_of_runs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
+from frames.design.project.structure_statement import structure_rows
 from frames.design.report.tables import rows_of
 from lir_element.errors import AnalysisInterrupted
 from lir_element.results.dataset import package_version
@@ -86,7 +89,9 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
-        say(f"{len(ground.frame.bearings)} bearings")
+        say(text_table(structure_rows(parts.file, ground.frame), left=2))
+        for kind, columns in columns_by_type(ground.types).items():
+            say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
@@ -132,9 +137,16 @@ def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
+    language: Annotated[
+        str, typer.Option(help="Of the report, in place of the file's: en or es.")
+    ] = "",
+    pdf: Annotated[
+        bool, typer.Option("--pdf", help="Print it as well: report.pdf, by Chromium.")
+    ] = False,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
     from frames.design.report.files import read_histories, write_judgement
+    from frames.design.report.printing import print_report
 
     with told():
         parts = _parts(file)
@@ -147,7 +159,9 @@ def report(
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = file.read_text(encoding="utf-8")
-        written = write_judgement(found, results, source, figures=figures)
+        written = write_judgement(found, results, source, figures=figures, language=language)
+        if pdf:
+            written.append(print_report(results / "report.html", results / "report.pdf"))
         _told_of(found, written, results)
 
 
@@ -158,17 +172,18 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     _frame_table("Demands", headed(found.demands))
     if void := void_said(found.demands):
         say(f"no values for design, only what runs reached: {void}")
+    if found.moved:
+        every = [data for each in found.moved.values() for data in each.values()]
+        seconds = float(every[0].attrs["seconds"])  # of all of them: one batch
+        count = sum(data.sizes["run"] for data in every)
+        say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 
 
-@app.command()
-def compare(file: File = FILE) -> None:
-    """Compare the LIR-DCFP with the same bearing and a rigid slider, the plain DCFP."""
-    with told():
-        _frame_table("Envelope over bounds", compare_devices(_parts(file), progress=True))
+app.command()(compare)
 
 
 @app.command()

@@ -6,36 +6,65 @@ What they need is imported in them: the other commands start without it.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from frames.command.console import FAILED_ANALYSIS, INTERRUPTED, err, say, told
 from frames.design._errors import ProjectError
 
+if TYPE_CHECKING:
+    from frames.risk.campaign.campaign import Campaign
+
 
 def campaign(
     file: Annotated[Path, typer.Argument(help="The campaign's file.")],
     store: Annotated[Path | None, typer.Option(help="Folder for the results.")] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Runs at a time.")] = None,
+    figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
 ) -> None:
-    """Run a campaign, or go on with it: models, motions, scales and parameters of a file."""
+    """Run a campaign, or go on with it: models, motions, scales and parameters of a file.
+
+    Among the results a page, campaign.html, with its tables: runs, failures, responses, fragility.
+    """
     with told():
         _require_packages()
         from frames.risk.campaign.file import read_campaign, workers_of
 
         found = read_campaign(file, store=store)
         say(str(found))
-        try:
-            found.run(workers=workers or workers_of(file), progress=True)
-        except KeyboardInterrupt as cause:
-            done = found.status() if found.store.exists else "nothing was run"
-            say(f"\ninterrupted: {done}; the same command goes on")
-            raise typer.Exit(INTERRUPTED) from cause
-        except OSError as cause:
-            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
-            raise typer.Exit(FAILED_ANALYSIS) from cause
+        _run(found, workers or workers_of(file))
+        _write(found, file, figures=figures)
         say(f"{found.status()}\nresults in {found.store.path}, digest {found.digest()[:16]}")
+
+
+def _run(found: Campaign, workers: int | None) -> None:
+    # Leaves with the code of what stopped it.
+    try:
+        found.run(workers=workers, progress=True)
+    except KeyboardInterrupt as cause:
+        done = found.status() if found.store.exists else "nothing was run"
+        say(f"\ninterrupted: {done}; the same command goes on")
+        raise typer.Exit(INTERRUPTED) from cause
+    except OSError as cause:
+        err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(FAILED_ANALYSIS) from cause
+
+
+def _write(found: Campaign, file: Path, *, figures: bool) -> None:
+    from frames.risk.campaign.file import fragility_in
+    from frames.risk.campaign.page import write_page  # with figures
+
+    asked = fragility_in(file)
+    written = write_page(
+        found,
+        found.store.path / "campaign.html",
+        file.read_text(encoding="utf-8"),
+        limits=() if asked is None else asked.limits(),
+        intensity=None if asked is None else asked.measured(),
+        figures=figures,
+    )
+    say(f"page {written[0]}, tables {', '.join(path.name for path in written[1:])}")
 
 
 def campaign_status(

@@ -6,12 +6,20 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+import pandas as pd
 import typer
 
 from frames.command.console import say, told
 from frames.design._errors import ProjectError
 from frames.design.project.inputs import ProjectInputs
+from frames.design.project.level_runs import said_of_runs
 from frames.design.project.reading import read_project
+from frames.design.project.verification import (
+    Verified,
+    section_of,
+    verification_table,
+    verified,
+)
 from frames.design.report.tables import in_mm_and_kn, rows_of
 from frames.design.sizing.proposal import Design, design
 from frames.design.sizing.selection import NoCandidateError, Objective, table_of
@@ -19,8 +27,6 @@ from lir_element.tables import text_table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import pandas as pd
 
     from frames.design.sizing.candidate import Candidate
     from frames.design.sizing.target import DesignTarget
@@ -58,23 +64,33 @@ def propose(
             "cost-like (volume of all bearings).",
         ),
     ] = "base-shear",
-    top: Annotated[int, typer.Option(min=1, help="How many of the best are listed.")] = 3,
-    results: Annotated[Path, typer.Option(help="Folder for table and picture.")] = Path("design"),
+    top: Annotated[
+        int, typer.Option(min=1, help="How many of the best are listed, and verified.")
+    ] = 3,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Run the time histories of the best as well.")
+    ] = False,
+    results: Annotated[Path, typer.Option(help="Folder for tables and picture.")] = Path("design"),
 ) -> None:
     """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file.
 
-    All candidates, with why each fell out, are in candidates.csv and candidates.png.
+    All candidates, with why each fell out, are in candidates.csv and candidates.png. With --verify
+    the best are put to the time histories and checks of the project: verified.csv.
     """
     with told():
         least = _objective(objective)
+        _require_one_size(verify, sizes)
         parts = ProjectInputs(read_project(file), file.resolve().parent)
         target = parts.target()
         found = _found(parts, target, sizes, least, results)
         say(f"{found}\n")
         _summary(found, objective, top)
         _written(found.candidates, found, target, results)
-        for text in sections(found.chosen):
-            say(f"\n{text}")
+        chosen = found.chosen
+        if verify:
+            chosen = _verify(parts, found.ranked[:top], results) or chosen
+        for bearing in chosen.bearings:
+            say(f"\n{section_of(bearing)}")
 
 
 def _found(
@@ -84,7 +100,7 @@ def _found(
     frame = parts.provisional_frame()
     try:
         return design(
-            frame,
+            parts.system(frame, parts.spectrum()),
             parts.spectrum(),
             bounds=parts.bounds(),
             target=target,
@@ -99,17 +115,42 @@ def _found(
         raise
 
 
-def sections(chosen: Candidate) -> list[str]:
-    """Return each proposed bearing as it stands in a project's file."""
-    return [
-        f'[bearing]\nradius = "{one.radii[0]:g} m"\n'
-        f'slider_height = "{1e3 * one.slider_height:.0f} mm"\n'
-        f'slider_radius = "{1e3 * one.slider_radius:.0f} mm"\n'
-        f'capacity = "{1e3 * one.lateral_capacity:.0f} mm"\n'
-        f"friction = {one.frictions[0].f_max:g}\n"
-        f"interface_friction = {one.interface_friction:g}\n"
-        for one in chosen.bearings
-    ]
+def _verify(
+    parts: ProjectInputs, candidates: Sequence[Candidate], folder: Path
+) -> Candidate | None:
+    # The first of which no check fails, told as they are done; None without.
+    say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
+    done: list[Verified] = []
+    for one in verified(parts, candidates, progress=True):
+        done.append(one)
+        verification_table(done).to_csv(folder / "verified.csv", index=False)
+        say(f"\n{_said(one)}")
+    table = verification_table(done).drop(columns="fails")
+    table.index = pd.Index(range(1, len(table) + 1))
+    shown = in_mm_and_kn(table.rename(columns={"radius [m]": "radius (m)"}))
+    say(f"\n{text_table(rows_of(shown), ('', *map(str, shown.columns)))}")
+    say(f"\nenvelopes over the bounds, in SI units with what fails: {folder / 'verified.csv'}")
+    best = next((one.candidate for one in done if one.passed), None)
+    if best is None:
+        say("\nnone passes all checks of the time histories: the section below is of the first")
+    else:
+        who = f"radius {best.radius:g} m, friction {best.friction.f_max:g}"
+        say(f"\nthe first that passes all checks: {who}")
+    return best
+
+
+def _said(one: Verified) -> str:
+    who = f"radius {one.candidate.radius:g} m, friction {one.candidate.friction.f_max:g}"
+    if one.run is None:
+        return f"{who}: cannot be run: {one.reason}"
+    fails = one.row()["fails"]
+    return f"{who}: {one.run.checks.tally}{f': {fails}' if fails else ''}"
+
+
+def _require_one_size(verify: bool, sizes: int) -> None:
+    if verify and sizes > 1:
+        msg = f"--verify with --sizes {sizes}: [bearing] of a project has one size, leave one out"
+        raise ProjectError(msg)
 
 
 def _objective(word: str) -> Objective:

@@ -126,7 +126,7 @@ def moment_frame(
     height = require_positive("moment_frame: storey_height [m]", storey_height, error=ModelError)
     area = count[0] * width[0] * count[1] * width[1]
     per_area = _mass_per_area(floor_mass, floor_load, area)
-    masses = _masses(count, width, per_area, eccentricity)
+    masses = tributary_masses(count, width, per_area, eccentricity)
     frame = Frame(name, gravity)
     places = [(ix, iy) for ix in range(count[0] + 1) for iy in range(count[1] + 1)]
     z = bearing_grid(frame, bearing, places, width, (0.0, 0.0))
@@ -161,13 +161,36 @@ def _add_hinges(frame: Frame, hinges: Mapping[str, PlasticHinge]) -> None:
                 frame.add_hinges(name, hinge)
 
 
-def _masses(
+def tributary_masses(
     bays: tuple[int, ...],
     width: tuple[float, float],
     per_area: float,
     eccentricity: tuple[float, float],
 ) -> dict[tuple[int, int], float]:
-    # Masses of a floor's nodes [kg]: by tributary area, tilted so that their centre is off.
+    """Return the masses of the nodes of a floor, by tributary area.
+
+    Parameters
+    ----------
+    bays : tuple of two ints
+        Numbers of bays along x and y.
+    width : tuple of two floats
+        Bay widths along x and y [m].
+    per_area : float
+        Mass of the floor [kg/m2].
+    eccentricity : tuple of two floats
+        Of the centre of mass from the middle, over the sides of the plan [-]: the masses rise
+        linearly towards it.
+
+    Returns
+    -------
+    dict of (int, int) to float
+        Mass at each place (ix, iy) [kg].
+
+    Raises
+    ------
+    ModelError
+        If the eccentricity would leave columns without mass.
+    """
     shares, places = [], []  # of each direction: masses of its lines, and lines from the middle
     for n, span, off in zip(bays, width, eccentricity, strict=True):
         ratio = require_finite("moment_frame: eccentricity [-]", off, error=ModelError)

@@ -73,6 +73,7 @@ class FrameData:
         self._mass_source: dict[str, float] = {}
         self._weight_factor = 1.0
         self._damping: Damping | None = None
+        self._imported: object | None = None  # the account of an import
 
     def __getstate__(self) -> dict[str, Any]:
         # dicts of its own, so that what is added to a copy is not added to the original

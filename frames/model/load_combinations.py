@@ -20,8 +20,10 @@ if TYPE_CHECKING:
 def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
     r"""Return the gravity parts of the vertical load combinations for isolators of ASCE 7-22.
 
-    Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.2 S; minimum 0.9 D - E_v, where
+    Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.15 S; minimum 0.9 D - E_v, where
     :math:`E_v = 0.2 S_{MS} D`. The horizontal earthquake is what the time history adds.
+    Snow is that of ASCE 7-22, whose loads are of strength level, with its factor of sec. 2.3.6;
+    ASCE 7-16 has 0.2 on its own, lower snow loads: give such factors to `Frame.combined`.
     Source: ASCE/SEI 7-22, sec. 17.2.7.1; compare with the edition that you design by.
 
     Parameters
@@ -39,12 +41,12 @@ def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
     Examples
     --------
     >>> isolator_combinations()["maximum"]
-    {'D': 1.2, 'L': 1.0, 'S': 0.2}
+    {'D': 1.2, 'L': 1.0, 'S': 0.15}
     """
     part = 0.2 * require_non_negative("s_ms [g]", s_ms)
     return {
         "average": {"D": 1.0, "L": 0.5, "S": 0.0},
-        "maximum": {"D": 1.2 + part, "L": 1.0, "S": 0.2},
+        "maximum": {"D": 1.2 + part, "L": 1.0, "S": 0.15},
         "minimum": {"D": 0.9 - part, "L": 0.0, "S": 0.0},
     }
 

@@ -89,6 +89,19 @@ def spectrum(code, given, period, damping=0.05):
     return ZONE[given["zone"]] * sa / b
 
 
+def dead_shares(project):
+    """Return the multiples of dead load in the maximum and minimum combination; none where none is.
+
+    The projects' floors have no other load, so that loads of the bearings are nearly multiples of
+    those on average.
+    """
+    given = project.file["spectrum"]
+    if "s_ms" in given:
+        part = 0.2 * given["s_ms"]
+        return 1.2 + part, 0.9 - part
+    return ()
+
+
 class System:
     """Bearings at one bound with what rests on them."""
 
@@ -98,7 +111,9 @@ class System:
         self.x = np.array([float(row["x [m]"]) for row in rows])
         self.y = np.array([float(row["y [m]"]) for row in rows])
         self.names = [row["bearing"] for row in rows]
-        self.W, self.L = self.P.sum(), project.bearing.L
+        own = G * statics["node_mass"][:, 0].sum()  # the mass that loads are
+        self.W = own if "loads" in project.file else self.P.sum()
+        self.L = project.bearing.L
         share = project.bearing.share(project.bearing.fast)
         self.mu, self.mu_nominal = share * project.outer[bound], share
         self.mu_upper = share * project.outer["upper"]
@@ -189,7 +204,7 @@ def asce(s, given, above):
     r_i = min(max(0.375 * above["R"], 1.0), 2.0)
     ds, d1, i_e = 2.0 / 3.0 * given["s_ms"], 2.0 / 3.0 * given["s_m1"], above["importance"]
     fixed = max(min(ds, d1 / period) * i_e / above["R"], 0.044 * ds * i_e, 0.01) * above["W_s"]
-    sliding = max(s.mu_upper * s.W, 1.5 * s.mu_nominal * s.W)
+    sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
     prime = moved / math.sqrt(1.0 + (above["T_fb"] / period) ** 2)
     return found | {
         "V_s": max(v_st / r_i, fixed, above["wind"], sliding),
@@ -260,7 +275,7 @@ def nch(s, given, above):
     }
     if above is not None:
         r_1 = max(min(above["R"], 2.0), 1.0)
-        sliding = max(s.mu_upper * s.W, 1.5 * s.mu_nominal * s.W)
+        sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
         found["V_s"] = max(shear / r_1, above["wind"], sliding)
     return found
 

@@ -2,6 +2,7 @@
 
 import math
 
+import codes
 import numpy as np
 
 MEAN_FROM = 7
@@ -263,10 +264,8 @@ def asked(project, suites_):
     b = project.bearing
     system = next(iter(project.linear.values()))["system"]
     loads = list(system.P)
-    given = project.file["spectrum"]
-    if "s_ms" in given and not unknown_loads(project):
-        part = 0.2 * given["s_ms"]
-        loads += [*(system.P * (1.2 + part)), *(system.P * (0.9 - part))]
+    if not unknown_loads(project):
+        loads += [load for share in codes.dead_shares(project) for load in system.P * share]
     void = any(suite.void for suite in suites_.values())
     for suite in suites_.values():
         loads.append(suite.of("axial_force").max())

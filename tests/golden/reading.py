@@ -29,6 +29,8 @@ UNITS = {
     "s/m": 1.0,
     "s": 1.0,
     "kg/m2": 1.0,
+    "kN/m2": 1e3,
+    "kN/m": 1e3,
     "%": 1e-2,
 }
 
@@ -173,7 +175,8 @@ class Tables(html.parser.HTMLParser):
 
 
 def tables_of(text):
-    """Return the tables of a report as (heading, head, rows)."""
+    """Return the tables of a report as (heading, head, rows), without the cover's."""
     parser = Tables()
     parser.feed(text)
-    return [(heading.strip(), rows[0], rows[1:]) for heading, rows in parser.tables if rows]
+    under = ((heading.strip(), rows) for heading, rows in parser.tables)
+    return [(heading, rows[0], rows[1:]) for heading, rows in under if rows and heading]

@@ -14,6 +14,7 @@ import sys
 import checks
 import codes
 import demands
+import forces
 import histories
 import motions
 import report
@@ -27,6 +28,7 @@ def review(folder):
     project.peaks = histories.compare(project, tally)
     project.linear = codes.compare(project, tally)
     project.suites = demands.compare(project, tally)
+    forces.compare(project, tally)
     motions.compare(project, tally)
     checks.compare(project, tally)
     report.compare(project, tally)

@@ -1,7 +1,7 @@
 """Uplift under every code, limits of a project beside those of codes, slip under gamma_x."""
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,9 @@ import xarray as xr
 
 from frames import Frame, GroundMotion, lumped_mass, shear_building, time_histories
 from frames.design import Check, CheckError, Checks, DesignLimits, history_checks, overlap_area
+from frames.design.histories.level_margins import doubted
 from frames.plots.bearing_geometry import _RIM_SHARE, rim_height
-from lir_element import LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 CODES = (("ASCE 7-22", ""), ("EN 1998-1", ""), ("NCh2745", "maximum"))
 RIMS = "maximum uplift over the rim height"
@@ -134,6 +135,38 @@ def test_a_limit_of_the_project_stands_beside_that_of_the_code(
     assert one(europe, "storey drift ratio").clause == "no code: limit of the project"
     plain = history_checks(runs, frame, "ASCE 7-22", limits=DesignLimits(base_shear=1e9))
     assert one(plain, "base shear").clause == "no code: limit of the project"
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.75, True), (0.70, False)])
+def test_displacement_says_when_its_level_may_have_more_wrong_than_its_margin(
+    bearing: LIRBearing, runs: xr.Dataset, share: float, said: bool
+) -> None:
+    """Unlike friction: 29 % over the right value, so that 0.75 may be 0.75 / 0.71 = 1.056."""
+    friction = CoulombFriction(0.03), CoulombFriction(0.16)
+    unlike = replace(bearing, friction=friction, interface_friction=0.3)
+    alone = lumped_mass(unlike, 180e3)
+    title = "isolator displacement"
+    limit = one(history_checks(runs, alone, "ASCE 7-22"), title).limit
+    nothing = 0.0 * runs["reached_displacement"]
+    tipped = runs.assign(
+        reached_displacement=nothing + share * limit, reached_eccentricity=nothing + 0.4
+    )
+    check = one(history_checks(tipped, alone, "ASCE 7-22"), title)
+    assert check.passed
+    assert check.demand == pytest.approx(share * limit)
+    words = "the displacement may be off by 29 %, more than its margin"
+    assert (words in check.note) == said
+    solid = tipped.assign_attrs(level="contact")
+    assert words not in one(history_checks(solid, alone, "ASCE 7-22"), title).note
+
+
+def test_an_error_of_the_right_value_may_hide_any_demand() -> None:
+    """2.2 times the right value, or e of it: 1 / (1 - e), and from e = 1 on no bound at all."""
+    check = Check(clause="x", title="slip", demand=0.01, limit=1.0, subject="A")
+    assert "off by 220 %" in doubted([check], {"A": 2.2}, "interface slip")[0].note
+    assert doubted([check], {"A": 0.98}, "slip") == [check]  # 0.01 / 0.02 = 0.5
+    assert doubted([check], {"A": 0.995}, "slip")[0].note  # 0.01 / 0.005 = 2
+    assert doubted([check], {"A": 0.0}, "slip") == [check]
 
 
 def test_limits_have_bounds() -> None:

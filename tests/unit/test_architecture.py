@@ -85,6 +85,7 @@ FLOORS = (
     "frames.opensees",
     "frames.statics",
     "frames.library",
+    "frames.exchange",
     "frames.recording",
     "frames.solve",
     "frames.batch",

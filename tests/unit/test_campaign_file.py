@@ -67,7 +67,7 @@ def folder(tmp_path: Path, put_example: Callable[..., Path]) -> Path:
 
 def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
     file = str(folder / "friction.toml")
-    first = run(app, ["campaign", file])
+    first = run(app, ["campaign", "--no-figures", file])
     assert first.exit_code == 0, first.output
     assert "16 runs = 2 models x 4 sets of parameters x 1 motions x 2 scales" in first.output
     assert "16 of 16 runs done: 16 ok" in first.output
@@ -80,7 +80,8 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
     assert sorted(np.unique(data["radius"].to_numpy())) == [1.5, 2.0]
     slip = data["reached_slip"].max("bearing")
     assert float(slip.where(data["model"] == "DCFP").max()) == 0.0
-    assert run(app, ["campaign", file]).output.splitlines()[-1] == first.output.splitlines()[-1]
+    again = run(app, ["campaign", "--no-figures", file])
+    assert again.output.splitlines()[-1] == first.output.splitlines()[-1]
     (folder / "friction.toml").write_text(FILE.replace("seed = 3", "seed = 4"))
     other = run(app, ["campaign", file])
     assert other.exit_code == 2
@@ -139,3 +140,31 @@ def test_distributions_are_those_of_the_file(folder: Path) -> None:
     assert sorted((shares * 64.0).astype(int)) == list(range(64))
     logs = np.log2(columns["capacity"] / 0.2)
     assert sorted((logs * 64.0).astype(int)) == list(range(64))
+
+
+def test_a_frame_with_loads(folder: Path) -> None:
+    """Half of the live load weighs, and what the file says is mass."""
+    text = (
+        FILE.partition("[structure]")[0]
+        + """
+[structure]
+kind = "moment frame"
+bays = [1, 1]
+bay_width = ["6 m", "5 m"]
+storeys = 1
+storey_height = "3 m"
+columns = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+base_beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+[loads]
+dead = "5 kN/m2"
+live = "2 kN/m2"
+snow = "1 kN/m2"
+mass = { dead = 1.0, live = 0.25 }
+[bearing]"""
+        + FILE.partition("[bearing]")[2]
+    )
+    (folder / "loads.toml").write_text(text)
+    checked = read_campaign(folder / "loads.toml")._work.build("LIR-DCFP", 0).check()
+    assert checked.carried == pytest.approx(2 * 30.0 * (5e3 + 0.5 * 2e3))
+    assert checked.mass == pytest.approx(2 * 30.0 * (5e3 + 0.25 * 2e3) / 9.80665)

@@ -650,7 +650,7 @@ def test_what_does_not_fit_is_refused() -> None:
     points = Spectrum.given([0.1, 1.0, 3.0], [9.0, 6.0, 2.0], code="ASCE 7")
     with pytest.raises(CheckError, match="no S_MS and S_M1"):
         equivalent_linear(SYSTEM, points, bounds=None)
-    short = Spectrum.given([0.1, 1.0, 3.0], [9.0, 6.0, 2.0], code="NCh2745")
+    short = Spectrum.given([0.1, 1.0, 1.5], [9.0, 6.0, 5.0], code="NCh2745")
     with pytest.raises(MotionError, match="defined for finite periods"):
         equivalent_linear(SYSTEM, short, bounds=None)
     with pytest.raises(TypeError, match="a Spectrum"):

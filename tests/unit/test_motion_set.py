@@ -131,6 +131,7 @@ def test_a_set_is_a_mapping() -> None:
     ("rule", "measure", "part"),
     [
         ("ASCE 7-22", "RotD100", 1.0),
+        ("ASCE 7-16", "SRSS", 1.0),
         ("ASCE 7-10", "SRSS", 1.0),
         ("EN 1998-2", "SRSS", 1.3),
         ("NCh2745", "SRSS", 1.17),

@@ -97,6 +97,7 @@ def test_the_damping_factor_is_not_rounded() -> None:
 
 def test_vertical_earthquake_goes_by_s_ms_and_base_shear_by_s_ds() -> None:
     """One program takes S_DS for S_MS: E_v would be 0.2 D, not 0.3 D."""
+    assert isolator_combinations()["maximum"]["S"] == 0.15  # ASCE 7-22, 2.3.6; 7-16 has 0.2
     assert isolator_combinations(1.5)["maximum"]["D"] == pytest.approx(1.2 + 0.3)
     assert isolator_combinations(1.5)["minimum"]["D"] == pytest.approx(0.9 - 0.3)
     t = calculation()

@@ -45,7 +45,7 @@ def test_several_spectra_in_one_figure() -> None:
 
 def test_motions_their_mean_and_the_target() -> None:
     scaled = PULSES.scaled_to(
-        TARGET, rule="ASCE 7-10", periods=(1.0, 2.0), limits=(0.01, 100.0), least=3
+        TARGET, rule="ASCE 7-16", periods=(1.0, 2.0), limits=(0.01, 100.0), least=3
     )
     figure = motion_spectra(scaled, longest=4.0)
     accelerations, displacements, ratios = figure.axes
@@ -60,7 +60,7 @@ def test_motions_their_mean_and_the_target() -> None:
     np.testing.assert_allclose(ratio[1], mean[1] / target[1])
     inside = (ratio[0] >= 1.0) & (ratio[0] <= 2.0)
     assert ratio[1][inside].min() == pytest.approx(1.0, abs=0.02)
-    assert "scaled by ASCE 7-10: SRSS" in figure.legends[0].get_title().get_text()
+    assert "scaled by ASCE 7-16: SRSS" in figure.legends[0].get_title().get_text()
 
 
 def test_a_set_that_is_not_scaled() -> None:

@@ -1,11 +1,13 @@
 """The report of a run: its numbers are those of the results, and a browser shows it whole."""
 
 import base64
+import hashlib
 import math
 import re
 import shutil
 import subprocess  # noqa: S404
 from collections.abc import Callable
+from dataclasses import fields
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,12 +20,35 @@ pytest.importorskip("typer")
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 from typer.testing import CliRunner
 
-from frames import load, modes, moment_frame
+from frames import load, modes, moment_frame, save
 from frames.command.app import app
-from frames.design.report.numbers import mode_table
-from lir_element import LIRBearing
+from frames.design import HISTORY_RULES, Check
+from frames.design._errors import ProjectError
+from frames.design.project.design_run import ProjectRun, evaluate_run
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.reading import read_project
+from frames.design.report import printing
+from frames.design.report.columns import in_parts
+from frames.design.report.cover import css_string
+from frames.design.report.files import read_histories
+from frames.design.report.judged import judged
+from frames.design.report.numbers import mode_table, run_tables
+from frames.design.report.page import Table
+from frames.design.report.printing import pages_of, print_report
+from frames.design.report.suite_figures import (
+    motions_figure,
+    profiles_figure,
+    typical_bearing,
+    utilisation,
+)
+from frames.design.report.terms import TERMS, device_table
+from frames.design.report.words import Words
+from frames.design.report.writing import SECTIONS, report_in
+from lir_element import LIRBearing, VelocityFriction
 from tests.patience import patience
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
@@ -32,6 +57,8 @@ PROJECT = """
 [project]
 name = "One storey <& small>"
 code = "ASCE 7-22"
+engineer = "R. Structure"
+date = 2026-11-25
 [structure]
 kind = "shear building"
 bays = [1, 1]
@@ -79,13 +106,21 @@ def page(results: Path) -> str:
     return (results / "report.html").read_text(encoding="utf-8")
 
 
-def cells(page: str, first: str) -> list[str]:
-    """Return the cells of the row that begins with a word."""
-    for row in re.findall(r"<tr>(.*?)</tr>", page, re.S):
-        found = [unescape(c).strip() for c in re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)]
-        if found and found[0] == first:
-            return found
-    pytest.fail(f"no row {first}")
+def section(page: str, anchor: str) -> str:
+    """Return a section of the report."""
+    return page.partition(f'<h2 id="{anchor}">')[2].partition("<h2 ")[0]
+
+
+def columns(part: str, first: str) -> dict[str, str]:
+    """Return the cells of the rows that begin with a word, by the heads of all their tables."""
+    found = {}
+    for table in re.findall(r"<table.*?</table>", part, re.S):
+        heads = [unescape(c).strip() for c in re.findall(r"<th[^>]*>([^<]*)</th>", table)]
+        for row in re.findall(r"<tr>(.*?)</tr>", table, re.S):
+            cell = [unescape(c).strip() for c in re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)]
+            if cell and cell[0] == first:
+                found |= dict(zip(heads, cell, strict=True))
+    return found
 
 
 def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
@@ -94,20 +129,22 @@ def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
     heads = list(demands.columns)
     assert [head.partition(",")[0] for head in heads[1:3]] == ["lower", "upper"]
     assert all(" of " in head for head in (*heads[1:4], heads[5]))  # the statistic
-    head = page[page.index("<th>quantity</th>") :].partition("</tr>")[0]
-    assert re.findall(r"<th[^>]*>(.*?)</th>", head)[1:] == heads[:-1]
+    part = section(page, "time-histories")
     for name, row in demands.iterrows():
-        shown = cells(page, name)
+        shown = columns(part, name)
+        assert heads[1] == f"lower, {shown['values are']}"  # which statistic, in each row
         factor = factors.get(row["unit"], 1.0)
-        for text, column in zip((*shown[2:5], shown[6]), (*heads[1:4], heads[5]), strict=True):
+        names = ("lower", "upper", "envelope of these", "largest of all runs")
+        for title, column in zip(names, (*heads[1:4], heads[5]), strict=True):
+            text = shown[title]
             if text == "-":
                 assert math.isnan(row[column])
             else:
                 assert float(text) == pytest.approx(factor * row[column], rel=1e-3, abs=1e-12)
     linear = pd.read_csv(results / "equivalent-linear.csv", index_col=0)
     for bound in ("lower", "upper"):
-        shown = cells(page, bound)
-        assert float(shown[1]) == pytest.approx(
+        shown = columns(section(page, "equivalent-linear-analysis"), bound)
+        assert float(shown["displacement [mm]"]) == pytest.approx(
             1e3 * linear.loc[bound, "displacement [m]"], rel=1e-3
         )
 
@@ -117,10 +154,12 @@ def test_the_programme_of_tests_is_there(results: Path, page: str) -> None:
     demands = pd.read_csv(results / "demands.csv", index_col=0)
     assert len(table) > 20
     for number, row in table.iterrows():
-        shown = cells(page, f"{number} {row['what']}")
-        for text, name, factor in zip(
-            shown[1:3], ("displacement [m]", "vertical load [N]"), (1e3, 1e-3), strict=True
+        shown = columns(section(page, "test-programme"), f"{number} {row['what']}")
+        for title, name, factor in (
+            ("displacement [mm]", "displacement [m]", 1e3),
+            ("vertical load [kN]", "vertical load [N]", 1e-3),
         ):
+            text = shown[title]
             if text != "-":
                 assert float(text) == pytest.approx(factor * row[name], rel=1e-3)
     alone = table[table["what"].str.startswith("interface alone")]
@@ -142,7 +181,7 @@ def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> 
 
 
 def test_doubtful_input_is_named_under_the_verdict(page: str) -> None:
-    verdict = page.partition('<div class="verdict')[2].partition("</div>")[0]
+    verdict = page.partition('class="verdict')[2].partition("</div>")[0]
     assert "Doubtful input" in verdict
     assert "wind_shear = 500 kN is above" in verdict
     assert verdict.count("slides in wind") == 1
@@ -229,7 +268,8 @@ def test_it_prints(results: Path, tmp_path: Path) -> None:
 
 def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) -> None:
     """Each bearing's largest of all runs; the friction that the bounds make of the file's."""
-    runs = [load(results / f"runs-{bound}.nc") for bound in ("lower", "upper")]
+    files = (f"{kind}-{bound}.nc" for kind in ("runs", "moved") for bound in ("lower", "upper"))
+    runs = [load(results / name) for name in files]
     bearings = pd.read_csv(results / "bearings.csv", index_col=0)
     for k, name in enumerate(bearings.index):
         largest = max(float(one["reached_displacement"][:, k].max()) for one in runs)
@@ -245,7 +285,7 @@ def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) ->
 
 
 def without_date(page: str) -> str:
-    return re.sub(r"written: [^;]*;", "", page)
+    return re.sub(r"<tr><th>written</th>.*?</tr>", "", page)
 
 
 def test_it_is_written_anew_from_the_results(results: Path, page: str, tmp_path: Path) -> None:
@@ -284,6 +324,40 @@ def test_results_of_another_input_are_refused(
     assert words in " ".join(done.output.split())
 
 
+def test_forces_for_design_are_there_as_far_as_the_structure_has_them(
+    results: Path, tmp_path: Path
+) -> None:
+    """A building of springs has no members: neither their tables, nor those of an earlier run."""
+    storeys = pd.read_csv(results / "storeys.csv")
+    reactions = pd.read_csv(results / "reactions.csv")
+    assert set(storeys["bound"]) == set(reactions["bound"]) == {"lower", "upper"}
+    assert len(reactions) == 2 * 4 * 2 * 6 * 2  # bounds, bearings, sides, forces, extremes
+    resting = reactions[(reactions["force"] == "N") & (reactions["side"] == "above")]
+    weight = resting[resting["extreme"] == "max"].groupby("bound")["permanent"].sum()
+    foot = storeys[(storeys["force"] == "Fz") & (storeys["extreme"] == "max")]
+    carried = -foot.groupby("bound")["permanent"].first()
+    assert weight.to_numpy() == pytest.approx(carried.to_numpy(), rel=1e-6)
+    assert carried.to_numpy() == pytest.approx(200e3 * 9.80665, rel=1e-3)
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    kept = folder / "results"
+    (kept / "members.csv").write_text("of another structure")
+    again = ["report", str(folder / "project.toml"), "--results", str(kept), "--no-figures"]
+    assert CliRunner().invoke(app, again).exit_code in {0, 1}
+    assert not {path.name for path in kept.iterdir()} & {"members.csv", "member-groups.csv"}
+
+
+def test_results_of_a_version_without_forces_are_refused(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    path = folder / "results" / "runs-upper.nc"
+    data = load(path)
+    path.unlink()
+    save(data.drop_vars([n for n in data.data_vars if n.startswith("reached_reaction")]), path)
+    again = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    done = CliRunner().invoke(app, again)
+    assert done.exit_code == 2
+    assert "that kept no forces of members and bearings" in " ".join(done.output.split())
+
+
 def test_a_folder_without_a_run_is_refused(results: Path, tmp_path: Path) -> None:
     folder = shutil.copytree(results.parent, tmp_path / "project")
     again = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
@@ -314,3 +388,300 @@ def test_masses_of_modes_along_both_axes() -> None:
         found = modes(frame, 6, bearings="fixed" if title == "held" else title)
         assert x.tolist() == np.round(found.mass_ratios[:, 0], 4).tolist()
         assert y.tolist() == np.round(found.mass_ratios[:, 1], 4).tolist()
+
+
+def test_the_cover_has_lines_to_sign(page: str) -> None:
+    cover = page.partition('<header class="cover" id="cover">')[2].partition("</header>")[0]
+    assert re.search(r"<th>engineer</th><td>R. Structure</td>", cover)
+    assert '<th>checker</th><td><span class="sign"></span></td>' in cover
+    assert "<th>date</th><td>2026-11-25</td>" in cover
+    digest = hashlib.sha256(PROJECT.encode()).hexdigest()
+    assert f"<code>{digest}</code>" in cover
+    assert f"input {digest[:12]}" in page.partition("@page {")[2].partition("</style>")[0]
+
+
+def test_what_governs_are_the_highest_ratios(results: Path, page: str) -> None:
+    """Of each check at each level the highest one; counts and scaling aside while they pass."""
+    checks = pd.read_csv(results / "checks.csv", keep_default_na=False)
+    aside = checks["symbol"].isin(["n", "n_failed", "n_odd", "S_mean"]) & checks["passed"]
+    assert aside.sum() >= 5
+    highest = checks[~aside].groupby(["title", "level"])["ratio"].max().nlargest(10)
+    part = section(page, "summary")
+    bars = re.findall(r'class="name">(.*?)</text>', part)
+    assert [unescape(bar) for bar in bars] == [title for title, _ in highest.index]
+    ratios = re.findall(r'<text [^>]*class="ratio">([^<]*)</text>', part)[:-1]
+    assert ratios == [f"{ratio:.2f}" for ratio in highest]
+    lengths = [float(x) for x in re.findall(r'<rect [^>]*width="([\d.]+)"', part)]
+    one = float(re.findall(r'<line x1="([\d.]+)"', part)[0]) - 362.0
+    for length, ratio in zip(lengths, highest, strict=True):
+        assert length == pytest.approx(one * ratio, abs=0.11) or ratio > 2.5
+    assert part.count('class="fails"') == (highest > 1.0).sum()
+
+
+def test_each_check_says_of_which_runs_its_demand_is(results: Path, page: str) -> None:
+    shown = columns(section(page, "checks"), "isolator displacement")
+    assert shown["demand is"] == "mean of 7 runs"
+    assert columns(section(page, "checks"), "restoring force")["demand is"] == ""
+
+
+def test_words_stand_where_nothing_is_allowed(page: str) -> None:
+    shown = columns(section(page, "checks"), "runs that failed")
+    assert (shown["demand"], shown["limit"], shown["ratio"]) == ("none", "none allowed", "")
+    text = re.sub(r"<[^>]*>", " ", page.partition("<body")[2].partition('<h2 id="input">')[0])
+    assert not re.search(r"\binf\b|\bnan\b", text)
+
+
+def check_of(demand: float, limit: float, **more: object) -> Check:
+    return Check(clause="none", title="a check", demand=demand, limit=limit, **more)
+
+
+@pytest.mark.parametrize(
+    ("check", "said"),
+    [
+        (check_of(0.0, 0.0), ("none", "", "none allowed", "")),
+        (check_of(2.0, 0.0), ("2", "", "none allowed", "")),
+        (check_of(0.5, 1.0), ("0.5", "≤", "1", "0.500")),
+        (check_of(0.5, 0.0, relation=">="), ("0.5", "≥", "0", "0.000")),
+        (check_of(0.5, math.inf), ("0.5", "", "no limit", "")),
+        (check_of(math.inf, 1.0), ("not evaluated", "", "1", "")),
+        (check_of(math.inf, 1.0, void="a run failed"), ("not known", "", "1", "")),
+        (check_of(0.5, 1.0, void="a run failed"), ("0.5 reached", "", "1", "")),
+    ],
+)
+def test_checks_in_words(check: Check, said: tuple[str, str, str, str]) -> None:
+    shown = judged(check)
+    assert (shown.demand, shown.sign, shown.limit, shown.ratio) == said
+
+
+def test_each_field_of_a_bearing_has_its_term(page: str) -> None:
+    names = {field.name for field in fields(LIRBearing)}
+    assert names <= set(TERMS)
+    text = page.partition("<body")[2].partition('<h2 id="calculations">')[0]
+    assert not {name for name in names if "_" in name and name in text}
+
+
+def test_a_bearing_in_words() -> None:
+    bearing = LIRBearing(
+        radius=(1.5, 1.8),
+        slider_height=0.2,
+        slider_radius=0.2,
+        capacity=math.inf,
+        friction=VelocityFriction(f_max=0.06, f_min=0.03, rate=100.0),
+        interface_friction=math.inf,
+    )
+    rows = {row[0]: tuple(row[1:]) for row in device_table(bearing).rows}
+    assert rows["radius of the concave surfaces"] == ("1500; 1800", "mm", "given")
+    assert rows["friction coefficient of the interface"] == ("rigid slider", "", "given")
+    assert rows["displacement capacity, to rim contact"] == ("no restraining rims", "", "given")
+    friction = "0.06 at high speed, 0.03 at rest"
+    assert rows["friction coefficient of the concave surfaces"] == (friction, "", "given")
+    assert rows["axial stiffness of the slider"][1:] == ("kN/m", "default")
+
+
+def test_wide_tables_are_in_parts() -> None:
+    head = ["name", *(f"quantity {k}" for k in range(30))]
+    whole = Table(head, [["a", *(f"{k}.123" for k in range(30))]], frozenset({3, 20}))
+    parts = in_parts(whole)
+    assert len(parts) > 1
+    assert [h for part in parts for h in part.head[1:]] == head[1:]
+    assert [c for part in parts for c in part.rows[0][1:]] == list(whole.rows[0][1:])
+    assert {part.head[k] for part in parts for k in part.left} == {head[3], head[20]}
+    assert all(part.head[0] == "name" and part.rows[0][0] == "a" for part in parts)
+    narrow = Table(head[:4], [["a", "1", "2", "3"]], frozenset())
+    assert in_parts(Table(("members",), []), keep=3) == [Table(["members"], [])]
+    kept = in_parts(whole, keep=3)
+    assert all(list(part.head[:3]) == head[:3] for part in kept)
+    assert [h for part in kept for h in part.head[3:]] == head[3:]
+    assert in_parts(narrow) == [Table(head[:4], [["a", "1", "2", "3"]], frozenset())]
+
+
+def test_strings_of_style_sheets_end_nowhere_else() -> None:
+    assert css_string('a "b" </style> \\ c\nd') == ('"a \\22 b\\22  \\3c /style\\3e  \\5c  c d"')
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
+def test_contents_name_the_pages_of_the_pdf(results: Path, tmp_path: Path) -> None:
+    pypdf = pytest.importorskip("pypdf")
+    paper = print_report(results / "report.html", tmp_path / "report.pdf")
+    read = pypdf.PdfReader(paper)
+    pages = pages_of(read)
+    texts = [page.extract_text() for page in read.pages]
+    for anchor, title in SECTIONS:
+        assert title in texts[pages[anchor] - 1]
+        assert re.search(rf"{title}\s*{pages[anchor]}\b", texts[1]), title
+    assert not re.search(r"\d+ / \d+", texts[0])
+    assert all(f"{k} / {len(texts)}" in text for k, text in enumerate(texts[1:], start=2))
+    assert {entry.title for entry in read.outline[1] if not isinstance(entry, list)} >= {
+        title for _, title in SECTIONS
+    }
+
+
+def test_a_pdf_needs_a_browser(
+    results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(ProjectError, match=r"no browser is found on PATH that prints .*: install"):
+        print_report(results / "report.html", tmp_path / "report.pdf")
+    broken = tmp_path / "chromium"
+    broken.write_text("#!/bin/sh\nexit 3\n")
+    broken.chmod(0o755)
+    with pytest.raises(ProjectError, match="did not print"):
+        print_report(results / "report.html", tmp_path / "report.pdf")
+
+
+def test_prints_that_never_agree_are_told(
+    results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("pypdf")
+    prints = iter(range(100))
+    monkeypatch.setattr(printing, "_browser", lambda: "none")
+    monkeypatch.setattr(printing, "_print", lambda *_: None)
+    monkeypatch.setattr("pypdf.PdfReader", lambda _: None)
+    monkeypatch.setattr(printing, "pages_of", lambda _: {"checks": next(prints)})
+    with pytest.raises(ProjectError, match="after 4 prints the contents still name"):
+        print_report(results / "report.html", tmp_path / "report.pdf")
+    assert next(prints) == 4
+
+
+@pytest.fixture(scope="module")
+def evaluated(results: Path) -> ProjectRun:
+    """The run as `lir report` evaluates it."""
+    file = results.parent / "project.toml"
+    parts = ProjectInputs(read_project(file), file.parent)
+    known = preliminary(parts)
+    return evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))
+
+
+def test_lines_of_the_figure_of_motions_are_the_demands(
+    results: Path, evaluated: ProjectRun
+) -> None:
+    demands = pd.read_csv(results / "demands.csv", index_col=0)
+    figure = motions_figure(evaluated)
+    rows = (("isolator displacement", 1e3), ("interface slip", 1e3), ("storey drift ratio", 1e2))
+    for panel, (name, factor) in zip(figure.axes, rows, strict=True):
+        assert panel.get_title(loc="left").startswith(f"{name}: ")
+        marks, lines = panel.lines[0::2], panel.lines[1::2]
+        for k, bound in enumerate(("lower", "upper")):
+            design = factor * demands.filter(like=f"{bound},").loc[name].item()
+            assert lines[k].get_ydata()[0] == pytest.approx(design, rel=1e-12)
+            assert np.mean(marks[k].get_ydata()) <= design * (1.0 + 1e-12)  # moved masses raise it
+            assert len(marks[k].get_ydata()) == 7
+
+
+def test_bearings_in_plan_reach_the_ratio_that_governs(
+    results: Path, evaluated: ProjectRun
+) -> None:
+    check, shares = utilisation(evaluated)
+    checks = pd.read_csv(results / "checks.csv", keep_default_na=False)
+    of_bearings = checks[checks["subject"].isin(list(evaluated.frame.bearings))]
+    assert check.ratio == pytest.approx(of_bearings["ratio"].max(), rel=1e-12)
+    assert shares.max() == pytest.approx(check.ratio, rel=1e-12)
+    assert list(evaluated.frame.bearings)[int(shares.argmax())] == check.subject
+    runs = load(results / f"runs-{check.bound}.nc")
+    mean = runs["reached_displacement"].mean("run").to_numpy()
+    raised = pd.read_csv(results / "eccentricity.csv")
+    of = (raised["bound"] == check.bound) & (raised["quantity"] == "displacement")
+    mean = mean * raised[of]["factor"].max()
+    least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
+    assert check.title == "isolator displacement"
+    assert shares == pytest.approx(np.maximum(mean, least) / check.limit, rel=1e-12)
+
+
+def test_the_typical_bearing_is_the_median() -> None:
+    names = ["a", "b", "c", "d"]
+    path = np.zeros((2, 4, 3))
+    path[1, :, 0] = 4.0, 1.0, 2.0, 3.0
+    data = xr.Dataset(
+        {"bearing_displacement": (("time", "bearing", "axis"), path)},
+        coords={"time": [0.0, 1.0], "bearing": names, "axis": ["x", "y", "z"]},
+    )
+    assert typical_bearing(data) == "c"
+
+
+@pytest.mark.parametrize("storeys", [1, 3])
+def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
+    drift = np.arange(1.0, 1.0 + 7 * storeys).reshape(7, storeys) * 1e-3
+    lasting = np.zeros((7, 1))
+    data = xr.Dataset(
+        {
+            "reached_drift": (("run", "storey"), drift),
+            "reached_time_lifted": (("run", "bearing"), lasting),
+            "reached_gap": (("run", "bearing"), lasting),
+            "status": ("run", ["ok"] * 7),
+            "motion": ("run", list("abcdefg")),
+            "scale": ("run", np.ones(7)),
+        },
+        coords={"storey": [f"floor-{k + 1}" for k in range(storeys)]},
+    )
+    rules = HISTORY_RULES["ASCE 7-22"]
+    level = rules.levels[0].name
+    run = SimpleNamespace(rules=rules, runs={level: {"lower": data}}, moved={})
+    figure = profiles_figure(run)
+    if storeys == 1:
+        assert figure is None
+        return
+    stairs = [patch.get_data().values for patch in figure.axes[0].patches]
+    assert len(stairs) == 8
+    assert stairs[-1] == pytest.approx(1e2 * drift.mean(axis=0))
+    assert [t.get_text() for t in figure.axes[0].get_yticklabels()] == list(data["storey"].values)
+
+
+def test_the_report_in_spanish(results: Path, evaluated: ProjectRun, page: str) -> None:
+    """Every text that is ours is said, those of figures included; numbers and clauses are alike."""
+    pytest.importorskip("babel")
+    names = {*evaluated.frame.bearings, *evaluated.frame.nodes, *evaluated.motions}
+    words = Words("es", ",", {evaluated.frame.name, *names})
+    tables = run_tables(evaluated)
+    said = report_in(words, evaluated, PROJECT, tables)
+    assert words.missing == set()
+    assert '<html lang="es">' in said
+    assert "Qué controla" in said
+    own, ours = (texts_of(text) for text in (page, said))
+    assert len(own) == len(ours)
+    numbers = sorted(n.replace(",", ".") for cell in ours for n in NUMBER.findall(cell))
+    assert len(numbers) > 500
+    assert numbers == sorted(n for cell in own for n in NUMBER.findall(cell))
+    assert not any(re.search(r"(?<![\w.])\d+\.\d+(?![\w.])", cell) for cell in ours)
+
+
+NUMBER = re.compile(r"(?<![\w.,])\d+(?:[.,]\d+)?(?![\w.]|,\d)")
+
+
+def texts_of(page: str) -> list[str]:
+    """Return the cells of all tables under headings but those of first columns, and clauses."""
+    part = page.partition('<h2 id="structure">')[2].partition('<h2 id="calculations">')[0]
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row, re.S) for row in part.split("</tr>")]
+    cells = [unescape(c) for row in rows for c in row[1:]]  # tables are in other parts
+    return [c for c in cells if not re.search(r"ASCE|theory", c)]
+
+
+def test_lir_report_takes_a_language(results: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(results.parent, tmp_path / "project")
+    words = ["report", str(folder / "project.toml"), "--results", str(folder / "results")]
+    assert CliRunner().invoke(app, [*words, "--no-figures", "--language", "es"]).exit_code == 1
+    text = (folder / "results" / "report.html").read_text(encoding="utf-8")
+    assert "No se cumplen" in text
+    done = CliRunner().invoke(app, [*words, "--language", "fr"])
+    assert done.exit_code == 2
+    assert "language = 'fr' is not one of reports" in " ".join(done.output.split())
+
+
+def test_each_point_of_the_check_list_has_its_place(page: str) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "report_checklist.md").read_text(encoding="utf-8")
+    points = re.findall(r"^\| (\d+) \| .*\? \| `#([a-z-]+)` \|$", text, re.M)
+    assert [int(number) for number, _ in points] == list(range(1, 31))
+    anchors = {anchor for _, anchor in points} | set(re.findall(r"`#([a-z-]+)`", text))
+    assert anchors <= set(re.findall(r' id="([a-z-]+)"', page))
+    assert len(anchors) > 15
+
+
+def test_factors_of_moved_masses_are_pure_numbers(results: Path, page: str) -> None:
+    raised = pd.read_csv(results / "eccentricity.csv")
+    worst = raised[raised["quantity"] == "displacement"].groupby("bound")["factor"].max()
+    part = page.partition('id="accidental-eccentricity"')[2].partition("</table>")[0]
+    head = re.findall(r"<th[^>]*>([^<]*)</th>", part)
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in part.split("</tr>")]
+    place, of = head.index("factor"), head.index("bound")
+    shown = {row[of]: row[place] for row in rows if row and row[0] == "displacement"}
+    assert shown == {bound: f"{factor:.4g}" for bound, factor in worst.items()}
+    assert set(shown) == {"lower", "upper"}

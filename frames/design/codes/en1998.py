@@ -17,8 +17,10 @@ from frames.design.codes.common import (
     overturning,
     vertical_checks,
 )
+from frames.design.codes.factor_sources import factors_of_en1998
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import DESIGN
+from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import (
@@ -301,6 +303,19 @@ def _factor(damping: float) -> float:
     return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), _SMALLEST_ETA)
 
 
+_LOADS = LoadRule(
+    "EN 1990:2002, 6.4.3.4 and table A1.1*, EN 1998-1:2004, 3.2.4*: psi_2 = 0.3 of dwellings and "
+    "offices, phi = 1; no vertical earthquake in the combinations",
+    {"D": 1.0, "L": 0.3, "S": 0.0},
+    fixed_combinations(
+        {
+            "average": {"D": 1.0, "L": 0.3, "S": 0.0},
+            "maximum": {"D": 1.0, "L": 0.3, "S": 0.2},
+            "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
+        }
+    ),
+)
+
 CODE = DesignCode(
     name=EN1998.name,
     aliases=("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
@@ -323,17 +338,21 @@ CODE = DesignCode(
         ),
         ScalingRule("EN 1998-2", "SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3", (0.2, 1.5)),
     ),
+    loads=_LOADS,
     histories=HistoryRules(
         code=EN1998.name,
         standard="EN 1998-1",
         least=3,
         mean_from=7,
         displacement_factor=1.2,
+        accidental_eccentricity=0.05,
         statistic_clause="4.3.3.4.3(3)",
         displacement_clause="10.3(2)",
         drift_clause="4.4.3.2",
         force_clause="10.10",
+        eccentricity_clause="4.3.2",
     ),
+    factors=factors_of_en1998,
     spectrum=Spectrum.en1998,
     spectrum_keys={
         "a_g": SpectrumKey(unit="m/s^2"),

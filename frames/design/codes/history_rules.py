@@ -13,6 +13,9 @@ from lir_element.argument_checks import (
     require_positive,
 )
 
+MOST_ECCENTRIC = 0.25
+"""Largest accidental eccentricity over the sides of the plan [-]; codes ask for 0.05."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class HistoryRules:
@@ -50,10 +53,15 @@ class HistoryRules:
     has_minima : bool
         Whether the equivalent-linear analysis gives least values of what histories give, as
         D_TM_dyn, V_b_dyn and V_s_dyn of its calculation.
+    accidental_eccentricity : float
+        Share of the plan's sides by which the masses of floors are moved each way [-]; 0: not at
+        all.
     levels : tuple of ActionLevel
         Levels of the seismic action at which histories are run, and what is judged at each.
     statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
         Clauses; `uplift_clause` that of what bearings must keep where they lift off.
+    eccentricity_clause : str
+        Clause of accidental eccentricity.
     standard : str
         Standard, or part of it, as clauses begin; the code's name if empty.
 
@@ -76,12 +84,14 @@ class HistoryRules:
     median_factor: float = 1.2
     engagement: float | None = None
     has_minima: bool = False
+    accidental_eccentricity: float = 0.0
     levels: tuple[ActionLevel, ...] = (ActionLevel(DESIGN),)
     statistic_clause: str = ""
     displacement_clause: str = ""
     drift_clause: str = ""
     force_clause: str = ""
     uplift_clause: str = ""
+    eccentricity_clause: str = ""
     standard: str = ""
 
     @property
@@ -94,6 +104,15 @@ class HistoryRules:
         require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
         require_between(
             "displacement_factor", self.displacement_factor, 1.0, 10.0, "-", error=CheckError
+        )
+        require_between(
+            "accidental_eccentricity",
+            self.accidental_eccentricity,
+            0.0,
+            MOST_ECCENTRIC,
+            "-",
+            remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
+            error=CheckError,
         )
         require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)

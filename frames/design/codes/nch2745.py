@@ -18,6 +18,7 @@ from frames.design.codes.common import (
 )
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM, ActionLevel
+from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import (
     DesignToTest,
@@ -56,6 +57,9 @@ if TYPE_CHECKING:
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
 _MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+GIVEN = "given"
+"""Shape of spectra that are given point by point."""
+
 _LONG = 4.0  # s, beyond all T_d
 
 
@@ -137,7 +141,11 @@ class NCh2745:
             factor = spectrum.damping_factor(t.value("beta_M"))
             t.looked_up("B_M", factor, ["beta_M"], source="NCh2745 7.3")
             t.given("M_M", self.maximum)
-            t("C_M", "M_M * C_D", "m", shown="mm")
+            if spectrum.shape == GIVEN:
+                _enter_given(t, spectrum, "T_M", "S_aM", "C_D_M")
+                t("C_M", "M_M * C_D_M", "m", shown="mm")
+            else:
+                t("C_M", "M_M * C_D", "m", shown="mm")
             t("D_M", "C_M / B_M", "m", source="NCh2745 7.3", shown="mm")
             return t
 
@@ -168,6 +176,10 @@ class NCh2745:
         secant(t, "D_0", _DESIGN, "NCh2745 7")
         factor = spectrum.damping_factor(t.value("beta_D"))
         t.looked_up("B_D", factor, ["beta_D"], source="NCh2745 7.3")
+        if spectrum.shape == GIVEN:
+            _enter_given(t, spectrum, "T_D", "S_aD", "C_D")
+            t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
+            return t
         plateau = spectrum.acceleration(_LONG) * (0.5 * _LONG / math.pi) ** 2
         note = "200 Z, 300 Z, 330 Z mm for soils I, II, III: the spectrum's displacement, B = 1"
         t.given("C_D", plateau, "m", shown="mm", source="NCh2745 7.3", note=note)
@@ -218,6 +230,19 @@ class NCh2745:
         t.given("o", self.orthogonal, note="share of the other direction")
 
 
+def _enter_given(t: Trace, spectrum: Spectrum, period: str, level: str, symbol: str) -> None:
+    # The displacement of a spectrum that is given point by point, at an effective period, B = 1.
+    at = float(spectrum.acceleration(t.value(period)))
+    t.looked_up(level, at, [period], "m/s2", note="of the spectrum as given")
+    t(
+        symbol,
+        f"{level} * {period}**2 / (4 * pi**2)",
+        "m",
+        shown="mm",
+        note="its displacement, B = 1",
+    )
+
+
 def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     # Each displacement with the period of its level: D_D with T_D, D_M with T_M.
     clause, t = "NCh2745 14", d.result.trace
@@ -238,6 +263,19 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     yield many_cycles(d, at_design("D_TD", t.value("D_TD")), 10.0, clause)
     yield from static_tests(d, clause)
 
+
+_LOADS = LoadRule(
+    "NCh433 5.5.1* and NCh2745 8.4* (UBC-97 1661): 25 % of the live load of dwellings and offices "
+    "is mass; no vertical earthquake in the combinations",
+    {"D": 1.0, "L": 0.25, "S": 0.0},
+    fixed_combinations(
+        {
+            "average": {"D": 1.0, "L": 0.5, "S": 0.0},
+            "maximum": {"D": 1.2, "L": 1.0, "S": 0.2},
+            "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
+        }
+    ),
+)
 
 CODE = DesignCode(
     name=NCh2745.name,
@@ -260,15 +298,18 @@ CODE = DesignCode(
     ),
     # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
     scaling=(ScalingRule("NCh2745", "SRSS", 1.17, 0.0, 7, "NCh2745 8.4", (0.5, 1.25)),),
+    loads=_LOADS,
     histories=HistoryRules(
         code=NCh2745.name,
         least=3,
         mean_from=7,
         drift=0.003,
+        accidental_eccentricity=0.05,
         statistic_clause="8.4",
         displacement_clause="8",
         drift_clause="8.8",
         force_clause="8",
+        eccentricity_clause="8.3",
         levels=(
             ActionLevel(DESIGN, judges="superstructure"),
             ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),

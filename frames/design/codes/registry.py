@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
+from frames.design.codes.factor_sources import factors_by_source
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
 from frames.design.hazard.code_rules import HazardRules, add_rules, known_rules, rules_named
+from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import PropertyModificationFactors
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
-    from frames.design.hazard.spectrum import Spectrum
 
 
 @runtime_checkable
@@ -165,12 +168,21 @@ class DesignCode(HazardRules):
         Returns its design spectrum by the keys below, `Spectrum.asce7` for instance.
     spectrum_keys : mapping of str to SpectrumKey
         Keys of ``[spectrum]`` in a project's file.
+    spectrum_by_points : callable, optional
+        Returns its design spectrum through points: periods [s], pseudo-accelerations [m/s2], and
+        the keys below; without it points are joined as `Spectrum.given` does.
+    factors : callable
+        Puts factors on friction together of their sources, `factors_by_source` if not given.
+    points_keys : mapping of str to SpectrumKey
+        Keys of ``[spectrum]`` beside ``points``; none must be given.
     rims : RimRule
         What it asks of the displacement at which rims are met.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
         Clause of the limits that measured loops are held against.
+    loads : LoadRule
+        What it makes of dead, live and snow load.
     example : ExampleProject, optional
         What ``lir new`` writes; without it there is no example.
     uses_importance : bool
@@ -197,8 +209,12 @@ class DesignCode(HazardRules):
     rims: RimRule
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
     acceptance: str = NO_LIMITS
+    loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None
     uses_importance: bool = True
+    factors: Callable[..., PropertyModificationFactors] = field(default=factors_by_source)
+    spectrum_by_points: Callable[..., Spectrum] | None = None
+    points_keys: Mapping[str, SpectrumKey] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         least = self.scaling[0].least if self.scaling else 0
@@ -208,6 +224,34 @@ class DesignCode(HazardRules):
                 f"histories, from {least} by scaling: give both the same"
             )
             raise CheckError(msg)
+
+    def by_points(
+        self, periods: Sequence[float], accelerations: Sequence[float], **keys: float
+    ) -> Spectrum:
+        """Return a design spectrum of the code through points, as a study of the site gives it.
+
+        Parameters
+        ----------
+        periods : sequence of float
+            Rising periods [s].
+        accelerations : sequence of float
+            Pseudo-accelerations for 5 % damping at the level of the code's spectrum [m/s2].
+        **keys : float
+            As `points_keys` names them.
+
+        Returns
+        -------
+        Spectrum
+            With the code's damping factors.
+
+        Raises
+        ------
+        MotionError
+            If the points are no spectrum.
+        """
+        if self.spectrum_by_points is not None:
+            return self.spectrum_by_points(periods, accelerations, **keys)
+        return Spectrum.given(periods, accelerations, code=self.name, name=f"{self.name}, as given")
 
 
 def register_code(code: DesignCode, *, replace: bool = False) -> DesignCode:

@@ -37,6 +37,7 @@ _RANGES = {
     "rim_engagement": _Range(0.1, 1.0 + 1e-9, "-"),
     "uplift_gap": _Range(1e-4, 0.5, "m"),
     "rim_height": _Range(1e-3, 0.5, "m"),
+    "moat_gap": _Range(1e-2, 10.0, "m"),
     **dict.fromkeys(("slip_left", "displacement_left"), _LENGTH),
     **dict.fromkeys(("rim_strength", "lateral_force", "axial_force", "base_shear"), _FORCE),
     **dict.fromkeys(("interface_pressure", "liner_pressure"), _PRESSURE),
@@ -91,6 +92,9 @@ class DesignLimits:
     rim_engagement : float, optional
         Share of the displacement that bearings must allow from which on rims may be met, as agreed
         with the authority or proven by tests [-], at most 1.
+    moat_gap : float, optional
+        Clear distance from what stands on the bearings to the moat wall or a neighbour [m]. Of
+        projects alone.
 
     Raises
     ------
@@ -120,6 +124,7 @@ class DesignLimits:
     base_shear: float | None = None
     displacement_left: float | None = None
     rim_engagement: float | None = None
+    moat_gap: float | None = None
 
     def __post_init__(self) -> None:
         for name, (least, below, unit) in _RANGES.items():

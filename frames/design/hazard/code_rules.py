@@ -202,13 +202,18 @@ def rules_named(name: str, error: type[ValueError] = MotionError) -> HazardRules
     return _KNOWN[spelled]
 
 
+_FORMER = {"ASCE 7-10": "ASCE 7-16"}
+"""Rules by names that they had: range and measure of "ASCE 7-10" were those of ASCE 7-16."""
+
+
 def scaling_named(name: str, error: type[ValueError] = MotionError) -> ScalingRule:
     """Return a rule by which motions are scaled.
 
     Parameters
     ----------
     name : str
-        Of the rule, or of a code in any spelling, whose own it is then.
+        Of the rule, or of a code in any spelling, whose own it is then; "ASCE 7-10" is what
+        "ASCE 7-16" was called.
     error : type
         What is raised.
 
@@ -223,8 +228,9 @@ def scaling_named(name: str, error: type[ValueError] = MotionError) -> ScalingRu
         Of the type given, if there is none: the message lists those that are known.
     """
     rules = {rule.name: rule for code in _KNOWN.values() for rule in code.scaling}
-    if name in rules:
-        return rules[name]
+    current = name if name in rules else _FORMER.get(name, name)
+    if current in rules:
+        return rules[current]
     spelled = canonical(name)
     if spelled in _KNOWN:
         return _KNOWN[spelled].scaling[0]

@@ -50,7 +50,7 @@ class MotionSet(MotionCollection):
     >>> pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
     >>> motions = MotionSet({"a": GroundMotion(x=pulse, y=0.5 * pulse, dt=0.02)})
     >>> scaled = motions.scaled_to(
-    ...     Spectrum.asce7(1.5, 0.9), rule="ASCE 7-10", periods=(1.5, 3.5), least=1
+    ...     Spectrum.asce7(1.5, 0.9), rule="ASCE 7-16", periods=(1.5, 3.5), least=1
     ... )
     >>> round(scaled.scaling.least_ratio, 9)
     1.0
@@ -209,7 +209,7 @@ class MotionSet(MotionCollection):
             The target.
         rule : str
             Of a code, or another that it has: "ASCE 7-22" (mean of RotD100 at least the target),
-            "ASCE 7-10" (mean of SRSS), "EN 1998" (mean of all components at least 90 % of the
+            "ASCE 7-16" (mean of SRSS), "EN 1998" (mean of all components at least 90 % of the
             target, and the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the
             target), "NCh2745" (1.17 times). All to be confirmed against the standards.
         periods : tuple of float

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,15 +15,10 @@ from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.peak_data import PRESSED
-from frames.results.level_doubts import (
-    DOUBTED,
-    errors_of,
-    levels_of_bearings,
-    rims_are_unequal,
-    travels,
-)
+from frames.results.level_doubts import DOUBTED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -132,7 +127,7 @@ class BearingDemands:
             else:
                 t = self._entered(k)
                 t("U_max", "U_cap + s_lim", "m", shown="mm")
-            self.suite.enter(t, "D", values[:, k], "m", "mm")
+            self.suite.enter(t, "D", values[:, k], "m", "mm", of="displacement")
             formula = "D"
             if self.factor > 1.0:
                 t.given("gamma_x", self.factor)
@@ -147,7 +142,8 @@ class BearingDemands:
             return Calculation(t, "D_d", "U_max")
 
         places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
-        return self._worst(clause, "isolator displacement", fill, places, standing)
+        found = self._worst(clause, "isolator displacement", fill, places, standing)
+        return self._doubted(found, "displacement")
 
     def slips(self) -> list[Check]:
         """Return the checks of slip over the overlap and its stable limit, and of residual slip."""
@@ -182,10 +178,11 @@ class BearingDemands:
         # The largest slip; with a factor on the displacement at least what that is beyond the rims.
         slip = peaks_of_runs(self.data, "slip")[:, k]
         if not self.factor > 1.0:
-            self.suite.enter(t, "s", slip, "m", "mm")
+            self.suite.enter(t, "s", slip, "m", "mm", of="slip")
             return
-        self.suite.enter(t, "s_run", slip, "m", "mm")
-        self.suite.enter(t, "D", peaks_of_runs(self.data, "displacement")[:, k], "m", "mm")
+        self.suite.enter(t, "s_run", slip, "m", "mm", of="slip")
+        moved = peaks_of_runs(self.data, "displacement")[:, k]
+        self.suite.enter(t, "D", moved, "m", "mm", of="displacement")
         t.given("gamma_x", self.factor)
         self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
 
@@ -226,7 +223,7 @@ class BearingDemands:
         def fill(k: int) -> Calculation:
             t = self._entered(k)
             t.given("p_lim", limit, "Pa", note="as given")
-            self.suite.enter(t, "N", load[:, k], "N")
+            self.suite.enter(t, "N", load[:, k], "N", of="axial_force")
             self._enter_slip(t, k)
             of(t)
             return Calculation(t, "p", "p_lim")
@@ -263,7 +260,7 @@ class BearingDemands:
 
         def fill(k: int) -> Calculation:
             t = Trace()
-            self.suite.enter(t, symbol, values[:, k], unit, shown)
+            self.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
             t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
             return Calculation(t, symbol, f"{symbol}_lim")
 
@@ -275,37 +272,8 @@ class BearingDemands:
         # Those whose margin is less than what the level of the runs may have wrong say so.
         if not quantity or "pendulum" not in str(self.data.attrs["level"]):
             return checks
-        errors = self._level_errors[:, DOUBTED.index(quantity)]
-        found = []
-        for check in checks:
-            error = float(errors[self._names.index(check.subject)]) if check.subject else 0.0
-            if check.passed and check.demand * (1.0 + error) > check.limit:
-                said = (
-                    f'at the level "pendulum" the {quantity} may be off by {100.0 * error:.0f} %, '
-                    'more than its margin: run at level = "contact"'
-                )
-                check = replace(check, note="; ".join(part for part in (check.note, said) if part))
-            found.append(check)
-        return found
-
-    @property
-    def _level_errors(self) -> FloatArray:
-        # (n_bearings, 5): what the level 'pendulum' may have wrong, of all runs the most.
-        rims, lifted, share, moved = (
-            np.nan_to_num(peaks_of_runs(self.data, name))
-            for name in ("rim_force", "lifted", "eccentricity", "displacement")
-        )
-        devices = [self._at(k) for k in self._all]
-        unequal = rims_are_unequal(
-            np.array([device.rim_displacement for device in devices]),
-            np.array([device.radii for device in devices]),
-        )
-        friction = np.array([[law.f_max for law in device.frictions] for device in devices])
-        length = np.array([device.effective_radius for device in devices])
-        travel = travels(moved, friction, length)
-        errors, _ = errors_of(rims > 0.0, lifted > 0.0, share, unequal, travel)
-        at = np.array([level == "pendulum" for level in levels_of_bearings(self.data)])
-        return np.asarray(errors.max(axis=0) * at[:, None])
+        errors = level_errors(self.data, [self._at(k) for k in self._all], quantity)
+        return doubted(checks, dict(zip(self._names, errors.tolist(), strict=True)), quantity)
 
     @property
     def _of_resultants(self) -> str:

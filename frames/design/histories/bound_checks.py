@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +19,7 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.eccentricity import named_by_way, raised_suite, with_moved
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.suite import (
     audit_notes,
@@ -70,6 +71,8 @@ class BoundChecks:
         Analysis that has least values.
     level : ActionLevel
         Of the seismic action, and what is judged at it.
+    moved : xarray.Dataset, optional
+        Runs with the floors' masses moved, for accidental eccentricity.
     """
 
     data: xr.Dataset
@@ -79,6 +82,7 @@ class BoundChecks:
     limits: DesignLimits
     equivalent: EquivalentLinear | None
     level: ActionLevel
+    moved: xr.Dataset | None = None
 
     def checks(self) -> list[Check]:
         """Return all of them.
@@ -94,7 +98,8 @@ class BoundChecks:
             If runs and frame do not belong together, or there are no minima.
         """
         doubts = list(map(str, self.data["doubts"].to_numpy()))
-        found = [self._motions(), self._failed(), *left_out_checks(self.data, doubts, self.bound)]
+        found = [self._motions(), self._failed(), *self._moved_failed()]
+        found += left_out_checks(self.data, doubts, self.bound)
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
@@ -117,7 +122,12 @@ class BoundChecks:
 
     @cached_property
     def _suite(self) -> Suite:
-        return suite_of(self.data, self.rules)
+        return raised_suite(self.data, self.moved, self.rules)
+
+    @cached_property
+    def _every(self) -> xr.Dataset:
+        # What single runs reached, those with moved masses among them: of uplift the worst counts.
+        return with_moved(self.data, self.moved)
 
     @cached_property
     def _audit(self) -> str:
@@ -137,7 +147,8 @@ class BoundChecks:
             if marked
             else ""
         )
-        return "; ".join(part for part in (self._suite.reason, more) if part)
+        said = (self._suite.reason, self._suite.moved_failed, more)
+        return "; ".join(part for part in said if part)
 
     @property
     def _bearings(self) -> BearingDemands:
@@ -157,8 +168,22 @@ class BoundChecks:
         t.given("n", float(self.data.sizes["run"]), note="motions")
         t.given("n_least", float(self.rules.least))
         clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
-        note = f"{self._suite.statistic} of the motions counts"
+        note = f"{self._suite.statistic} of the motions counts; {self._eccentricity}"
         return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
+
+    @property
+    def _eccentricity(self) -> str:
+        # How accidental eccentricity counts.
+        if self.moved is not None:
+            share = 100.0 * self.rules.accidental_eccentricity
+            return f"masses moved by {share:g} % of the plan each way raise the demands"
+        code = HISTORY_RULES.get(self.rules.code)
+        asked = self.rules if code is None else code
+        if not asked.accidental_eccentricity:
+            return "without accidental eccentricity"
+        share = 100.0 * asked.accidental_eccentricity
+        clause = self._clause(asked.eccentricity_clause)
+        return f"without accidental eccentricity, of which {clause} asks {share:g} %"
 
     def _failed(self) -> Check:
         t = Trace()
@@ -169,6 +194,20 @@ class BoundChecks:
         said = (self._suite.reason, self._small_gaps, self._audit)
         note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
+
+    def _moved_failed(self) -> list[Check]:
+        # Runs with the masses moved: none may fail, for each stands for all motions.
+        if self.moved is None:
+            return []
+        t = Trace()
+        count = float(sum(suite_of(self.moved, self.rules).failed))
+        t.given("n_failed", count, note=f"of {self.moved.sizes['run']} runs")
+        t.given("n_allowed", 0.0)
+        audit = audit_notes(named_by_way(self.moved))
+        note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
+        clause, judge = self._clause(self.rules.eccentricity_clause), CheckBuilder(t, self.bound)
+        title = "runs with moved masses that failed"
+        return [judge(clause, title, "n_failed", "<=", "n_allowed", note=note)]
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
         # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
@@ -190,12 +229,13 @@ class BoundChecks:
         found = []
         if not self.rules.uplift_allowed:
             t, gap = Trace(), f"{1e3 * self.rules.least_gap:g} mm"
-            lasts = np.nan_to_num(peaks_of_runs(self.data, "time_lifted"), nan=math.inf)
-            open_ = parted(self.data, self.rules.least_gap) | np.isinf(lasts)
+            every = self._every
+            lasts = np.nan_to_num(peaks_of_runs(every, "time_lifted"), nan=math.inf)
+            open_ = parted(every, self.rules.least_gap) | np.isinf(lasts)
             longest = float(np.where(open_, lasts, 0.0).max())
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
-            stopped = bool((self.data["status"].to_numpy() != "ok").any())
+            stopped = bool((every["status"].to_numpy() != "ok").any())
             judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
             clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             said = "; ".join(
@@ -206,8 +246,9 @@ class BoundChecks:
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
         devices = devices_of(self.data, self.frame)
         more = "" if clause else self._uplift_by_the_project
-        reason = self._suite.reason
-        made = Uplift(self.data, devices, self.limits, self.bound, clause, more, reason)
+        failed = (self._suite.reason, self._suite.moved_failed)
+        reason = "; ".join(part for part in failed if part)
+        made = Uplift(self._every, devices, self.limits, self.bound, clause, more, reason)
         return found + made.checks()
 
     @property
@@ -224,7 +265,7 @@ class BoundChecks:
 
         def fill(values: FloatArray) -> Trace:
             t = Trace()
-            self._suite.enter(t, "V", values, "N")
+            self._suite.enter(t, "V", values, "N", of="base_shear")
             if least > 0.0:
                 t.given("V_least", least, "N", note=_LEAST)
                 self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
@@ -285,9 +326,9 @@ class BoundChecks:
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
         shear, least = peaks_of_runs(self.data, "base_shear"), self._least("V_b_dyn")
 
-        def fill(values: FloatArray) -> Trace:
+        def fill(values: FloatArray, of: str) -> Trace:
             t = Trace()
-            self._suite.enter(t, "theta", values, "-", "%")
+            self._suite.enter(t, "theta", values, "-", "%", of=of)
             if least > 0.0:
                 self._suite.enter(t, "V", shear, "N")
                 t.given("V_least", least, "N", note=_LEAST)
@@ -298,8 +339,9 @@ class BoundChecks:
         found: list[Check] = []
         for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:
+                filled = partial(fill, of=name)
                 found += self._worst(
-                    clause, title, name, symbol, "-", limit, shown="%", fill=fill, of=of
+                    clause, title, name, symbol, "-", limit, shown="%", fill=filled, of=of
                 )
         return [max(found, key=lambda check: check.compared)] if found else []
 
@@ -331,7 +373,7 @@ class BoundChecks:
         for k, label in enumerate(names_of(self.data, name)):
             t = Trace() if fill is None else fill(values[:, k])
             if fill is None:
-                self._suite.enter(t, symbol, values[:, k], unit, shown)
+                self._suite.enter(t, symbol, values[:, k], unit, shown, of=name)
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.design.histories.suite import motion_of, names_of, peaks_of_runs, suite_of
+from frames.design.histories.eccentricity import raised_suite, with_moved
+from frames.design.histories.suite import motion_of, names_of, peaks_of_runs
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,7 +53,11 @@ _NOTES = {
 _ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
 
 
-def demand_table(runs: Mapping[Bound, xr.Dataset], rules: HistoryRules) -> pd.DataFrame:
+def demand_table(
+    runs: Mapping[Bound, xr.Dataset],
+    rules: HistoryRules,
+    moved: Mapping[Bound, xr.Dataset] | None = None,
+) -> pd.DataFrame:
     """Return what time histories give for design at each bound: see `history_demands`.
 
     Parameters
@@ -61,6 +66,8 @@ def demand_table(runs: Mapping[Bound, xr.Dataset], rules: HistoryRules) -> pd.Da
         Runs by bound.
     rules : HistoryRules
         The code's.
+    moved : mapping of str to xarray.Dataset, optional
+        Runs with moved masses by bound.
 
     Returns
     -------
@@ -69,42 +76,49 @@ def demand_table(runs: Mapping[Bound, xr.Dataset], rules: HistoryRules) -> pd.Da
     """
     import pandas as pd
 
-    suites = {bound: suite_of(data, rules) for bound, data in runs.items()}
+    beside = moved or {}
+    suites = {bound: raised_suite(data, beside.get(bound), rules) for bound, data in runs.items()}
+    every = {bound: with_moved(data, beside.get(bound)) for bound, data in runs.items()}
     void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
     rows = []
     for title, name, unit, sign in _TABLE:
         there = {b: data for b, data in runs.items() if f"reached_{name}" in data}
         if there:
             row: dict[str, Any] = {"quantity": title, "unit": unit}
-            row |= _numbers(there, suites, name, sign) | {"note": _note(title, rules), "void": void}
+            row |= _numbers(there, every, suites, name, sign)
+            row |= {"note": _note(title, rules), "void": void}
             rows.append(row)
     table = pd.DataFrame(rows).set_index("quantity")
     table.attrs = {
         "statistics": {bound or "value": said(suite) for bound, suite in suites.items()},
-        "runs": sum(data.sizes["run"] for data in runs.values()),
+        "runs": sum(data.sizes["run"] for data in every.values()),
     }
     return table
 
 
 def _numbers(
-    runs: Mapping[Bound, xr.Dataset], suites: Mapping[Bound, Suite], name: str, sign: float
+    runs: Mapping[Bound, xr.Dataset],
+    every: Mapping[Bound, xr.Dataset],
+    suites: Mapping[Bound, Suite],
+    name: str,
+    sign: float,
 ) -> dict[str, Any]:
     # The cells of a row, of what is worst at each bound, over the bounds, and of single runs.
     cells: dict[str, Any] = {}
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
     for bound, data in runs.items():
         columns = _reached(data, name)
-        each = [suites[bound].value(column) for column in columns.T]
+        each = [suites[bound].value(column, name) for column in columns.T]
         if suites[bound].void and name.endswith("_left") and np.isnan(columns).any():
             each = [math.nan] * len(each)  # runs that stopped left nothing that counts
         k = int(np.argmax(np.nan_to_num(each, nan=-math.inf)))  # what is not known is not worst
         cells[bound or "value"] = sign * each[k] + 0.0  # no -0
         if each[k] > envelope:
             envelope, where = each[k], names_of(data, name)[k]
-        largest = np.nanmax(columns, axis=1, initial=-math.inf)
+        largest = np.nanmax(_reached(every[bound], name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            run = ", ".join(part for part in (motion_of(data, one), bound) if part)
+            run = ", ".join(part for part in (motion_of(every[bound], one), bound) if part)
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
     return cells | {
@@ -113,6 +127,37 @@ def _numbers(
         "worst": known["worst"],
         "run": run,
     }
+
+
+def bearing_values(
+    runs: Mapping[Bound, xr.Dataset],
+    rules: HistoryRules,
+    name: str,
+    moved: Mapping[Bound, xr.Dataset] | None = None,
+) -> FloatArray:
+    """Return what time histories give for design of each bearing, the largest of all bounds.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Runs by bound.
+    rules : HistoryRules
+        The code's.
+    name : str
+        A quantity of bearings, such as "slip".
+    moved : mapping of str to xarray.Dataset, optional
+        Runs with moved masses by bound.
+
+    Returns
+    -------
+    ndarray, (n_bearings,)
+        In the order of the frame's bearings; NaN of what is not known.
+    """
+    rows = []
+    for bound, data in runs.items():
+        suite = raised_suite(data, (moved or {}).get(bound), rules)
+        rows.append([suite.value(column, name) for column in _reached(data, name).T])
+    return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
 
 
 def _reached(data: xr.Dataset, name: str) -> FloatArray:
@@ -136,9 +181,11 @@ def said(suite: Suite) -> str:
     what = f"{suite.statistic} of "
     if suite.void:
         return f"{what}what {n} runs reached, {failed} failed"
+    more = ", raised by moved masses" if suite.raised else ""
     if failed:
-        return f"{what}{n - failed} of {n} runs, at least {suite.median_factor:g} medians of all"
-    return f"{what}{n} runs" if n > 1 else "1 run"
+        least = f"at least {suite.median_factor:g} medians of all"
+        return f"{what}{n - failed} of {n} runs, {least}{more}"
+    return f"{what}{n} runs{more}" if n > 1 else f"1 run{more}"
 
 
 def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:

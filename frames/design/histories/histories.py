@@ -18,6 +18,7 @@ from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks
 from frames.design.histories.demand_table import demand_table
+from frames.design.histories.eccentricity import refuse_unlike
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def history_checks(
     limits: DesignLimits | None = None,
     equivalent: EquivalentLinear | None = None,
     action_level: str = "",
+    moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None = None,
 ) -> Checks:
     """Check time history analyses as a code counts them, at each bound of properties.
 
@@ -131,6 +133,12 @@ def history_checks(
     action_level : str
         Which level of the seismic action the runs are of, where the code has several: NCh2745
         judges what stands on the bearings at "design", the bearings at "maximum".
+    moved : xarray.Dataset or mapping of str to xarray.Dataset, optional
+        Runs of motions among those of `runs` with the floors' masses moved, by bound as these: a
+        coordinate ``masses_moved`` along `run` says which way, "+x", "-x", "+y" or "-y". What the
+        worst way does to the largest of a quantity raises its demands: by the factor of the two,
+        of slip, rim force, eccentricity of the sliders' resultant and lost axial force by their
+        difference (docs/history_checks.md). None of them may fail.
 
     Returns
     -------
@@ -167,18 +175,23 @@ def history_checks(
     rules = _rules(code)
     level = rules.level(action_level)
     found: list[Check] = []
-    for bound, data in _by_bound(runs).items():
+    own = _by_bound(runs)
+    beside = _moved_by_bound(own, moved)
+    for bound, data in own.items():
         model = (
             frame if bounds is None or bound == "" else with_property_bounds(frame, bound, bounds)
         )
         chosen = limits or DesignLimits()
-        found += BoundChecks(data, model, rules, bound, chosen, equivalent, level).checks()
+        made = BoundChecks(data, model, rules, bound, chosen, equivalent, level, beside.get(bound))
+        found += made.checks()
     return Checks(found)
 
 
 def history_demands(
     runs: xr.Dataset | Mapping[Bound, xr.Dataset],
     code: str | HistoryRules,
+    *,
+    moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None = None,
 ) -> pd.DataFrame:
     """Return what time histories give for design: at each bound, and the envelope.
 
@@ -188,6 +201,8 @@ def history_demands(
         As for `history_checks`.
     code : str or HistoryRules
         As for `history_checks`.
+    moved : xarray.Dataset or mapping of str to xarray.Dataset, optional
+        Runs with the floors' masses moved, as for `history_checks`: accidental eccentricity.
 
     Returns
     -------
@@ -228,7 +243,8 @@ def history_demands(
     >>> demands.loc["isolator displacement", "unit"]
     'm'
     """
-    return demand_table(_by_bound(runs), _rules(code))
+    own = _by_bound(runs)
+    return demand_table(own, _rules(code), _moved_by_bound(own, moved))
 
 
 def _rules(code: str | HistoryRules) -> HistoryRules:
@@ -244,6 +260,21 @@ def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.D
     for bound, data in found.items():
         require_choice("bound", bound, ("", *_BOUNDS), error=CheckError)
         _refuse_unlike(data, bound)
+    return found
+
+
+def _moved_by_bound(
+    runs: Mapping[Bound, xr.Dataset], moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None
+) -> dict[Bound, xr.Dataset]:
+    # Runs with moved masses, each beside runs at the same bound.
+    if moved is None:
+        return {}
+    found: dict[Bound, xr.Dataset] = {"": moved} if isinstance(moved, xr.Dataset) else dict(moved)
+    for bound, data in found.items():
+        if bound not in runs:
+            msg = f"moved has the bound {bound!r}, of which there are no runs: give those as well"
+            raise CheckError(msg)
+        refuse_unlike(runs[bound], data, bound)
     return found
 
 

@@ -36,7 +36,7 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
         Its effective periods at all its bounds count; of NCh2745, which has two levels, the
         shortest is T_D and the longest T_M.
     rule : str
-        Of a code, or another that it has, "ASCE 7-10"; that of the analysis' code if empty.
+        Of a code, or another that it has, "ASCE 7-16"; that of the analysis' code if empty.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def motion_checks(
     equivalent : EquivalentLinear
         Its effective periods make the range.
     rule : str
-        Of a code, or another that it has; that of the analysis' code if empty. "ASCE 7-10" asks
+        Of a code, or another that it has; that of the analysis' code if empty. "ASCE 7-16" asks
         SRSS of ASCE 7-22's range. The number of pairs is asked by the analysis' code.
 
     Returns

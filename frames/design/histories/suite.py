@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,36 @@ if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray
     from frames.design.calculation.check import Bound, Check
     from frames.design.codes.history_rules import HistoryRules
+
+
+class Amplification(NamedTuple):
+    """What the way that is worst does to the largest of a quantity: accidental eccentricity.
+
+    Attributes
+    ----------
+    way : str
+        Which way the masses are moved, "+x".
+    centred, moved : float
+        The largest over bearings, storeys or levels with the masses where they are, and moved.
+    factor : float
+        Moved over centred, 1 at least; 1 of a quantity that differences raise.
+    added : float
+        Moved less centred, 0 at least; 0 of a quantity that factors raise.
+    motions : str
+        Of which motions.
+    """
+
+    way: str
+    centred: float
+    moved: float
+    factor: float
+    added: float
+    motions: str
+
+    @property
+    def said(self) -> str:
+        """What it is of, in words."""
+        return f"accidental eccentricity: masses moved {self.way}, {self.motions}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +73,10 @@ class Suite:
         Which runs failed, in words.
     source : str
         Clause of the statistic.
+    raised : mapping of str to Amplification
+        By what accidental eccentricity raises quantities, by their names.
+    moved_failed : str
+        Which runs with moved masses failed, in words: then nothing is a value for design.
     """
 
     statistic: Literal["mean", "largest", "single"]
@@ -50,10 +85,14 @@ class Suite:
     median_factor: float = 1.2
     reason: str = ""
     source: str = ""
+    raised: Mapping[str, Amplification] = field(default_factory=dict)
+    moved_failed: str = ""
 
     @property
     def is_usable(self) -> bool:
         """Whether there is a value for design."""
+        if self.moved_failed:
+            return False
         failures = sum(self.failed)
         if self.statistic != "mean":
             return failures == 0
@@ -62,15 +101,18 @@ class Suite:
     @property
     def void(self) -> str:
         """Why there is no value for design; empty where there is one."""
-        return "" if self.is_usable else self.reason or "a run failed"
+        said = "; ".join(part for part in (self.reason, self.moved_failed) if part)
+        return "" if self.is_usable else said or "a run failed"
 
-    def value(self, values: FloatArray) -> float:
+    def value(self, values: FloatArray, of: str = "") -> float:
         """Return the value for design of those of the runs.
 
         Parameters
         ----------
         values : ndarray, (n_runs,)
             Largest value of each run.
+        of : str
+            Quantity, as `raised` names it; without a name accidental eccentricity is left out.
 
         Returns
         -------
@@ -83,13 +125,57 @@ class Suite:
             if not len(known):
                 return math.nan
             return float(known.mean() if self.statistic == "mean" else known.max())
+        value = self._of_suite(values)
+        more = self.raised.get(of)
+        return value if more is None else more.factor * value + more.added
+
+    def _of_suite(self, values: FloatArray) -> float:
         good = values[~np.array(self.failed)]
         if self.statistic != "mean":
             return float(good.max())
         mean = float(good.mean())
         return max(mean, self.median_factor * self._median(values)) if any(self.failed) else mean
 
-    def enter(self, t: Trace, symbol: str, values: FloatArray, unit: str, shown: str = "") -> float:
+    def values(self, values: FloatArray) -> FloatArray:
+        """Return the values for design of many quantities at once: `value` of each.
+
+        Parameters
+        ----------
+        values : ndarray, (n_runs, ...)
+            Largest value of each run; of a smallest one its opposite.
+
+        Returns
+        -------
+        ndarray, (...)
+            As `value` gives them one by one.
+        """
+        if not self.is_usable:
+            gone = ~np.isfinite(values).any(axis=0)
+            known = np.where(np.isfinite(values), values, np.nan)
+            known = np.where(gone, 0.0, known)
+            of_all = np.nanmean if self.statistic == "mean" else np.nanmax
+            return np.asarray(np.where(gone, math.nan, of_all(known, axis=0)))
+        failed = np.array(self.failed)
+        good = values[~failed]
+        if self.statistic != "mean":
+            return np.asarray(good.max(axis=0))
+        mean = good.mean(axis=0)
+        if not failed.any():
+            return np.asarray(mean)
+        above = failed.reshape(-1, *(1,) * (values.ndim - 1))
+        median = np.median(np.where(above, math.inf, values), axis=0)
+        return np.asarray(np.maximum(mean, self.median_factor * median))
+
+    def enter(
+        self,
+        t: Trace,
+        symbol: str,
+        values: FloatArray,
+        unit: str,
+        shown: str = "",
+        *,
+        of: str = "",
+    ) -> float:
         """Enter the values of the runs and what follows for design.
 
         Parameters
@@ -102,6 +188,8 @@ class Suite:
             Largest value of each run.
         unit, shown : str
             Unit, and the unit to show.
+        of : str
+            Quantity, as for `value`.
 
         Returns
         -------
@@ -114,6 +202,19 @@ class Suite:
             if math.isnan(value):
                 return t.given(symbol, math.inf, unit, shown=shown, note=self.void)
             return t.given(symbol, value, unit, shown=shown, note=f"reached only: {self.void}")
+        more = self.raised.get(of)
+        if more is None:
+            return self._enter(t, symbol, values, unit, shown)
+        own = f"{symbol}_c"  # with the masses where they are
+        self._enter(t, own, values, unit, shown)
+        if more.added > 0.0:
+            t.given(f"Delta_{symbol}", more.added, unit, shown=shown, note=more.said)
+            return t(symbol, f"{own} + Delta_{symbol}", unit, shown=shown)
+        t.given(f"e_{symbol}", more.factor, note=more.said)
+        return t(symbol, f"e_{symbol} * {own}", unit, shown=shown)
+
+    def _enter(self, t: Trace, symbol: str, values: FloatArray, unit: str, shown: str) -> float:
+        # The statistic of the runs, step by step.
         if self.statistic == "single":
             return t.given(symbol, float(values[0]), unit, shown=shown, note="largest of the run")
         good = values[~np.array(self.failed)]

@@ -49,7 +49,7 @@ def motion_files(target: Spectrum, *, vertical: bool = False) -> Mapping[str, st
     """
     z = ",z" if vertical else ""
     table = [f"name,x,y{z},dt,unit,near_fault,strike,azimuth_x,azimuth_y"]  # x across the fault
-    files = {}
+    files: dict[str, str] = {}
     for seed, (name, period) in enumerate(PULSES.items()):
         parts = {
             "x": _matched(_artificial(period, 2 * seed), target),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
@@ -11,8 +11,6 @@ from frames.design.calculation.check import Check
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import pandas as pd
     import xarray as xr
 
@@ -48,6 +46,24 @@ class BearingDemand(NamedTuple):
     void: str
 
 
+class TypeOfBearing(NamedTuple):
+    """A type of bearing of a project, and what its time histories ask of it.
+
+    Attributes
+    ----------
+    bearing : LIRBearing
+        The device, friction nominal.
+    columns : tuple of str
+        Names of the frame's bearings that are of this type.
+    asked : BearingDemand
+        What the time histories ask of these.
+    """
+
+    bearing: LIRBearing
+    columns: tuple[str, ...]
+    asked: BearingDemand
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RunToCheck:
     """All that is known of a project when its checks are made.
@@ -59,7 +75,7 @@ class RunToCheck:
     frame : Frame
         The structure on its bearings, friction nominal.
     bearing : LIRBearing
-        The bearing under each column, friction nominal.
+        The standard bearing, friction nominal.
     system : IsolationSystem
         The bearings with their places, average loads and combinations.
     superstructure : Superstructure, optional
@@ -82,6 +98,11 @@ class RunToCheck:
         How time histories count.
     asked : BearingDemand
         What the time histories ask of the bearings.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Time histories with the floors' masses moved, in the way of `runs`; empty without
+        accidental eccentricity.
+    types : mapping of str to TypeOfBearing
+        Types of bearings, with what the time histories ask of each.
 
     Examples
     --------
@@ -102,6 +123,8 @@ class RunToCheck:
     limits: DesignLimits
     rules: HistoryRules
     asked: BearingDemand
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
+    types: Mapping[str, TypeOfBearing] = field(default_factory=dict)
 
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]

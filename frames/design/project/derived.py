@@ -63,6 +63,8 @@ class DerivedTable(Table):
     """A table whose keys are the fields of a dataclass."""
 
     made_of: ClassVar[type]
+    beside: ClassVar[frozenset[str]] = frozenset()
+    """Keys that are no argument of the dataclass."""
 
     def made(self) -> Any:
         """Return the dataclass that the table describes; keys that are left out have its defaults.
@@ -77,7 +79,7 @@ class DerivedTable(Table):
         ValueError, TypeError
             As the class does.
         """
-        given = {name: getattr(self, name) for name in self.model_fields_set - {LAW}}
+        given = {name: getattr(self, name) for name in self.model_fields_set - {LAW} - self.beside}
         return self.made_of(**{name: _made(value) for name, value in given.items()})
 
 

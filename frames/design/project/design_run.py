@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import bounds_of, envelope_said
+from frames.design.histories.demand_table import bearing_values
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
+from frames.design.project import moat_checks as moat_checks  # which it registers
 from frames.design.project import run_checks as run_checks  # which it registers
-from frames.design.project.check_register import BearingDemand, RunToCheck, checks_of
+from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.governing_run import governing_run, sensitivity_warnings
-from frames.design.project.level_runs import demands_at_levels, histories_at_levels
+from frames.design.project.level_runs import (
+    demands_at_levels,
+    histories_at_levels,
+    moved_at_levels,
+)
 from frames.design.project.preliminary import inputs_of, preliminary
+from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -34,6 +41,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
+    from frames.design.project.schema import ProjectTable
     from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
@@ -75,8 +83,18 @@ class ProjectRun:
         Tests that prove the bearings.
     rules : HistoryRules
         How the time histories counted, and at which levels.
+    types : mapping of str to str
+        Type of each bearing: "standard", or of ``[bearings.<type>]``.
+    about : ProjectTable
+        ``[project]`` of the file: its name, client, engineer, checker, revision, date.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Time histories with the floors' masses moved, in the way of `runs`.
     doubts : tuple of str
         What of the input was warned of.
+    structure : tuple of (str, str)
+        What the structure is, in words.
+    tables : tuple of Path
+        Tables that the file names, which are kept with the results.
     """
 
     frame: Frame
@@ -94,7 +112,12 @@ class ProjectRun:
     inputs: Mapping[str, str]
     programme: pd.DataFrame
     rules: HistoryRules
+    about: ProjectTable
+    types: Mapping[str, str] = field(default_factory=dict)
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
+    structure: tuple[tuple[str, str], ...] = ()
+    tables: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,11 +132,14 @@ class Histories:
         Histories of the run that displaces a bearing most, in single precision as they are kept.
     governing_case : str
         Which that is.
+    moved : mapping of str to mapping of str to xarray.Dataset
+        Runs with the floors' masses moved, in the same way; empty without accidental eccentricity.
     """
 
     runs: Mapping[str, Mapping[Bound, xr.Dataset]]
     governing: xr.Dataset
     governing_case: str
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
 def run_project(
@@ -149,13 +175,14 @@ def run_project(
     known = preliminary(parts)
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
+        moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
         governing, case = governing_run(parts, known.frame, known.motions, runs)
-    except AnalysisInterrupted as stop:  # all runs were complete
+    except AnalysisInterrupted as stop:  # all with the masses where they are were complete
         whole = xr.concat(
             _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
         )
         raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
-    found = Histories(runs=runs, governing=governing, governing_case=case)
+    found = Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
     return evaluate_run(parts, known, found)
 
 
@@ -182,8 +209,11 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         If a check cannot be made.
     """
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
-    demands = demands_at_levels(runs, rules)
-    asked = _asked(parts, known, history_demands(runs[rules.bearing_level], rules))
+    moved = histories.moved
+    demands = demands_at_levels(runs, rules, moved)
+    level = rules.bearing_level
+    types = _types(parts, known, runs[level], moved.get(level, {}))
+    asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
         frame=frame,
@@ -194,11 +224,13 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         bounds=bounds,
         limits=parts.limits(),
         rules=rules,
         asked=asked,
+        types=types,
     )
     return ProjectRun(
         frame=frame,
@@ -206,6 +238,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
+        moved=moved,
         demands=demands,
         checks=Checks(checks_of(run)),
         bounds=bounds,
@@ -216,68 +249,62 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
         rules=rules,
+        about=parts.file.project,
+        types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        structure=tuple(structure_rows(parts.file, frame)),
+        tables=parts.tables(),
     )
-
-
-def compare_devices(
-    parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
-) -> pd.DataFrame:
-    """Compare a project's bearings with the same ones with rigid sliders.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        What time histories give for design, the envelope over the bounds: a column "unit" and one
-        for each device, in SI units; its head names the statistic, and runs that failed.
-
-    Raises
-    ------
-    ProjectError, CheckError, ModelError, MotionError
-        If the project cannot be run.
-    AnalysisInterrupted
-        After Ctrl-C, with the runs of one device that were complete.
-    """
-    known = preliminary(parts)
-    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
-    frames = {"LIR-DCFP": known.frame, "DCFP": known.frame.with_bearings(plain)}
-    tables = {
-        device: demands_at_levels(
-            histories_at_levels(parts, frame, known.motions, progress), parts.rules()
-        )
-        for device, frame in frames.items()
-    }
-    columns = {
-        f"{device}, {envelope_said(table)}": table["envelope"] for device, table in tables.items()
-    }
-    ours = tables["LIR-DCFP"]
-    return ours[["unit"]].assign(**columns, level=ours["level"])
 
 
 def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
     return [data for each in runs.values() for data in each.values()]
 
 
-def _asked(parts: ProjectInputs, known: Preliminary, demands: pd.DataFrame) -> BearingDemand:
-    # Least axial load that presses at all and the largest, of all combinations and of the histories
-    # at each bound at the level of the bearings [N], and the slip of these [m].
-    loads = [load for load in _loads(known, demands) if 0.0 < load < float("inf")]
-    slip = float(demands.loc["interface slip", "envelope"])
-    void = next((str(why) for why in demands["void"] if why), "")
-    if void:  # runs failed: the most that it holds
-        slip = parts.bearing().resolved()["slip_capacity"]
-    bearing, factor = parts.bearing(), parts.rules().displacement_factor
-    moved = float(demands.loc["isolator displacement", "envelope"])
-    if factor > 1.0 and not void:  # what is beyond the rims by the code
-        slip = max(slip, factor * moved - bearing.lateral_capacity)
-    return BearingDemand((min(loads), max(loads)), slip, void)
+def _types(
+    parts: ProjectInputs,
+    known: Preliminary,
+    runs: Mapping[Bound, xr.Dataset],
+    moved: Mapping[Bound, xr.Dataset],
+) -> dict[str, TypeOfBearing]:
+    # Of each type of bearing what combinations and histories ask, those at the level of bearings.
+    rules, found = parts.rules(), {}
+    void = next((str(why) for why in history_demands(runs, rules, moved=moved)["void"] if why), "")
+    values = {
+        name: bearing_values(runs, rules, name, moved)
+        for name in ("axial_force", "axial_tension", "slip", "displacement")
+    }
+    loads = np.array(
+        [
+            known.system.loads,
+            *known.system.combinations.values(),
+            values["axial_force"],
+            -values["axial_tension"],
+        ]
+    )
+    for kind, bearing in parts.devices().items():
+        columns = tuple(name for name, each in known.types.items() if each == kind)
+        places = [k for k, name in enumerate(known.frame.bearings) if name in columns]
+        if not places:
+            continue
+        own = loads[:, places]
+        pressed = own[(own > 0.0) & np.isfinite(own)]
+        slip = float(np.nanmax(values["slip"][places]))
+        if void:  # runs failed: the most that it holds
+            slip = bearing.resolved()["slip_capacity"]
+        elif rules.displacement_factor > 1.0:  # what is beyond the rims by the code
+            reached = rules.displacement_factor * float(np.nanmax(values["displacement"][places]))
+            slip = max(slip, reached - bearing.lateral_capacity)
+        range_ = float(pressed.min()), float(pressed.max())
+        found[kind] = TypeOfBearing(bearing, columns, BearingDemand(range_, slip, void))
+    return found
+
+
+def _of_all(types: Mapping[str, TypeOfBearing]) -> BearingDemand:
+    # Of all types the least and the largest load, and the largest slip.
+    each = [kind.asked for kind in types.values()]
+    loads = min(one.loads[0] for one in each), max(one.loads[1] for one in each)
+    return BearingDemand(loads, max(one.slip for one in each), each[0].void)
 
 
 def _programme(
@@ -297,14 +324,3 @@ def _programme(
         of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
         table.loc[of_runs, "standing"] += f"; no values for design: {asked.void}"
     return table
-
-
-def _loads(known: Preliminary, demands: pd.DataFrame) -> list[float]:
-    # Axial loads of all combinations and of the histories at each bound [N].
-    found = [*known.system.loads]
-    for loads in known.system.combinations.values():
-        found += loads
-    bounds = demands[bounds_of(demands)]
-    for which in ("minimum", "maximum"):
-        found += [float(load) for load in bounds.loc[f"{which} axial force"]]
-    return found

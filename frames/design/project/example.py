@@ -15,6 +15,7 @@ from frames.design.project.reading import read_project
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from importlib.resources.abc import Traversable
     from pathlib import Path
 
@@ -67,7 +68,7 @@ def write_example(folder: Path, code: str | None = None, building: str | None = 
     return [*written, *_put(folder / "motions", motions)]
 
 
-def _put(folder: Path, texts: dict[str, str]) -> list[Path]:
+def _put(folder: Path, texts: Mapping[str, str]) -> list[Path]:
     paths = [folder / name for name in texts]
     for path in paths:
         if path.exists():

@@ -62,7 +62,7 @@ def governing_run(
     AnalysisInterrupted
         After Ctrl-C.
     """
-    level, bound, run = _most_displaced(runs)
+    level, bound, run = most_displaced(runs)
     name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
     motion = motions[name].scaled(parts.rules().level(level).factor)
     model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
@@ -110,8 +110,8 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
     )
 
 
-def _most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
-    # Level, bound and place of the run that displaces a bearing most.
+def most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
+    """Return level, bound and place of the run that displaces a bearing most."""
     reached = {
         (level, bound, run): float(data["reached_displacement"].isel(run=run).max())
         for level, each in runs.items()

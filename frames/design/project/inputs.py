@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
+import contextlib
 import runpy
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from frames.assembly.assemble import assemble
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.isolation import AVERAGE, IsolationSystem
 from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
+from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
+    ImportedModel,
+    IrregularFrame,
     MomentFrame,
     OpenSeesModel,
     ShearBuilding,
 )
+from frames.design.project.schema_bearing import FactorSources
+from frames.design.project.schema_hazard import PointsTable
+from frames.design.project.spectrum_points import read_points
+from frames.design.project.structure_loads import BuildingLoads, loads_of
+from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
-from frames.library.moment_frames import moment_frame
 from lir_element import CoulombFriction, LIRBearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
@@ -60,16 +70,59 @@ class ProjectInputs:
         return code_named(self.file.project.code, ProjectError)
 
     def bearing(self) -> LIRBearing:
-        """Return the bearing under each column."""
+        """Return the bearing under each column that no other type is named for."""
         given = self.file.bearing
         if given is None:
             msg = "[bearing] is missing: `lir design` proposes one"
             raise ProjectError(msg)
         return bearing_of(given)
 
+    def devices(self) -> dict[str, LIRBearing]:
+        """Return the bearing of each type: "standard", and those of ``[bearings.<type>]``."""
+        found = {STANDARD: self.bearing()}
+        for name, given in self.file.bearings.items():
+            if name == STANDARD:
+                msg = f"[bearings.{name}] is the name of what [bearing] describes: choose another"
+                raise ProjectError(msg)
+            found[name] = bearing_of(given, f"bearings.{name}")
+        return found
+
     def frame(self) -> Frame:
-        """Return the structure on its bearings."""
-        return in_section("structure", lambda: self._frame(self.bearing()))
+        """Return the structure on its bearings, under the average combination of its loads."""
+        return self._averaged(self.loaded_frame())
+
+    def loaded_frame(self) -> Frame:
+        """Return the structure on its bearings, with its load cases "D", "L" and "S"."""
+        return self._loaded_and_types()[0]
+
+    def types(self) -> dict[str, str]:
+        """Return the type of each bearing: "standard", or of ``[bearings.<type>]``."""
+        return self._loaded_and_types()[1]
+
+    def _loaded_and_types(self) -> tuple[Frame, dict[str, str]]:
+        devices = self.devices()
+
+        def made() -> tuple[Frame, dict[str, str]]:
+            frame = self._frame(devices[STANDARD])
+            chosen = types_by_column(self.file.bearings, self._averaged(frame))
+            return on_types(frame, chosen, devices), chosen
+
+        return in_section("structure", made)
+
+    def _averaged(self, frame: Frame) -> Frame:
+        # Under the average combination of its loads.
+        if not frame.load_cases:
+            return frame
+        return frame.combined(self.code().loads.combinations(None)[AVERAGE])
+
+    def system(self, frame: Frame, spectrum: Spectrum) -> IsolationSystem:
+        """Return the bearings of the structure with its load cases, by the code's combinations."""
+        s_ms = spectrum.parameters.get("S_MS")
+        if not frame.load_cases:
+            return IsolationSystem.from_frame(frame, s_ms=s_ms)
+        chosen = self.code().loads.combinations(s_ms)
+        weight = frame.gravity * float(assemble(frame).node_mass[:, 0].sum())
+        return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
     def provisional_frame(self) -> Frame:
         """Return the structure on bearings of any size, for its loads; they carry, no more."""
@@ -84,7 +137,16 @@ class ProjectInputs:
         return in_section("structure", lambda: self._frame(bearing))
 
     def _frame(self, bearing: LIRBearing) -> Frame:
-        return frame_of(self.file.structure, bearing, self.file.project.name, self.folder)
+        loads = loads_of(self.file.loads, self.code().loads)
+        name = self.file.project.name
+        return frame_of(self.file.structure, bearing, name, self.folder, loads)
+
+    def tables(self) -> tuple[Path, ...]:
+        """Return the tables of members that the file names."""
+        given = self.file.structure
+        if not isinstance(given, IrregularFrame):
+            return ()
+        return tuple(self.folder / name for name in (given.columns_table, given.beams_table))
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
@@ -96,20 +158,36 @@ class ProjectInputs:
 
     def spectrum(self) -> Spectrum:
         """Return the design spectrum."""
-        keys = self.file.spectrum.model_dump(exclude={"code"})
+        given = self.file.spectrum
+        if isinstance(given, PointsTable):
+            return in_section("spectrum", lambda: self._by_points(given))
+        keys = given.model_dump(exclude={"code"})
         return in_section("spectrum", lambda: self.code().spectrum(**keys))
+
+    def _by_points(self, given: PointsTable) -> Spectrum:
+        points = given.points
+        if isinstance(points, Path):
+            points = read_points(self.folder / points)
+        periods = [period for period, _ in points]
+        levels = [level for _, level in points]
+        keys = given.model_dump(exclude={"code", "points"}, exclude_none=True)
+        return self.code().by_points(periods, levels, **keys)
 
     def bounds(self) -> PropertyBounds:
         """Return the lower and upper bound friction properties."""
         given = self.file.bounds
 
         def made() -> PropertyBounds:
-            inner = (
-                None if given.interface is None else PropertyModificationFactors(*given.interface)
-            )
-            return PropertyBounds(PropertyModificationFactors(*given.friction), inner)
+            inner = None if given.interface is None else self._factors(given.interface)
+            return PropertyBounds(self._factors(given.friction), inner)
 
         return in_section("bounds", made)
+
+    def _factors(self, given: tuple[float, float] | FactorSources) -> PropertyModificationFactors:
+        # As given, or put together of their sources as the code does.
+        if isinstance(given, FactorSources):
+            return self.code().factors(**given.model_dump(exclude_unset=True))
+        return PropertyModificationFactors(*given)
 
     def limits(self) -> DesignLimits:
         """Return what the engineer allows."""
@@ -118,9 +196,10 @@ class ProjectInputs:
 
     def rules(self) -> HistoryRules:
         """Return how time histories count: as the code has it, uplift as the file says."""
-        given = self.file.analysis.model_dump(
-            exclude_none=True, include={"uplift_allowed", "least_gap"}
-        )
+        keys = {"uplift_allowed", "least_gap", "accidental_eccentricity"}
+        given = self.file.analysis.model_dump(exclude_none=True, include=keys)
+        if given.get("accidental_eccentricity") == "none":
+            given["accidental_eccentricity"] = 0.0
         rules = self.code().histories
         return in_section("analysis", lambda: replace(rules, **given))
 
@@ -136,25 +215,30 @@ class ProjectInputs:
         return motions_of(self.file.motions, self.folder)
 
 
-def bearing_of(given: schema.Bearing) -> LIRBearing:
+def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
     made: Callable[[], LIRBearing] = given.made
-    return in_section("bearing", made)
+    return in_section(section, made)
 
 
-def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+def frame_of(
+    given: Structure,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
     if isinstance(given, MomentFrame):
-        return moment_frame(
-            given.bays,
-            given.storeys,
-            bearing=bearing,
-            bay_width=given.bay_width,
-            storey_height=given.storey_height,
-            floor_load=given.floor_load,
-            eccentricity=given.eccentricity,
-            name=name,
+        return regular_frame(given, bearing, name, loads)
+    if isinstance(given, IrregularFrame):
+        return irregular_frame(given, bearing, name, folder, loads)
+    if loads is not None:
+        msg = (
+            f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '
+            "masses and loads, leave the section out"
         )
+        raise ProjectError(msg)
     if isinstance(given, ShearBuilding):
         return shear_building(
             bearing,
@@ -166,7 +250,34 @@ def frame_of(given: Structure, bearing: LIRBearing, name: str, folder: Path) -> 
             eccentricity=given.eccentricity,
             name=name,
         )
+    if isinstance(given, ImportedModel):
+        return _imported(given, bearing, name, folder)
     return _opensees(given, bearing, name, folder)
+
+
+def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:
+    from lir_element.opensees.library import opensees
+
+    path = folder / given.file
+    if not path.is_file():
+        msg = f"file = {given.file} is no file in {folder}: name the exported model"
+        raise ProjectError(msg)
+    with contextlib.suppress(ImportError):  # which shells alone need
+        opensees().wipe()
+    read = Frame.from_sap2000 if given.kind == "sap2000" else Frame.from_etabs
+    return read(
+        path,
+        bearing,
+        at=given.bearings_at or None,
+        loads=given.loads,
+        mass=given.mass,
+        allow=given.allow,
+        mesh=given.mesh,
+        base_rotations=given.base_rotations,
+        base_diaphragm=given.base_diaphragm,
+        decimal=given.decimal,
+        name=name,
+    )
 
 
 def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:

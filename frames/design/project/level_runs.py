@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from frames.batch.time_histories import time_histories
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import at_levels
+from frames.design.histories.eccentricity import WAY, WAYS
 from frames.design.histories.histories import history_demands
+from frames.design.histories.suite import suite_of
 from frames.recording.recording import Recording
 
 if TYPE_CHECKING:
@@ -23,6 +27,9 @@ if TYPE_CHECKING:
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.project.inputs import ProjectInputs
     from frames.frame import Frame
+
+MOVED = "moved"
+"""Folder among runs as they complete that keeps those with moved masses."""
 
 LevelRuns = dict[str, dict["Bound", "xr.Dataset"]]
 """Runs by level of the seismic action, then by bound of the properties."""
@@ -66,7 +73,7 @@ def histories_at_levels(
     }
     places = [(level, bound) for level in levels for bound in given.bounds]
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
-    record = Recording.everything() if given.histories == "all" else Recording(every=None)
+    record = Recording(every=1 if given.histories == "all" else None, forces=True)
     data = time_histories(
         models,
         motions,
@@ -85,8 +92,105 @@ def histories_at_levels(
     return found
 
 
+def moved_at_levels(
+    parts: ProjectInputs,
+    moved: Mapping[str, Frame],
+    motions: MotionSet,
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    progress: Callable[[BatchProgress], None] | bool | None,
+    resume: Path | None = None,
+) -> LevelRuns:
+    """Run a project with the floors' masses moved each way, at each level and bound.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    moved : mapping of str to Frame
+        Its structure by the way its masses are moved, friction nominal.
+    motions : MotionSet
+        As the other runs had them.
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Those, with the masses where they are: at each level and bound the motion that displaces a
+        bearing most is run, or all are, as ``accidental_eccentricity_motions`` says.
+    progress, resume
+        As for `histories_at_levels`.
+
+    Returns
+    -------
+    dict of str to dict of str to xarray.Dataset
+        By level, then by bound: a row a way and motion, the coordinate ``masses_moved`` along
+        `run`. Empty where no masses are moved.
+
+    Raises
+    ------
+    AnalysisInterrupted
+        After Ctrl-C, with the runs that were complete.
+    """
+    if not moved:
+        return {}
+    given, rules = parts.file.analysis, parts.rules()
+    models: dict[str, Frame] = {
+        f"{bound}, masses {way}": with_property_bounds(frame, bound, parts.bounds())
+        for bound in given.bounds
+        for way, frame in moved.items()
+    }
+    cases, places = [], []
+    for level in rules.levels:
+        for bound in given.bounds:
+            names = (
+                list(motions)
+                if given.accidental_eccentricity_motions == "all"
+                else [governing_motion(runs[level.name][bound], rules)]
+            )
+            own = [(way, name) for way in moved for name in names]
+            places.append((level.name, bound, [way for way, _ in own]))
+            cases += [(f"{bound}, masses {way}", name, level.factor) for way, name in own]
+    data = time_histories(
+        models,
+        motions,
+        cases=cases,
+        level=given.level,
+        dt=given.dt,
+        workers=given.workers,
+        progress=progress,
+        record=Recording(every=None),
+        resume=None if resume is None else resume / MOVED,
+    )
+    found: LevelRuns = {level.name: {} for level in rules.levels}
+    begin = 0
+    for name, bound, ways in places:
+        own_rows = data.isel(run=slice(begin, begin + len(ways)))
+        found[name][bound] = own_rows.assign_coords({WAY: ("run", ways)})
+        begin += len(ways)
+    return found
+
+
+def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
+    """Return the motion that displaces a bearing most, of the runs that count if any do.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Runs of one bound.
+    rules : HistoryRules
+        How they count.
+
+    Returns
+    -------
+    str
+        Its name.
+    """
+    reached = data["reached_displacement"].max("bearing").to_numpy()
+    failed = np.array(suite_of(data, rules).failed)
+    counted = reached if failed.all() else np.where(failed, -np.inf, reached)
+    return str(data["motion"].to_numpy()[int(np.argmax(counted))])
+
+
 def demands_at_levels(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]], rules: HistoryRules
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
 ) -> pd.DataFrame:
     """Return what time histories give for design at each level.
 
@@ -96,13 +200,18 @@ def demands_at_levels(
         By level, then by bound.
     rules : HistoryRules
         The code's.
+    moved : mapping of str to mapping of str to xarray.Dataset, optional
+        Runs with moved masses.
 
     Returns
     -------
     pandas.DataFrame
         The tables of `frames.history_demands` one under the other; the last column is the level.
     """
-    return at_levels({name: history_demands(each, rules) for name, each in runs.items()})
+    beside = moved or {}
+    return at_levels(
+        {name: history_demands(own, rules, moved=beside.get(name)) for name, own in runs.items()}
+    )
 
 
 def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
@@ -114,4 +223,13 @@ def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
         for level in levels
     )
     what = f"{len(motions)} motions, bounds {', '.join(bounds)}, level{'s' * (len(levels) > 1)}"
-    return f"{count} time histories: {what} {named}"
+    said = f"{count} time histories: {what} {named}"
+    share = parts.rules().accidental_eccentricity
+    if not share:
+        return f"{said}; accidental eccentricity is left out"
+    every = parts.file.analysis.accidental_eccentricity_motions == "all"
+    more = len(WAYS) * (count if every else len(levels) * len(bounds))
+    return (
+        f"{said}; {more} more with the masses moved by {100.0 * share:g} % of the plan each way, "
+        f"{more / count:.2g} times the time of these"
+    )

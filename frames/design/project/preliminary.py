@@ -5,19 +5,23 @@ from __future__ import annotations
 import hashlib
 import json
 import warnings
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from frames._errors import ModelWarning, MotionWarning
+from frames._errors import ModelError, ModelWarning, MotionWarning
+from frames.design._errors import ProjectError
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.sanity_checks import factor_doubts, twins
+from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
-from frames.design.project.schema import OpenSeesModel
+from frames.design.project.schema import ImportedModel, OpenSeesModel
+from frames.library.moved_masses import with_moved_masses
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
+    from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
@@ -33,9 +37,9 @@ class Preliminary:
     Attributes
     ----------
     frame : Frame
-        The structure on its bearings, friction nominal.
+        The structure on its bearings, friction nominal, under the average combination of loads.
     system : IsolationSystem
-        The bearings with their places and loads.
+        The bearings with their places, and their loads in all combinations.
     spectrum : Spectrum
         The design spectrum.
     superstructure : Superstructure, optional
@@ -44,6 +48,11 @@ class Preliminary:
         Equivalent-linear analysis at both bounds.
     motions : MotionSet
         Scaled as the file asks.
+    moved : mapping of str to Frame
+        The structure with its floors' masses moved, by the way; none where accidental eccentricity
+        is left out.
+    types : mapping of str to str
+        Type of each bearing of the frame.
     doubts : tuple of str
         What was warned of on the way: of the file, the bearing and the motions.
     """
@@ -54,6 +63,8 @@ class Preliminary:
     superstructure: Superstructure | None
     equivalent: EquivalentLinear
     motions: MotionSet
+    moved: Mapping[str, Frame] = field(default_factory=dict)
+    types: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
 
 
@@ -100,7 +111,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
     parts.limits(), parts.rules()  # refused before anything is run
     _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
-    system = IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
+    system = parts.system(parts.loaded_frame() if frame.load_cases else frame, spectrum)
     _warn(wind_doubts(parts.file, system, parts.bounds()))
     above = parts.superstructure(frame)
     equivalent = equivalent_linear(
@@ -118,7 +129,53 @@ def _made(parts: ProjectInputs) -> Preliminary:
         superstructure=above,
         equivalent=equivalent,
         motions=motions,
+        moved=moved_frames(parts, frame),
+        types=parts.types(),
     )
+
+
+def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
+    """Return a project's structure with its floors' masses moved each way.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    frame : Frame
+        Its structure.
+
+    Returns
+    -------
+    dict of str to Frame
+        By the way, "+x"; none where ``accidental_eccentricity`` leaves it out.
+
+    Raises
+    ------
+    ProjectError
+        If masses cannot be moved and the file asks for it.
+
+    Warns
+    -----
+    ModelWarning
+        If they cannot be moved, and only the code asks for it.
+    """
+    share = parts.rules().accidental_eccentricity
+    if not share:
+        return {}
+    try:
+        return {
+            way: with_moved_masses(frame, (share * x, share * y), f"{frame.name}, masses {way}")
+            for way, (x, y) in WAYS.items()
+        }
+    except ModelError as cause:
+        msg = (
+            f"[analysis] accidental_eccentricity = {share:g}: {cause}; the time histories leave it "
+            'out, write accidental_eccentricity = "none" if that is meant'
+        )
+        if parts.file.analysis.accidental_eccentricity is not None:
+            raise ProjectError(msg) from cause
+        _warn((msg,))
+        return {}
 
 
 def scaled_motions(
@@ -173,6 +230,10 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
     """
     file = parts.file
     analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
+    if known.moved:
+        rules = parts.rules()
+        analysis["masses moved"] = rules.accidental_eccentricity
+        analysis["motions of moved masses"] = file.analysis.accidental_eccentricity_motions
     said = {
         "structure": file.structure.model_dump(mode="json"),
         "bearing": None
@@ -181,9 +242,20 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
         "bounds": file.bounds.model_dump(mode="json"),
         "analysis": analysis,
     }
+    if file.bearings:
+        said["bearings"] = {
+            name: kind.model_dump(mode="json", exclude_none=True)
+            for name, kind in file.bearings.items()
+        }
+    if file.loads is not None:
+        said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
         found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+    if isinstance(file.structure, ImportedModel):
+        found["model file"] = _digest((parts.folder / file.structure.file).read_bytes())
+    if tables := parts.tables():
+        found["tables of members"] = _digest(b"".join(table.read_bytes() for table in tables))
     samples = [
         name.encode()
         + repr(motion.dt).encode()

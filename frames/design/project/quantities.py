@@ -27,6 +27,7 @@ EXAMPLES = {
     "kg m2": "0.5 kg m2",
     "kg/m3": "7850 kg/m3",
     "s/m": "100 s/m",
+    "m/s": "360 m/s",
     "Pa": "20 MPa",
     "1/Pa": "0.0071 1/MPa",
     "W/(m K)": "18 W/(m K)",
@@ -35,6 +36,10 @@ EXAMPLES = {
     "s": "5 ms",
     "m/s^2": "3.5 m/s2",
     "kg/m^2": "1450 kg/m2",
+    "kg/m^3": "2500 kg/m3",
+    "m^2": "150 cm2",
+    "m^4": "25000 cm4",
+    "N/m^2": "4.5 kN/m2",
     "": "0.05",
 }
 """How numbers of each unit may be written, for messages and the schema."""
@@ -197,6 +202,11 @@ Force = Annotated[float, *_kind("N", "150 kN")]
 Pressure = Annotated[float, *_kind("Pa", "30 MPa")]
 Mass = Annotated[float, *_kind("kg", "200 t")]
 AreaMass = Annotated[float, *_kind("kg/m^2", "1450 kg/m2")]
+Density = Annotated[float, *_kind("kg/m^3", "2500 kg/m3"), NotNegative]
+Area = Annotated[float, *_kind("m^2", "150 cm2")]
+Inertia = Annotated[float, *_kind("m^4", "25000 cm4")]
+AreaLoad = Annotated[float, *_kind("N/m^2", "4.5 kN/m2")]
+LineLoad = Annotated[float, *_kind("N/m", "8 kN/m")]
 Stiffness = Annotated[float, *_kind("N/m", "400 kN/mm")]
 Time = Annotated[float, *_kind("s", "5 ms")]
 Acceleration = Annotated[float, *_kind("m/s^2", "3.5 m/s2")]

@@ -23,7 +23,15 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Table)
 
-_KINDS = {"moment frame", "shear building", "opensees", "Friction"}
+_KINDS = {
+    "moment frame",
+    "irregular frame",
+    "shear building",
+    "opensees",
+    "sap2000",
+    "etabs",
+    "Friction",
+}
 """Of unions, which the place of an error names besides its keys, and names of codes."""
 
 
@@ -141,6 +149,9 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
         bound = "at most" if kind == "too_long" else "at least"
         return f"{name}: {key} has {error['ctx']['actual_length']} entries: give {bound} {held}"
+    if kind in _TABLES and place[-1].isdigit():
+        listed = ".".join(place[:-1])
+        return f"{name}: {key} must be a table: write [[{listed}]] and its keys below for each"
     if kind in _TABLES:
         return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
     text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
@@ -165,7 +176,9 @@ def _of_a_kind(name: str, key: str, error: Any) -> str:
     told = error.get("ctx", {})
     which = str(told.get("discriminator", "kind")).strip("'")
     where = "project.code" if which == "code" else f"{key}.{which}"
-    known = told.get("expected_tags", "'moment frame', 'shear building', 'opensees'")
+    known = told.get(
+        "expected_tags", "'moment frame', 'irregular frame', 'shear building', 'opensees'"
+    )
     choices = str(known).replace("'", '"')
     if "tag" in told:
         return f'{name}: {where} = "{told["tag"]}" is not known: choose one of {choices}'

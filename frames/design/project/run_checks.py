@@ -15,6 +15,8 @@ from frames.design.project.check_register import RunToCheck, register_check
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
+    from frames.design.project.check_register import BearingDemand
+    from lir_element import LIRBearing
 
 
 @register_check
@@ -43,14 +45,26 @@ def of_the_histories(run: RunToCheck) -> list[Check]:
             limits=run.limits,
             equivalent=run.equivalent if has_minima else None,
             action_level=level,
+            moved=run.moved.get(level),
         )
     return found
 
 
 @register_check
 def of_the_bearing(run: RunToCheck) -> list[Check]:
-    """Return those by the bearing's own numbers, at loads and slip that the histories gave."""
-    bearing, bounds, limits, asked = run.bearing, run.bounds, run.limits, run.asked
+    """Return those by each type's own numbers, at loads and slip that the histories gave."""
+    found: list[Check] = []
+    for name, kind in run.types.items():
+        for check in _of_type(run, kind.bearing, kind.asked):
+            subject = check.subject
+            if len(run.types) > 1:
+                subject = ", ".join(part for part in (f"type {name}", subject) if part)
+            found.append(replace(check, subject=subject, level=run.rules.bearing_level))
+    return found
+
+
+def _of_type(run: RunToCheck, bearing: LIRBearing, asked: BearingDemand) -> list[Check]:
+    bounds, limits = run.bounds, run.limits
     checks = device_checks(bearing, asked.loads, slip=asked.slip, bounds=bounds, limits=limits)
     checks = Checks(replace(check, void=asked.void) for check in checks)
     checks = not_evaluated(checks, run.system.unknown_loads, ("N_min", "N_max"))
@@ -59,4 +73,4 @@ def of_the_bearing(run: RunToCheck) -> list[Check]:
     }
     agreed = limits.rim_engagement
     rims = engagement_checks(bearing, allowed, code=run.code.name, agreed=agreed)
-    return [replace(check, level=run.rules.bearing_level) for check in (*checks, *rims)]
+    return [*checks, *rims]

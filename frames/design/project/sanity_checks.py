@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from frames.design.codes.registry import code_named
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
+from frames.design.project.schema_structure import BuildingTable, IrregularFrame
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -21,6 +23,12 @@ which on it is strange: whole buildings have about 0.1 s a storey."""
 FLOOR_MASS = (50.0, 6000.0)
 """Mass of a storey over its plan [kg/m2]; buildings have 300 to 1500."""
 
+STOREY = (2.0, 20.0)
+"""Height of storeys that buildings have [m]."""
+
+HEAVY_FLOOR, HEAVY_FACADE = 25e3, 60e3
+"""Live load or snow [N/m2], and facade [N/m], from which on they are strange."""
+
 
 def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     """Return what is strange about a project's file, a sentence for each thing.
@@ -33,10 +41,19 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        About masses of storeys by area, bays that bearings do not fit into, storeys that are far
-        too soft, and an importance that is in one section alone.
+        About sections that are not given, masses of storeys by area, heights, loads, bays that
+        bearings do not fit into, storeys that are far too soft, and an importance that is in one
+        section alone.
     """
-    return (*_of_masses(file), *_of_bays(file), *_of_storeys(file), *_of_importance(file))
+    return (
+        *_of_sections(file),
+        *_of_masses(file),
+        *_of_heights(file),
+        *_of_loads(file),
+        *_of_bays(file),
+        *_of_storeys(file),
+        *_of_importance(file),
+    )
 
 
 def wind_doubts(
@@ -69,10 +86,28 @@ def wind_doubts(
     )
 
 
+def _of_sections(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, MomentFrame):
+        return []
+    keys = ("columns", "beams", "base_beams")
+    assumed = [key for key in keys if getattr(given, key) is None]
+    if not assumed:
+        return []
+    return [
+        f"[structure] {' and '.join(assumed)}: no section is given, those of an example are "
+        "assumed (`lir check` shows them), whatever the building carries: give each its section, "
+        'columns = { section = "HEB 300" }, beams = { rectangle = ["300 mm", "600 mm"], '
+        'material = "C30/37" }'
+    ]
+
+
 def _of_masses(file: ProjectFile) -> list[str]:
     given = file.structure
-    if isinstance(given, MomentFrame):
-        found = {"floor_load": given.floor_load}
+    if isinstance(given, BuildingTable):
+        dead = None if file.loads is None else file.loads.dead / STANDARD_GRAVITY
+        named = {"floor_load": given.floor_load, "[loads] dead over gravity": dead}
+        found = {key: value for key, value in named.items() if value is not None}
     elif isinstance(given, ShearBuilding):
         area = math.prod(n * w for n, w in zip(given.bays, given.bay_width, strict=True))
         masses = {f"storey_mass[{k}]": mass for k, mass in enumerate(given.storey_mass)}
@@ -93,14 +128,45 @@ def _of_masses(file: ProjectFile) -> list[str]:
     ]
 
 
+def _of_heights(file: ProjectFile) -> list[str]:
+    given = file.structure
+    if not isinstance(given, (MomentFrame, IrregularFrame)):
+        return []
+    low, high = STOREY
+    for k, height in enumerate(given.heights, start=1):
+        if not low <= height <= high:
+            return [
+                f"[structure] storey_height of storey {k} is {height:.4g} m, storeys have {low:g} "
+                f"to {high:g} m: look at its unit"
+            ]
+    return []
+
+
+def _of_loads(file: ProjectFile) -> list[str]:
+    given = file.loads
+    if given is None:
+        return []
+    named = {
+        "live": (given.live, HEAVY_FLOOR, "kN/m2"),
+        "snow": (given.snow, HEAVY_FLOOR, "kN/m2"),
+        "facade": (given.facade, HEAVY_FACADE, "kN/m"),
+    }
+    for key, (load, most, unit) in named.items():
+        if load > most:
+            return [
+                f"[loads] {key} = {1e-3 * load:.4g} {unit} is more than {1e-3 * most:g} {unit}, "
+                "which hardly any building has: look at its unit"
+            ]
+    return []
+
+
 def _of_bays(file: ProjectFile) -> list[str]:
-    given, bearing = file.structure, file.bearing
-    if bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
+    given = file.structure
+    if file.bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
         return []
-    own = bearing_of(bearing)
-    if not math.isfinite(own.lateral_capacity):
-        return []
-    side = own.lateral_capacity + 2.0 * own.slider_radius  # both plates go half of the capacity
+    each = [bearing_of(one) for one in (file.bearing, *file.bearings.values())]
+    sides = [own.lateral_capacity + 2.0 * own.slider_radius for own in each]  # plates go half of it
+    side = max((side for side in sides if math.isfinite(side)), default=0.0)
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
         return []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from functools import cache
 from typing import Annotated, Any, Literal, Union
 
@@ -12,14 +13,19 @@ from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table
 from frames.design.project.schema_analysis import Analysis as Analysis
 from frames.design.project.schema_bearing import Bearing as Bearing
+from frames.design.project.schema_bearing import BearingType as BearingType
 from frames.design.project.schema_bearing import Bounds as Bounds
 from frames.design.project.schema_bearing import bearing_table as bearing_table
+from frames.design.project.schema_bearing import bearing_type_table, completed
+from frames.design.project.schema_hazard import BY_POINTS, points_table, spectrum_table
 from frames.design.project.schema_hazard import Motions as Motions
 from frames.design.project.schema_hazard import MotionSource as MotionSource
 from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
-from frames.design.project.schema_hazard import spectrum_table
 from frames.design.project.schema_limits import Limits as Limits
 from frames.design.project.schema_limits import Target as Target
+from frames.design.project.schema_loads import LoadsTable as LoadsTable
+from frames.design.project.schema_structure import ImportedModel as ImportedModel
+from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
 from frames.design.project.schema_structure import MomentFrame as MomentFrame
 from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel
 from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
@@ -28,11 +34,18 @@ from frames.design.project.schema_structure import SuperstructureTable as Supers
 
 
 class ProjectTable(Table):
-    """``[project]``: its name, the standard that it is designed by, Python files that extend it."""
+    """``[project]``: its name and standard, Python files that extend it, who and when, language."""
 
     name: str = Field(min_length=1)
     code: str
     extensions: tuple[str, ...] = ()
+    client: str = ""
+    engineer: str = ""
+    checker: str = ""
+    revision: str = ""
+    date: datetime.date | str = ""
+    language: Literal["en", "es"] = "en"
+    decimal: Literal[".", ","] = "."
 
 
 class ProjectFile(Table):
@@ -40,8 +53,10 @@ class ProjectFile(Table):
 
     project: ProjectTable
     structure: Structure
+    loads: LoadsTable | None = None
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
+    bearings: dict[str, BearingType] = Field(default_factory=dict)
     spectrum: SpectrumTable
     motions: Motions
     bounds: Bounds
@@ -59,7 +74,9 @@ class ProjectFile(Table):
                 about = about | {"code": canonical(about["code"])}
                 data = data | {"project": about}
                 if isinstance(given, dict):
-                    data = data | {"spectrum": {"code": about["code"]} | given}
+                    tag = about["code"] + (BY_POINTS if "points" in given else "")
+                    data = data | {"spectrum": {"code": tag} | given}
+            data = completed(data)
         return data
 
 
@@ -80,14 +97,17 @@ def _file_of(codes: tuple[DesignCode, ...], bearing: Any) -> type[ProjectFile]:
     names = tuple(code.name for code in codes)
     literal: Any = Literal[names]
     about = create_model("ProjectTable", __base__=ProjectTable, code=(literal, ...))
-    tables = tuple(spectrum_table(code) for code in codes)
-    spectra: Any = tables[0]
-    if len(tables) > 1:
-        spectra = Annotated[Union[tables], Field(discriminator="code")]  # noqa: UP007
+    tables: tuple[type[SpectrumTable], ...] = tuple(
+        make(code) for code in codes for make in (spectrum_table, points_table)
+    )
+    spectra: Any = Annotated[Union[tables], Field(discriminator="code")]  # noqa: UP007
+    kind: Any = bearing_type_table(bearing)
+    types: Any = dict[str, kind]
     return create_model(
         "ProjectFile",
         __base__=ProjectFile,
         project=(about, ...),
         bearing=(bearing | None, None),
+        bearings=(types, Field(default_factory=dict)),
         spectrum=(spectra, ...),
     )

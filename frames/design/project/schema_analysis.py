@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
+from frames.design.codes.history_rules import MOST_ECCENTRIC
 from frames.design.project.derived import Table
-from frames.design.project.quantities import Length, Positive, Time
+from frames.design.project.quantities import Length, Positive, Ratio, Time
 
 
 class Analysis(Table):
@@ -20,3 +21,16 @@ class Analysis(Table):
     uplift_allowed: bool | None = None
     least_gap: Length | None = None
     histories: Literal["governing", "all"] = "governing"
+    accidental_eccentricity: Ratio | Literal["none"] | None = None
+    accidental_eccentricity_motions: Literal["governing", "all"] = "governing"
+
+    @field_validator("accidental_eccentricity")
+    @classmethod
+    def _eccentricity(cls, share: float | str | None) -> float | str | None:
+        if isinstance(share, float) and not 0.0 <= share <= MOST_ECCENTRIC:
+            msg = (
+                f"must be a share of the sides of the plan between 0 and {MOST_ECCENTRIC:g}, such "
+                'as "5 %", or "none"'
+            )
+            raise ValueError(msg)
+        return share

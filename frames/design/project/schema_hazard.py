@@ -10,7 +10,7 @@ from pydantic import Field, create_model, field_validator, model_validator
 
 from frames.design.codes.registry import DesignCode
 from frames.design.project.derived import Table
-from frames.design.project.quantities import Positive, quantity
+from frames.design.project.quantities import Acceleration, Positive, Time, quantity
 
 
 class SpectrumTable(Table):
@@ -32,6 +32,34 @@ def spectrum_table(code: DesignCode) -> type[SpectrumTable]:
         keys[name] = (kind, rule)
     said = f"``[spectrum]`` of {code.name}."
     return create_model(f"Spectrum, {code.name}", __base__=SpectrumTable, __doc__=said, **keys)
+
+
+BY_POINTS = " [points]"
+"""Ends the tag of a spectrum that is given point by point; messages leave such parts out."""
+
+
+class PointsTable(SpectrumTable):
+    """``[spectrum]`` point by point: from a list or a table, for any code."""
+
+    points: Path | Annotated[tuple[tuple[Time, Acceleration], ...], Field(min_length=2)]
+
+    @field_validator("points", mode="before")
+    @classmethod
+    def _points(cls, points: object) -> object:
+        if not isinstance(points, (str, list, tuple, Path)):
+            msg = 'must be a file, "spectrum.csv", or a list of points, [["0.5 s", "1.2 g"], ...]'
+            raise ValueError(msg)
+        return points
+
+
+def points_table(code: DesignCode) -> type[PointsTable]:
+    """Return the class of ``[spectrum]`` with points, of a code."""
+    keys: dict[str, Any] = {"code": (Literal[code.name + BY_POINTS], ...)}
+    for name, key in code.points_keys.items():
+        kind: Any = Annotated[quantity(key.unit), Positive]
+        keys[name] = (kind | None, Field(None))
+    said = f"``[spectrum]`` of {code.name}, point by point."
+    return create_model(f"Points, {code.name}", __base__=PointsTable, __doc__=said, **keys)
 
 
 class MotionSource(Table):

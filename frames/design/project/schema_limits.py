@@ -25,6 +25,7 @@ class Limits(Table):
     base_shear: Force | None = None
     displacement_left: Length | None = None
     rim_engagement: Ratio | None = None
+    moat_gap: Length | None = None
 
 
 class Target(Table):

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, field_validator, model_validator
 
 from frames.design.codes.registry import MOST_IMPORTANT
 from frames.design.project.derived import Table
@@ -13,27 +14,92 @@ from frames.design.project.quantities import (
     AreaMass,
     Eccentricity,
     Force,
-    Length,
     Mass,
     NotNegative,
     Positive,
+    Ratio,
     Stiffness,
 )
+from frames.design.project.schema_sections import (
+    BaseBeams,
+    Beams,
+    BraceTable,
+    Columns,
+    Count,
+    Heights,
+    SectionTable,
+    Size,
+    WallTable,
+)
 
-Size = Annotated[Length, Positive]
-Count = Annotated[int, Field(ge=1)]
+_PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
 
-class MomentFrame(Table):
+class BuildingTable(Table):
+    """What buildings of columns and beams have in common."""
+
+    floor_load: Annotated[AreaMass, Positive] | None = None
+    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+    damping: Annotated[Ratio, Field(ge=0.0, le=0.2)] = 0.02
+    braces: tuple[BraceTable, ...] = ()
+    walls: tuple[WallTable, ...] = ()
+    floor_diaphragm: Literal["rigid", "flexible"] = "rigid"
+    base_diaphragm: Literal["rigid", "flexible"] = "rigid"
+
+    @field_validator("floor_load", mode="before")
+    @classmethod
+    def _no_pressure(cls, given: object) -> object:
+        if isinstance(given, str) and _PRESSURE.search(given):
+            msg = (
+                'is a pressure, and floor_load a mass, "450 kg/m2": give pressures under [loads], '
+                'dead = "4.5 kN/m2"'
+            )
+            raise ValueError(msg)
+        return given
+
+
+class MomentFrame(BuildingTable):
     """``[structure]`` of kind "moment frame": a regular frame, a bearing under each column."""
 
     kind: Literal["moment frame"]
     bays: tuple[Count, Count]
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
-    storey_height: Size
-    floor_load: Annotated[AreaMass, Positive]
-    eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
+    storey_height: Heights
+    columns: Columns | None = None
+    beams: Beams | None = None
+    base_beams: BaseBeams | None = None
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Height of each storey [m]."""
+        each = self.storey_height
+        return each if isinstance(each, tuple) else (each,) * self.storeys
+
+    @model_validator(mode="after")
+    def _one_height_each(self) -> Self:
+        if len(self.heights) != self.storeys:
+            msg = (
+                f"storey_height has {len(self.heights)} heights for {self.storeys} storeys: give "
+                "one for all, or one for each"
+            )
+            raise ValueError(msg)
+        return self
+
+
+class IrregularFrame(BuildingTable):
+    """``[structure]`` of kind "irregular frame": columns and beams from tables."""
+
+    kind: Literal["irregular frame"]
+    storey_height: tuple[Size, ...] = Field(min_length=1)
+    columns_table: Path
+    beams_table: Path
+    sections: dict[str, SectionTable] = Field(default_factory=dict)
+
+    @property
+    def heights(self) -> tuple[float, ...]:
+        """Height of each storey [m]."""
+        return self.storey_height
 
 
 class ShearBuilding(Table):
@@ -59,7 +125,25 @@ class OpenSeesModel(Table):
     force_unit: Annotated[Force, Positive] = 1.0
 
 
-Structure = Annotated[MomentFrame | ShearBuilding | OpenSeesModel, Field(discriminator="kind")]
+class ImportedModel(Table):
+    """``[structure]`` of kind "sap2000" or "etabs": a model of those programs, as text tables."""
+
+    kind: Literal["sap2000", "etabs"]
+    file: Path
+    bearings_at: tuple[str, ...] = ()
+    loads: dict[str, float] | str = "all"
+    mass: dict[str, float] | None = None
+    allow: tuple[str, ...] = ()
+    mesh: Size = 1.25
+    base_rotations: Literal["kept", "free", "fixed"] = "kept"
+    base_diaphragm: bool = True
+    decimal: Literal[".", ","] = "."
+
+
+Structure = Annotated[
+    MomentFrame | IrregularFrame | ShearBuilding | OpenSeesModel | ImportedModel,
+    Field(discriminator="kind"),
+]
 
 
 class SuperstructureTable(Table):

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import shutil
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
-from frames.design.report.numbers import run_tables
+from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import load, save
 from lir_element.results.dataset import package_version
@@ -32,7 +32,9 @@ UNFINISHED = "unfinished"
 _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
 
-def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = True) -> list[Path]:
+def write_run(
+    run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
+) -> list[Path]:
     """Write what a run gave.
 
     Parameters
@@ -46,27 +48,41 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
         Text of the project's file, which is kept beside the results.
     figures : bool
         Whether the report has figures.
+    language : str
+        Of the report, in place of that of the project's file.
 
     Returns
     -------
     list of Path
-        ``project.toml``; ``runs-<bound>.nc``, the time histories, ``runs-<level>-<bound>.nc``
-        where a code has several levels of the seismic action; ``equivalent-linear.csv``,
-        ``demands.csv``, ``checks.csv``, ``bearings.csv``, ``friction.csv``, ``modes.csv``,
-        ``members.csv``, ``programme.csv`` in SI units; ``checks.txt`` with each calculation;
-        ``governing.nc``, the histories of one run; ``report.html``; ``run.json``: version, date,
-        outcome. What an interrupted run left is removed.
+        ``project.toml`` and the tables of members that it names; ``runs-<bound>.nc``, the time
+        histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
+        action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
+        ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
+        ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
+        ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
+        with members; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one
+        run; ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
+        removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for stale in (folder / "run.json", *folder.glob("runs-*.nc")):  # the first is written last
+    old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
+    for stale in (folder / "run.json", *old):  # the first is written last
         stale.unlink(missing_ok=True)
-    written = {label: folder / f"runs-{label}.nc" for label in _labelled(run)}
-    for label, path in written.items():
-        data = _labelled(run)[label][2]
+    own = _labelled(run.runs)
+    written = {label: folder / f"runs-{label}.nc" for label in own}
+    for label, (_, _, data) in own.items():
+        path = written[label]
         save(data, path, compress=data.sizes.get("time", 0) > _ENDS)
+    for label, (_, _, data) in _labelled(run.moved).items():
+        written[f"moved {label}"] = folder / f"moved-{label}.nc"
+        save(data, written[f"moved {label}"])
+    for table in run.tables:
+        written[table.name] = folder / table.name
+        if table.resolve() != written[table.name].resolve():
+            shutil.copyfile(table, written[table.name])
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    judged = write_judgement(run, folder, source, figures=figures)
+    judged = write_judgement(run, folder, source, figures=figures, language=language)
     kept = [*judged, *written.values(), governing]
     (folder / "interrupted.nc").unlink(missing_ok=True)
     shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
@@ -74,21 +90,30 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
 
 
 def write_judgement(
-    run: ProjectRun, folder: Path, source: str, *, figures: bool = True
+    run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
 ) -> list[Path]:
     """Write what follows from a run's time histories, as `write_run` does; return the files."""
-    (folder / "view.html").unlink(missing_ok=True)  # of `lir view`, with the checks of before
+    for stale in ("view.html", "report.pdf"):  # with the checks of before
+        (folder / stale).unlink(missing_ok=True)
     tables = run_tables(run)
+    for name in TABLES_OF_FORCES:
+        if not len(tables.get(name, ())):  # those of an earlier run, of another structure
+            (folder / f"{name}.csv").unlink(missing_ok=True)
+            tables.pop(name, None)
     texts = {
         "project.toml": source,
-        **{f"{name}.csv": table.to_csv() for name, table in tables.items()},
+        **{f"{name}.csv": table.to_csv() for name, table in tables.items() if name != ECCENTRICITY},
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
         "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
-        "report.html": report_html(run, source, tables, figures=figures),
+        "report.html": report_html(run, source, tables, figures=figures, language=language),
         "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
+    if len(tables[ECCENTRICITY]):
+        texts[f"{ECCENTRICITY}.csv"] = tables[ECCENTRICITY].to_csv(index=False)
+    else:  # of an earlier run
+        (folder / f"{ECCENTRICITY}.csv").unlink(missing_ok=True)
     written = []
     for name, text in texts.items():
         path = folder / name
@@ -132,15 +157,30 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
         )
         raise ProjectError(msg)
     try:
-        runs: LevelRuns = {}
-        for label, about in kept["runs"].items():
-            each = runs.setdefault(about.get("level", ""), {})
-            each[about.get("bound", label)] = load(folder / f"runs-{label}.nc")
+        runs, moved = (_read(folder, word, kept.get(word, {})) for word in ("runs", "moved"))
         governing = load(folder / "governing.nc")
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    return Histories(runs=runs, governing=governing, governing_case=kept["governing_case"])
+    every = (data for each in runs.values() for data in each.values())
+    if any("reached_reaction_force" not in data for data in every):
+        version = kept["lir_dcfp_version"]
+        msg = (
+            f"the time histories in {folder} were made by a version ({version}) that kept no "
+            "forces of members and bearings: `lir run` makes new ones"
+        )
+        raise ProjectError(msg)
+    case = kept["governing_case"]
+    return Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
+
+
+def _read(folder: Path, word: str, about: Mapping[str, Mapping[str, str]]) -> LevelRuns:
+    # Files of time histories by level and bound, as run.json names them.
+    found: LevelRuns = {}
+    for label, told in about.items():
+        each = found.setdefault(told.get("level", ""), {})
+        each[cast("Bound", told.get("bound", label))] = load(folder / f"{word}-{label}.nc")
+    return found
 
 
 def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
@@ -182,7 +222,16 @@ def _facts(run: ProjectRun) -> dict[str, object]:
                 "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
                 "seconds": float(data.attrs["seconds"]),
             }
-            for label, (level, bound, data) in _labelled(run).items()
+            for label, (level, bound, data) in _labelled(run.runs).items()
+        },
+        "moved": {
+            label: {
+                "level": level,
+                "bound": bound,
+                "runs": data.sizes["run"],
+                "seconds": float(data.attrs["seconds"]),
+            }
+            for label, (level, bound, data) in _labelled(run.moved).items()
         },
     }
 
@@ -196,11 +245,13 @@ def _fixed_base_period(run: ProjectRun) -> float | None:
     return None
 
 
-def _labelled(run: ProjectRun) -> dict[str, tuple[str, Bound, xr.Dataset]]:
+def _labelled(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+) -> dict[str, tuple[str, Bound, xr.Dataset]]:
     # Level, bound and runs by the words that a file's name has.
-    several = len(run.runs) > 1
+    several = len(runs) > 1
     return {
         f"{level}-{bound}" if several else bound: (level, bound, data)
-        for level, each in run.runs.items()
+        for level, each in runs.items()
         for bound, data in each.items()
     }

@@ -10,23 +10,15 @@ import jinja2
 import numpy as np
 from pandas.api.types import is_string_dtype
 
+from frames.design.report.tables import Table as Table
 from frames.design.report.tables import rows_of
+from frames.design.report.words import Words
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import pandas as pd
     from matplotlib.figure import Figure
 
 _DOTS = 110  # per inch
-
-
-class Table(NamedTuple):
-    """A table of a page: cells as text, the first column and those named to the left."""
-
-    head: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    left: frozenset[int] = frozenset()
 
 
 class Picture(NamedTuple):
@@ -44,7 +36,9 @@ class Picture(NamedTuple):
     source: str
 
 
-def page_template(name: str, package: str = "frames.design.report") -> jinja2.Template:
+def page_template(
+    name: str, package: str = "frames.design.report", words: Words | None = None
+) -> jinja2.Template:
     """Return the template of a page.
 
     Parameters
@@ -53,6 +47,8 @@ def page_template(name: str, package: str = "frames.design.report") -> jinja2.Te
         Its file. ``page.css`` and ``macros.html.j2`` of this room are found beside it.
     package : str
         Where it is.
+    words : Words, optional
+        The language; its filters say what other parts of the program made.
 
     Returns
     -------
@@ -60,13 +56,20 @@ def page_template(name: str, package: str = "frames.design.report") -> jinja2.Te
         What it is given is escaped; a name that it lacks is an error.
     """
     rooms = dict.fromkeys((package, "frames.design.report"))
-    return jinja2.Environment(
+    room = jinja2.Environment(
         loader=jinja2.ChoiceLoader([jinja2.PackageLoader(room, ".") for room in rooms]),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-    ).get_template(name)
+        extensions=["jinja2.ext.i18n"],
+    )
+    room.policies["ext.i18n.trimmed"] = True
+    said = words or Words()
+    room.install_gettext_callables(said.gettext, said.ngettext, newstyle=True)  # type: ignore[attr-defined]  # of the extension
+    room.filters |= {"said": said.say, "cited": said.cited}
+    room.filters |= {"number": said.number, "formula": said.formula}
+    return room.get_template(name)
 
 
 def page_table(frame: pd.DataFrame, index: str) -> Table:
@@ -75,10 +78,12 @@ def page_table(frame: pd.DataFrame, index: str) -> Table:
     return Table((index, *map(str, frame.columns)), rows_of(frame, _word), frozenset(words))
 
 
-def picture(title: str, figure: Figure) -> Picture:
-    """Return a figure with its title, drawn; the figure is closed."""
+def picture(title: str, figure: Figure, words: Words | None = None) -> Picture:
+    """Return a figure with its title, drawn, in a language; the figure is closed."""
     import matplotlib.pyplot as plt
 
+    if words is not None:
+        title, figure = words.say(title), words.figure(figure)
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=_DOTS, bbox_inches="tight")
     plt.close(figure)

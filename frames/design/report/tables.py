@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import pandas as pd
 
+_NAME = 18  # letters of a name that stays on one line
 _SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+
+
+class Table(NamedTuple):
+    """A table of a page: cells as text, the first column and those named to the left."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: frozenset[int] = frozenset()
+
+    @property
+    def short(self) -> bool:
+        """Whether the first column has names alone, which are not broken into lines."""
+        return all(len(row[0]) <= _NAME for row in self.rows)
 
 
 def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tuple[str, ...]]:

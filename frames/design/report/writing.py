@@ -2,39 +2,51 @@
 
 from __future__ import annotations
 
-import platform
-from datetime import UTC, datetime
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import pandas as pd
-from markupsafe import Markup
 
 from frames.design.calculation.check import TO_BE_CONFIRMED
-from frames.design.histories.demand_table import headed, void_said
+from frames.design.histories.demand_table import envelope_said, headed, void_said
+from frames.design.report.columns import in_parts
+from frames.design.report.cover import cover_of, css_string
+from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
+from frames.design.report.governs import what_governs
+from frames.design.report.judged import factor_steps, judged
+from frames.design.report.numbers import ECCENTRICITY, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
-from lir_element.results.dataset import package_version
+from frames.design.report.terms import device_table, loads_table, model_table
+from frames.design.report.words import Words
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
 
-
-class Judged(NamedTuple):
-    """A check as the report shows it."""
-
-    check: Check
-    demand: str
-    limit: str
-    ratio: str
-    steps: list[tuple[Markup, str]]
+SECTIONS = (
+    ("summary", "What governs"),
+    ("structure", "Structure"),
+    ("bearings", "Bearings"),
+    ("motions", "Motions"),
+    ("equivalent-linear-analysis", "Equivalent-linear analysis"),
+    ("time-histories", "Time histories"),
+    ("checks", "Checks"),
+    ("test-programme", "Test programme"),
+    ("calculations", "Calculations"),
+    ("input", "Input"),
+)
+"""Anchors and headings of the report's sections."""
 
 
 def report_html(
-    run: ProjectRun, source: str, tables: Mapping[str, pd.DataFrame], *, figures: bool = True
+    run: ProjectRun,
+    source: str,
+    tables: Mapping[str, pd.DataFrame],
+    *,
+    figures: bool = True,
+    language: str = "",
 ) -> str:
     """Return a run as a self-contained HTML page.
 
@@ -48,40 +60,81 @@ def report_html(
         Of `run_tables`.
     figures : bool
         Whether with figures, which take half of the time of a small project.
+    language : str
+        One of `words.LANGUAGES` in place of that of the project's file.
 
     Returns
     -------
     str
         The page: styles and pictures are in it, nothing is fetched.
     """
+    return report_in(_words(run, language), run, source, tables, figures=figures)
+
+
+def report_in(
+    words: Words,
+    run: ProjectRun,
+    source: str,
+    tables: Mapping[str, pd.DataFrame],
+    *,
+    figures: bool = True,
+) -> str:
+    """Return the page of `report_html` in a language; `words` then knows what it lacked."""
     device = next(iter(run.frame.bearings.values())).bearing
-    return page_template("report.html.j2").render(
+    attrs = run.governing.attrs
+
+    def fit(table: Table, keep: int = 1) -> list[Table]:
+        return in_parts(words.table(table), keep=keep)
+
+    return page_template("report.html.j2", words=words).render(
+        language=words.language,
         name=run.frame.name,
         code=run.equivalent.code,
-        device="plain DCFP" if device.is_dcfp else "LIR-DCFP",
+        device="DCFP" if device.is_dcfp else "LIR-DCFP",
+        cover=cover_of(run, source),
+        css_string=css_string,
+        sections=SECTIONS,
         case=run.governing_case,
-        failed=[_judged(check) for check in run.checks.failed],
+        failed=[judged(check) for check in run.checks.failed],
+        governing=what_governs(run.checks),
+        judged=judged,
         doubts=run.doubts,
-        checks=[_judged(check) for check in run.checks],
-        limits=[_judged(check) for check in run.equivalent.checks if check not in run.checks],
-        model=Markup(run.model._repr_html_()),  # noqa: S704  (escaped where it is made)
-        bearing=Markup(device._repr_html_()),  # noqa: S704
-        schedule=page_table(in_mm_and_kn(tables["bearings"]), "bearing"),
-        friction=page_table(tables["friction"], "friction coefficient"),
-        modes=page_table(tables["modes"], "mode"),
-        members=page_table(tables["members"], "members"),
-        programme=_programme(tables["programme"]),
-        motions=page_table(run.motions.table(), "motion"),
-        equivalent=Table(run.equivalent.head(), run.equivalent.rows()),
-        demands=page_table(headed(run.demands), "quantity"),
+        checks=[judged(check) for check in run.checks],
+        limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
+        structure=words.table(
+            Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
+        ),
+        model=words.table(model_table(run.model)),
+        loads=fit(loads_table(run.model)),
+        notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
+        factors=factor_steps(run.bounds),
+        devices=[
+            (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
+        ],
+        schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
+        friction=words.table(_friction(tables["friction"])),
+        modes=fit(page_table(tables["modes"], "mode")),
+        members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
+        programme=fit(_programme(tables["programme"])),
+        motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
+        equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
+        demands=fit(_demands(run.demands)),
         void=void_said(run.demands),
+        raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
+        eccentricity=eccentricity_said(run),
         levels=_levels(run),
-        level=f"the level {run.rules.levels[0].name!r}",
-        audit=run.governing.attrs["audit"].splitlines(),
-        pictures=pictures(run) if figures else {},
+        level=run.rules.levels[0].name,
+        audit=attrs["audit"].splitlines(),
+        pictures=pictures(run, words) if figures else {},
         source=source,
-        facts=_facts(run),
+        options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
+
+
+def _words(run: ProjectRun, language: str) -> Words:
+    names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
+    names |= {*run.motions, *(level.name for level in run.frame.levels)}
+    return Words(language or run.about.language, run.about.decimal, names)
 
 
 def _levels(run: ProjectRun) -> str:
@@ -101,14 +154,36 @@ def _levels(run: ProjectRun) -> str:
     return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
 
 
-def _judged(check: Check) -> Judged:
-    return Judged(
-        check=check,
-        demand=check.said[0],
-        limit=check.said[1],
-        ratio=check.said[2],
-        steps=[(Markup(step.mathml()), step.said) for step in check.trace],  # noqa: S704
-    )
+_FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "strike": "strike [°]"}
+
+
+def _named(fact: str) -> str:
+    # The head of a column of a table of motions, whose keys are names.
+    return _FACTS.get(fact, fact.replace("_", " "))
+
+
+def _demands(demands: pd.DataFrame) -> Table:
+    # Short heads, and a column that says which statistic the columns of the bounds are of.
+    heads = dict(zip(headed(demands).columns, demands.drop(columns="void").columns, strict=True))
+    short = {long: "single" if long == "value" else name for long, name in heads.items()}
+    short = {
+        long: {
+            "envelope": "envelope of these",
+            "worst": "largest of all runs",
+            "run": "in run",
+        }.get(name, name)
+        for long, name in short.items()
+    }
+    shown = headed(demands).rename(columns=short)
+    shown.insert(1, "values are", envelope_said(demands))
+    return page_table(shown, "quantity")
+
+
+def _friction(friction: pd.DataFrame) -> Table:
+    # A rigid slider has no friction coefficient of its interface: a word in place of infinity.
+    made = page_table(friction, "friction coefficient")
+    rows = [["rigid slider" if cell == "inf" else cell for cell in row] for row in made.rows]
+    return Table(made.head, rows, made.left)
 
 
 def _programme(tests: pd.DataFrame) -> Table:
@@ -121,16 +196,3 @@ def _programme(tests: pd.DataFrame) -> Table:
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
     return page_table(in_mm_and_kn(shown), "test")
-
-
-def _facts(run: ProjectRun) -> dict[str, str]:
-    attrs = run.governing.attrs
-    return {
-        "written": datetime.now(tz=UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "lir-dcfp": package_version(),
-        "Python": platform.python_version(),
-        "system": f"{platform.system()} {platform.machine()}",
-        "level, integrator, step control": (
-            f"{attrs['level']}, {attrs['integrator']}, {attrs['step_control']}"
-        ),
-    }

@@ -56,7 +56,7 @@ def design_candidates(
 
     Examples
     --------
-    In the tutorial: "A design project" (docs/tutorials/f_design_project.py).
+    In the tutorial: "6. A design" (docs/tutorials/f_design_project.py).
     """
     chosen = found.chosen if isinstance(found, Design) else None
     candidates = found.candidates if isinstance(found, Design) else tuple(found)

@@ -219,6 +219,16 @@ class Campaign:
             counting.tell()
             yield number, batch
 
+    @property
+    def motions(self) -> dict[str, GroundMotion]:
+        """GroundMotion by name, before the scales."""
+        return dict(self._work.motions)
+
+    @property
+    def sets(self) -> int:
+        """Number of sets of parameters."""
+        return self._work.plan.sets
+
     def results(self) -> xr.Dataset:
         """Return what the runs reached so far: `CampaignStore.results`."""
         return self.store.results()

@@ -9,15 +9,24 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar, get_type
 from pydantic import Field, create_model, model_validator
 from scipy import stats
 
+from frames.design.codes.load_rules import LOADS_OF_ASCE
 from frames.design.project.derived import DerivedTable, Table
 from frames.design.project.extensions import load_extensions
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.quantities import Length, Ratio, SpeedRate, Time, quantity
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, MotionSource, Structure, bearing_table
+from frames.design.project.schema import (
+    Bearing,
+    LoadsTable,
+    MotionSource,
+    Structure,
+    bearing_table,
+)
+from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.designs import names_of
+from frames.risk.campaign.file_fragility import FragilityTable
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
 from lir_element.device.friction import CoulombFriction, unit_of
 
@@ -29,6 +38,9 @@ if TYPE_CHECKING:
     from lir_element import FrictionLaw
 
 T = TypeVar("T")
+
+WEIGHS = {"D": 1.0, "L": 0.5, "S": 0.0}
+"""Shares of dead load, live load and snow that buildings of campaigns carry [-]."""
 
 STORE = "results"
 """Folder of the results beside the file, if nothing is said: the file's name and this."""
@@ -117,11 +129,13 @@ class CampaignFile(Table):
 
     campaign: CampaignTable
     structure: Structure
+    loads: LoadsTable | None = None
     bearing: Bearing
     motions: CampaignMotions
     parameters: Parameters | None = None
     sample: Sampling | None = None
     analysis: CampaignAnalysis = CampaignAnalysis()
+    fragility: FragilityTable | None = None
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Self:
@@ -202,7 +216,10 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
     file = _read(whole)
     folder = whole.resolve().parent
     bearing, name = bearing_of(file.bearing), file.campaign.name
-    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder))
+    loads = loads_of(file.loads, LOADS_OF_ASCE)
+    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder, loads))
+    if frame.load_cases:
+        frame = frame.combined(WEIGHS)
     given = file.analysis
     return in_section(
         "campaign",
@@ -223,6 +240,11 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
 def workers_of(path: str | Path) -> int | None:
     """Return how many runs at a time a campaign's file asks for."""
     return _read(Path(path)).analysis.workers
+
+
+def fragility_in(path: str | Path) -> FragilityTable | None:
+    """Return the limit states and the measure of intensity that a campaign's file asks for."""
+    return _read(Path(path)).fragility
 
 
 def _devices(frame: Frame, devices: tuple[str, ...]) -> dict[str, Frame]:

@@ -129,7 +129,7 @@ class IDA(Shown):
 
         Returns
         -------
-        ndarray, shape (motions, m)
+        ndarray, shape (n_motions, m)
             Demands [SI]: infinite from the capacity against failure of a bearing on, NaN above the
             highest run.
 

@@ -1,0 +1,65 @@
+"""What a code makes of dead, live and snow load: seismic mass, and combinations for bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+from frames.model.load_combinations import isolator_combinations
+
+Combinations = dict[str, dict[str, float]]
+"""Factors of the load cases "D", "L" and "S" by name of the combination."""
+
+CASES = ("D", "L", "S")
+"""Load cases: dead load, live load, snow."""
+
+
+class LoadRule(NamedTuple):
+    """How a code counts the loads of an isolated building.
+
+    Attributes
+    ----------
+    clause : str
+        Where the code says so; from memory if marked by a star.
+    mass : mapping of str to float
+        Share of each load case that is seismic mass [-], if a project does not say another.
+    combinations : callable
+        Returns the vertical load combinations of the bearings without the horizontal earthquake,
+        "average" among them, which time histories carry; its argument is S_MS [g], or None where
+        the code's spectrum has none.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rule = code_named("EN 1998").loads
+    >>> rule.mass["L"], rule.combinations(None)["average"]
+    (0.3, {'D': 1.0, 'L': 0.3, 'S': 0.0})
+    """
+
+    clause: str
+    mass: Mapping[str, float]
+    combinations: Callable[[float | None], Combinations]
+
+
+def fixed_combinations(combinations: Combinations) -> Callable[[float | None], Combinations]:
+    """Return a rule whose factors do not depend on the spectrum.
+
+    Parameters
+    ----------
+    combinations : dict of str to dict of str to float
+        Factors of the load cases by name of the combination.
+
+    Returns
+    -------
+    callable
+        For `LoadRule.combinations`.
+    """
+    return lambda s_ms: {name: dict(factors) for name, factors in combinations.items()}
+
+
+LOADS_OF_ASCE = LoadRule(
+    "ASCE/SEI 7-22, 12.7.2 and 17.2.7.1*; of live load only that of storage counts as mass, 25 %",
+    {"D": 1.0, "L": 0.0, "S": 0.0},
+    lambda s_ms: isolator_combinations(s_ms or 0.0),
+)
+"""Seismic weight and combinations of ASCE 7, and of codes that give none of their own."""

@@ -1,0 +1,298 @@
+"""Accidental eccentricity: how far runs with the floors' masses moved raise demands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from frames.design._errors import CheckError
+from frames.design.histories.suite import (
+    Amplification,
+    Suite,
+    motion_of,
+    names_of,
+    peaks_of_runs,
+    suite_of,
+)
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.history_rules import HistoryRules
+
+WAYS: Mapping[str, tuple[float, float]] = {
+    "+x": (1.0, 0.0),
+    "-x": (-1.0, 0.0),
+    "+y": (0.0, 1.0),
+    "-y": (0.0, -1.0),
+}
+"""Ways in which masses are moved, as shares along x and y of the accidental eccentricity."""
+
+WAY = "masses_moved"
+"""Coordinate of runs that says which way the masses were moved."""
+
+_RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
+    ("displacement", "m", "factor"),
+    ("force", "N", "factor"),
+    ("axial_force", "N", "factor"),
+    ("base_shear", "N", "factor"),
+    ("storey_shear", "N", "factor"),
+    ("drift", "-", "factor"),
+    ("line_drift", "-", "factor"),
+    ("floor_plan", "m/s2", "factor"),
+    ("slip", "m", "difference"),
+    ("rim_force", "N", "difference"),
+    ("eccentricity", "-", "difference"),
+    ("axial_tension", "N", "difference"),
+)
+"""Quantities that moved masses raise: by a factor, or, where what begins at a threshold may be
+nothing while the masses are where they are, by a difference."""
+
+
+def raises_of(
+    data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules
+) -> tuple[dict[str, Amplification], str]:
+    """Return by what moved masses raise each quantity, the worst way each.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Runs of one bound with the masses where they are.
+    moved : xarray.Dataset
+        Runs with the masses moved: coordinate ``masses_moved`` names the way, motions and scales
+        are among those of `data`.
+    rules : HistoryRules
+        How the code counts runs.
+
+    Returns
+    -------
+    dict of str to Amplification
+        By quantity.
+    str
+        Which of the moved runs failed, and why; empty if none did.
+    """
+    table, failed = _each_way(data, moved, rules)
+    found: dict[str, Amplification] = {}
+    for (name, way), (centred, reached, motions) in table.items():
+        one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
+        worst = found.get(name)
+        if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
+            found[name] = one
+    return found, failed
+
+
+def eccentricity_table(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+) -> pd.DataFrame:
+    """Return what moving the masses each way does to each quantity.
+
+    Parameters
+    ----------
+    runs, moved : mapping of str to mapping of str to xarray.Dataset
+        By level of the seismic action, then by bound: runs with the masses where they are, and
+        runs with the masses moved.
+    rules : HistoryRules
+        How the code counts runs.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a level, bound, way and quantity (SI): the largest with the masses where they are and
+        moved, the factor or the difference that counts, and of which motions. Empty without moved
+        runs.
+    """
+    import pandas as pd
+
+    rows: list[dict[str, Any]] = []
+    units = {name: unit for name, unit, _ in _RAISED}
+    for level, each in moved.items():
+        for bound, data in each.items():
+            table, _ = _each_way(runs[level][bound], data, rules)
+            for (name, way), (centred, reached, motions) in table.items():
+                one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
+                factored = dict(_KINDS)[name] == "factor"
+                rows.append(
+                    {
+                        "level": level,
+                        "bound": bound,
+                        "masses": way,
+                        "quantity": name.replace("_", " "),
+                        "unit": units[name],
+                        "centred": centred,
+                        "moved": reached,
+                        "factor": one.factor if factored else math.nan,
+                        "added": math.nan if factored else one.added,
+                        "motions": motions,
+                    }
+                )
+    return pd.DataFrame(rows)
+
+
+def with_moved(data: xr.Dataset, moved: xr.Dataset | None) -> xr.Dataset:
+    """Return runs and those with moved masses one after the other: what single runs reached.
+
+    Parameters
+    ----------
+    data, moved : xarray.Dataset
+        Runs of one bound; None where there are none with moved masses.
+
+    Returns
+    -------
+    xarray.Dataset
+        What each run reached, its motion, scale, status and doubts; motions of moved runs name
+        the way.
+    """
+    import xarray as xr
+
+    if moved is None:
+        return data
+    beside = named_by_way(moved)
+    own = [name for name, each in data.variables.items() if each.dims[:1] == ("run",)]
+    own = [name for name in own if name in beside.variables]
+    parts = [part[own].drop_vars(WAY, errors="ignore") for part in (data, beside)]
+    found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
+    return found.assign_attrs(data.attrs)
+
+
+def raised_suite(data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules) -> Suite:
+    """Return how the runs of one bound are taken together, accidental eccentricity with them.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Runs with the masses where they are.
+    moved : xarray.Dataset, optional
+        Runs with the masses moved.
+    rules : HistoryRules
+        How the code counts runs.
+
+    Returns
+    -------
+    Suite
+        Its `raised` has the worst way of each quantity.
+    """
+    suite = suite_of(data, rules)
+    if moved is None:
+        return suite
+    raised, failed = raises_of(data, moved, rules)
+    return replace(suite, raised=raised, moved_failed=failed)
+
+
+def named_by_way(moved: xr.Dataset) -> xr.Dataset:
+    """Return runs with moved masses whose motions name the way as well.
+
+    Parameters
+    ----------
+    moved : xarray.Dataset
+        The runs.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same, "pulse, masses +x" for "pulse".
+    """
+    named = [
+        f"{motion}, masses {way}"
+        for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
+    ]
+    return moved.assign_coords(motion=("run", named))
+
+
+_KINDS = tuple((name, kind) for name, _, kind in _RAISED)
+
+Pairs = dict[tuple[str, str], tuple[float, float, str]]
+"""Largest values with the masses where they are and moved, and of which motions, by quantity and
+way."""
+
+
+def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
+    # Of each way the same motions are compared, as the code counts them together.
+    ways = [str(way) for way in moved[WAY].to_numpy()]
+    found, failed = Pairs(), []
+    for way in dict.fromkeys(ways):
+        there = moved.isel(run=[k for k, each in enumerate(ways) if each == way])
+        here = data.isel(run=[_place(data, there, k) for k in range(there.sizes["run"])])
+        suites = suite_of(here, rules), suite_of(there, rules)
+        if any(suites[1].failed):
+            failed.append(f"masses moved {way}: {suites[1].reason}")
+        whole = there.sizes["run"] == data.sizes["run"]
+        motions = f"{suites[1].statistic} of all {there.sizes['run']} motions"
+        if not whole:
+            motions = ", ".join(motion_of(there, k) for k in range(there.sizes["run"]))
+        compared = tuple(zip((here, there), suites, strict=True))
+        for name, _, _ in _RAISED:
+            if f"reached_{name}" in data and f"reached_{name}" in there:
+                pair = [_largest(each, name, suite) for each, suite in compared]
+                found[name, way] = (pair[0], pair[1], motions)
+    return found, "; ".join(failed)
+
+
+def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:
+    # The run of the same motion and scale.
+    motion, scale = str(moved["motion"].to_numpy()[k]), float(moved["scale"][k])
+    for place, (name, factor) in enumerate(
+        zip(data["motion"].to_numpy(), data["scale"].to_numpy(), strict=True)
+    ):
+        if str(name) == motion and math.isclose(float(factor), scale, rel_tol=1e-12):
+            return place
+    msg = (
+        f"moved: the motion {motion!r} at the scale {scale:g} is not among the runs: give runs of "
+        "the same motions"
+    )
+    raise CheckError(msg)
+
+
+def _largest(data: xr.Dataset, name: str, suite: Suite) -> float:
+    values = peaks_of_runs(data, name)
+    values = values.reshape(len(values), -1)
+    each = [suite.value(column) for column in values.T]
+    known = [value for value in each if math.isfinite(value)]
+    return max(known, default=0.0) if len(names_of(data, name)) else 0.0
+
+
+def _raise(way: str, centred: float, moved: float, motions: str, kind: str) -> Amplification:
+    factor = added = 0.0
+    if kind == "factor" and centred > 0.0:
+        factor = moved / centred
+    elif kind == "difference":
+        added = moved - centred
+    return Amplification(way, centred, moved, max(factor, 1.0), max(added, 0.0), motions)
+
+
+def refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
+    """Refuse runs with moved masses that do not belong to others.
+
+    Parameters
+    ----------
+    data, moved : xarray.Dataset
+        Runs of one bound.
+    bound : str
+        Which, for the message.
+
+    Raises
+    ------
+    CheckError
+        If `moved` has no runs, does not say which way, or is of other bearings.
+    """
+    what = f"moved at the bound {bound!r}" if bound else "moved"
+    if "run" not in moved.dims or WAY not in moved.coords:
+        msg = f"{what}: no coordinate {WAY!r} along 'run': name the way of each run, '+x'"
+        raise CheckError(msg)
+    odd = {*map(str, np.unique(moved[WAY].to_numpy()))} - {*WAYS}
+    if odd:
+        msg = f"{what}: masses_moved = {min(odd)!r} must be one of {', '.join(WAYS)}"
+        raise CheckError(msg)
+    if "reached_uplifts" not in moved.variables:
+        msg = f"{what}: none could begin: {moved['message'].to_numpy()[0]}"
+        raise CheckError(msg)
+    if names_of(data, "displacement") != names_of(moved, "displacement"):
+        msg = f"{what}: its bearings are others than those of the runs: give runs of one structure"
+        raise CheckError(msg)

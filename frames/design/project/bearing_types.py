@@ -1,0 +1,134 @@
+"""Which bearing stands under which column, where a project has several types."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING
+
+from frames.design._errors import ProjectError
+from frames.statics.gravity import gravity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames.design.project.schema import BearingType
+    from frames.frame import Frame
+    from lir_element import LIRBearing
+
+STANDARD = "standard"
+"""Name of the type that ``[bearing]`` describes."""
+
+_NAMED = 6  # columns that a message lists
+
+
+def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str, str]:
+    """Return the type of each bearing of a frame.
+
+    Parameters
+    ----------
+    given : mapping of str to BearingType
+        ``[bearings.<type>]`` of the file.
+    frame : Frame
+        The structure on standard bearings under the average combination: the loads that ``above``
+        goes by are theirs.
+
+    Returns
+    -------
+    dict of str to str
+        By bearing: a type that names its column, else the one whose load it exceeds by the least,
+        else "standard".
+
+    Raises
+    ------
+    ProjectError
+        If a type has neither columns nor a load, none of its columns exists, two types name the
+        same, or a type is under no column.
+    """
+    found: dict[str, str] = dict.fromkeys(frame.bearings, STANDARD)
+    by_load = {}
+    for name, kind in given.items():
+        if bool(kind.columns) == (kind.above is not None):
+            msg = (
+                f"[bearings.{name}] must say under which columns it stands: either columns = "
+                '["0-0", "0-1"], or above = "1500 kN", the average axial load from which on'
+            )
+            raise ProjectError(msg)
+        if kind.above is not None:
+            by_load[name] = kind.above
+    if by_load:
+        loads = gravity(frame).axial_forces
+        for bearing, load in zip(frame.bearings, loads, strict=True):
+            heavy = [name for name, above in by_load.items() if load >= above]
+            if heavy:
+                found[bearing] = max(heavy, key=lambda name: by_load[name])
+    taken: dict[str, str] = {}
+    for name, kind in given.items():
+        for column in map(str, kind.columns):
+            bearing = _known(column, name, frame)
+            if bearing in taken:
+                msg = (
+                    f"[bearings.{name}] columns: {column} is of [bearings.{taken[bearing]}] "
+                    "already: name it once"
+                )
+                raise ProjectError(msg)
+            taken[bearing] = found[bearing] = name
+    idle = [name for name in given if name not in found.values()]
+    if idle:
+        msg = (
+            f"[bearings.{idle[0]}] stands under no column: name its columns, or a lower load above"
+        )
+        raise ProjectError(msg)
+    return found
+
+
+def on_types(frame: Frame, chosen: Mapping[str, str], devices: Mapping[str, LIRBearing]) -> Frame:
+    """Return a frame on bearings of several types.
+
+    Parameters
+    ----------
+    frame : Frame
+        On standard bearings.
+    chosen : mapping of str to str
+        Type of each bearing.
+    devices : mapping of str to LIRBearing
+        Device of each type.
+
+    Returns
+    -------
+    Frame
+        The same structure; the frame itself where all are standard.
+    """
+    others = {name: devices[kind] for name, kind in chosen.items() if kind != STANDARD}
+    return frame.with_bearings(others) if others else frame
+
+
+def columns_by_type(chosen: Mapping[str, str]) -> dict[str, list[str]]:
+    """Return the bearings of each type, where there are several types; nothing where there is one.
+
+    Parameters
+    ----------
+    chosen : mapping of str to str
+        Type of each bearing.
+
+    Returns
+    -------
+    dict of str to list of str
+        Names of bearings by type.
+    """
+    found: dict[str, list[str]] = {}
+    for name, kind in chosen.items():
+        found.setdefault(kind, []).append(name)
+    return found if len(found) > 1 else {}
+
+
+def _known(column: str, kind: str, frame: Frame) -> str:
+    # The bearing of a column that is named as its bearing or without that word.
+    for name in (column, f"bearing-{column}"):
+        if name in frame.bearings:
+            return name
+    names = [name.removeprefix("bearing-") for name in frame.bearings]
+    near = difflib.get_close_matches(column.removeprefix("bearing-"), names, n=1)
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    meant = f'; is "{near[0]}" meant?' if near else f": {', '.join(names[:_NAMED])}{more}"
+    msg = f"[bearings.{kind}] columns: {column} is no column with a bearing{meant}"
+    raise ProjectError(msg)

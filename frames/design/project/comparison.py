@@ -1,0 +1,220 @@
+"""A project's bearings beside the same ones with rigid sliders: time histories of both."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from frames.design._errors import ProjectError
+from frames.design.codes.bounds import with_property_bounds
+from frames.design.histories.demand_table import envelope_said, void_said
+from frames.design.histories.suite import peaks_of_runs
+from frames.design.project.governing_run import most_displaced
+from frames.design.project.level_runs import demands_at_levels, histories_at_levels
+from frames.design.project.preliminary import preliminary
+from frames.solve.time_history import time_history
+from lir_element.errors import AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import xarray as xr
+
+    from frames.batch.cases import BatchProgress
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.level_runs import LevelRuns
+    from frames.design.project.preliminary import Preliminary
+    from frames.frame import Frame
+
+OURS, PLAIN = "LIR-DCFP", "DCFP"
+
+BY_MOTION = {
+    "isolator displacement [m]": "displacement",
+    "storey drift ratio [-]": "drift",
+    "floor acceleration in plan [m/s2]": "floor_plan",
+    "rim force [N]": "rim_force",
+}
+"""What is compared motion by motion, with the name of its column."""
+
+
+class RunCounts(NamedTuple):
+    """What came of the runs of a device.
+
+    Attributes
+    ----------
+    runs, met, stopped, doubtful : int
+        All of them; those that met a rim, stopped before their end, and have a warning of the check
+        of modelling assumptions.
+    """
+
+    runs: int
+    met: int
+    stopped: int
+    doubtful: int
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Comparison:
+    """Time histories of a project with its bearings, and with rigid sliders in them.
+
+    Attributes
+    ----------
+    known : Preliminary
+        Structure, spectrum and motions.
+    runs : mapping of str to mapping
+        By device, "LIR-DCFP" and "DCFP": runs by level of the seismic action, then by bound.
+    demands : mapping of str to pandas.DataFrame
+        By device: what the runs give for design (see `frames.design.history_demands`).
+    """
+
+    known: Preliminary
+    runs: Mapping[str, LevelRuns]
+    demands: Mapping[str, pd.DataFrame]
+
+    def table(self) -> pd.DataFrame:
+        """Return the envelopes over the bounds side by side, in SI units.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row a quantity and level: unit, a column for each device, whose head names the
+            statistic and runs that failed, and the level.
+        """
+        columns = {
+            f"{device}, {envelope_said(table)}": table["envelope"]
+            for device, table in self.demands.items()
+        }
+        ours = self.demands[OURS]
+        return ours[["unit"]].assign(**columns, level=ours["level"])
+
+    def by_motion(self) -> pd.DataFrame:
+        """Return what each motion reached with each device, the largest over the bounds.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row a level, motion and device: quantities in SI units, largest of all bearings,
+            storeys or floors; "failed": the runs that stopped, by bound, with the status. What
+            those had reached until they stopped counts.
+        """
+        rows = []
+        for device, levels in self.runs.items():
+            for level, bounds in levels.items():
+                for k, motion in enumerate(self.known.motions):
+                    every = {bound: data.isel(run=[k]) for bound, data in bounds.items()}
+                    row: dict[str, object] = {"level": level, "motion": motion, "device": device}
+                    row |= {
+                        title: max(_largest(data, name) for data in every.values())
+                        for title, name in BY_MOTION.items()
+                    }
+                    status = {b: str(data["status"].to_numpy()[0]) for b, data in every.items()}
+                    failed = [f"{b} ({word})" for b, word in status.items() if word != "ok"]
+                    rows.append(row | {"failed": ", ".join(failed)})
+        return pd.DataFrame(rows)
+
+    def counts(self, device: str, level: str) -> RunCounts:
+        """Return how many runs a device has at a level, and what came of them."""
+        every = list(self.runs[device][level].values())
+        return RunCounts(
+            runs=sum(data.sizes["run"] for data in every),
+            met=sum(int((_peaks(data, "rim_force") > 0.0).any(axis=1).sum()) for data in every),
+            stopped=sum(int((data["status"].to_numpy() != "ok").sum()) for data in every),
+            doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
+        )
+
+    def void(self, device: str, level: str) -> str:
+        """Return why a device has no values for design at a level; empty where it has."""
+        table = self.demands[device]
+        return void_said(table[table["level"] == level])
+
+
+def compare_project(
+    parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
+) -> Comparison:
+    """Run a project with its bearings, and with the same ones whose sliders are rigid.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+
+    Returns
+    -------
+    Comparison
+        Runs of both devices under the same motions.
+
+    Raises
+    ------
+    ProjectError
+        If a section cannot be used, or the bearings have rigid sliders already.
+    CheckError, ModelError, MotionError
+        If the project cannot be run.
+    AnalysisInterrupted
+        After Ctrl-C, with the runs of one device that were complete.
+    """
+    known = preliminary(parts)
+    if all(link.bearing.is_dcfp for link in known.frame.bearings.values()):
+        msg = (
+            "[bearing] interface_friction = inf is a plain DCFP, which is compared with itself: "
+            "give the interface a friction, `lir design` proposes one"
+        )
+        raise ProjectError(msg)
+    runs = {
+        device: histories_at_levels(parts, frame, known.motions, progress)
+        for device, frame in _frames(known).items()
+    }
+    demands = {device: demands_at_levels(each, parts.rules()) for device, each in runs.items()}
+    return Comparison(known=known, runs=runs, demands=demands)
+
+
+def compared_histories(
+    parts: ProjectInputs, found: Comparison
+) -> tuple[dict[str, xr.Dataset], str, str]:
+    """Return the histories of both devices in the run that displaces an LIR-DCFP most.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project.
+    found : Comparison
+        Its runs.
+
+    Returns
+    -------
+    tuple of (dict of str to xarray.Dataset, str, str)
+        Histories by device, which run it is, and the bearing that is displaced most.
+    """
+    level, bound, run = most_displaced(found.runs[OURS])
+    reached = _peaks(found.runs[OURS][level][bound], "displacement")[run]
+    name, given = list(found.known.motions)[run], parts.file.analysis
+    motion = found.known.motions[name].scaled(parts.rules().level(level).factor)
+    data = {}
+    with warnings.catch_warnings():  # as told of the same run among the others
+        warnings.simplefilter("ignore", AnalysisWarning)
+        for device, frame in _frames(found.known).items():
+            model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
+            data[device] = time_history(model, motion, level=given.level, dt=given.dt)
+    where = list(found.known.frame.bearings)[int(np.argmax(reached))]
+    return data, f"{name}, {bound} bound, {level} level", where
+
+
+def _frames(known: Preliminary) -> dict[str, Frame]:
+    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
+    return {OURS: known.frame, PLAIN: known.frame.with_bearings(plain)}
+
+
+def _peaks(data: xr.Dataset, name: str) -> np.ndarray:
+    return peaks_of_runs(data, name).reshape(data.sizes["run"], -1)
+
+
+def _largest(data: xr.Dataset, name: str) -> float:
+    if f"reached_{name}" not in data:
+        return math.nan
+    return float(np.nanmax(_peaks(data, name), initial=0.0))

@@ -1,0 +1,217 @@
+"""What tables of members in a project's file hold: sections, materials, storeys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Literal, Self
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
+
+from frames.design.project.derived import Table
+from frames.design.project.quantities import (
+    Area,
+    Density,
+    Inertia,
+    Length,
+    Positive,
+    Pressure,
+    Ratio,
+)
+
+Size = Annotated[Length, Positive]
+Count = Annotated[int, Field(ge=1)]
+
+SHAPES = ("section", "box", "rectangle", "circle", "i_shape", "properties")
+"""Ways of giving a cross-section, of which a table has one."""
+
+
+def one_or_more(name: str) -> Callable[[object], str]:
+    """Return what tells a table from a list of them, by the tag of each.
+
+    Parameters
+    ----------
+    name : str
+        Name of the table's class.
+
+    Returns
+    -------
+    callable
+        For `pydantic.Discriminator`: the tags are ``[name]`` and ``[[name]]``, which places of
+        errors leave out.
+    """
+    return lambda given: f"[[{name}]]" if isinstance(given, (list, tuple)) else f"[{name}]"
+
+
+def _listed(given: object) -> object:
+    return [given] if isinstance(given, (str, int, float)) else given
+
+
+class MaterialTable(Table):
+    """A material by its numbers: E, G or Poisson's ratio nu, density."""
+
+    E: Annotated[Pressure, Positive]
+    nu: Annotated[Ratio, Field(ge=0.0, lt=0.5)] | None = None
+    G: Annotated[Pressure, Positive] | None = None
+    density: Density
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Self:
+        if (self.nu is None) == (self.G is None):
+            msg = "needs one of nu and G: nu = 0.2 of concrete, nu = 0.3 of steel"
+            raise ValueError(msg)
+        return self
+
+
+Material = Annotated[
+    Annotated[str, Tag("[name]")] | Annotated[MaterialTable, Tag("[MaterialTable]")],
+    Discriminator(lambda v: "[name]" if isinstance(v, str) else "[MaterialTable]"),
+]
+"""A material by name, "S355", "A992", "C30/37", or by its numbers."""
+
+
+class CrackedTable(Table):
+    """Factors on the stiffness of a section of cracked concrete."""
+
+    bending: Ratio
+    torsion: Ratio | None = None
+    shear: Ratio | None = None
+
+    @property
+    def factors(self) -> tuple[float, float | None, float | None]:
+        """On bending, torsion and shear; None is that of bending."""
+        return self.bending, self.torsion, self.shear
+
+
+Cracked = Annotated[
+    Annotated[Ratio, Tag("[number]")] | Annotated[CrackedTable, Tag("[CrackedTable]")],
+    Discriminator(lambda v: "[CrackedTable]" if isinstance(v, (dict, Table)) else "[number]"),
+]
+"""One factor on bending, torsion and shear, or one for each."""
+
+
+class PropertiesTable(Table):
+    """A cross-section by its constants, as `frames.Section` names them."""
+
+    area: Annotated[Area, Positive]
+    inertia_y: Annotated[Inertia, Positive]
+    inertia_z: Annotated[Inertia, Positive]
+    torsion_constant: Annotated[Inertia, Positive]
+    shear_area_y: Annotated[Area, Positive] | None = None
+    shear_area_z: Annotated[Area, Positive] | None = None
+
+
+class SectionTable(Table):
+    """A cross-section in one of its ways, and its material."""
+
+    section: str | None = None
+    box: tuple[Size, ...] | None = Field(default=None, min_length=2, max_length=3)
+    rectangle: tuple[Size, Size] | None = None
+    circle: Annotated[
+        tuple[Size, ...] | None,
+        BeforeValidator(_listed),
+        Field(min_length=1, max_length=2),
+    ] = None
+    i_shape: tuple[Size, Size, Size, Size] | None = None
+    properties: PropertiesTable | None = None
+    material: Material | None = None
+    cracked: Cracked | None = None
+    depth_along: Literal["x", "y"] | None = None
+
+    @model_validator(mode="after")
+    def _one_shape(self) -> Self:
+        given = [name for name in SHAPES if getattr(self, name) is not None]
+        if len(given) != 1:
+            what = f"has {' and '.join(given)}: give one of them" if given else "has no section"
+            msg = f'{what}: section = "HEB 300", box = ["400 mm", "25 mm"], ' + (
+                'rectangle = ["500 mm", "700 mm"], circle, i_shape or properties'
+            )
+            raise ValueError(msg)
+        if self.material is None and given[0] in {"rectangle", "circle", "properties"}:
+            msg = f'{given[0]} needs its material: material = "C30/37", or {{ E, nu, density }}'
+            raise ValueError(msg)
+        if self.depth_along is not None and given[0] in {"rectangle", "circle"}:
+            msg = f"depth_along does not go with {given[0]}: its sides are along x and along y"
+            raise ValueError(msg)
+        return self
+
+
+class ColumnsTable(SectionTable):
+    """``[structure.columns]``: the section of the columns, of some storeys if these are named."""
+
+    storeys: tuple[Count, Count] | None = None
+
+
+class BeamsTable(SectionTable):
+    """``[structure.beams]``: the section of the beams, of a direction and storeys if named."""
+
+    storeys: tuple[Count, Count] | None = None
+    direction: Literal["x", "y"] | None = None
+
+    @model_validator(mode="after")
+    def _lies(self) -> Self:
+        if self.depth_along is not None:
+            msg = "depth_along is for columns: the depth of beams is vertical"
+            raise ValueError(msg)
+        return self
+
+
+class BaseBeamsTable(BeamsTable):
+    """``[structure.base_beams]``: the section of the beams above the bearings."""
+
+    @model_validator(mode="after")
+    def _one_level(self) -> Self:
+        if self.storeys is not None:
+            msg = "storeys does not go with base_beams: they lie above the bearings"
+            raise ValueError(msg)
+        return self
+
+
+class BraceTable(SectionTable):
+    """``[[structure.braces]]``: rods hinged at both ends, in one bay of some storeys."""
+
+    between: tuple[str, str]
+    storeys: tuple[Count, Count] | None = None
+    pattern: Literal["x", "up", "down"] = "x"
+
+    @model_validator(mode="after")
+    def _lies(self) -> Self:
+        if self.depth_along is not None:
+            msg = "depth_along is for columns: rods carry axial force alone"
+            raise ValueError(msg)
+        return self
+
+
+class WallTable(Table):
+    """``[[structure.walls]]``: a wall from column to column, as a column on its axis."""
+
+    between: tuple[str, str]
+    thickness: Size
+    material: Material
+    length: Size | None = None
+    cracked: Cracked | None = None
+    storeys: tuple[Count, Count] | None = None
+
+
+Columns = Annotated[
+    Annotated[ColumnsTable, Tag("[ColumnsTable]")]
+    | Annotated[tuple[ColumnsTable, ...], Tag("[[ColumnsTable]]"), Field(min_length=1)],
+    Discriminator(one_or_more("ColumnsTable")),
+]
+Beams = Annotated[
+    Annotated[BeamsTable, Tag("[BeamsTable]")]
+    | Annotated[tuple[BeamsTable, ...], Tag("[[BeamsTable]]"), Field(min_length=1)],
+    Discriminator(one_or_more("BeamsTable")),
+]
+BaseBeams = Annotated[
+    Annotated[BaseBeamsTable, Tag("[BaseBeamsTable]")]
+    | Annotated[tuple[BaseBeamsTable, ...], Tag("[[BaseBeamsTable]]"), Field(min_length=1)],
+    Discriminator(one_or_more("BaseBeamsTable")),
+]
+"""One table, or a list of them."""
+
+Heights = Annotated[
+    Annotated[Size, Tag("[number]")]
+    | Annotated[tuple[Size, ...], Tag("[list]"), Field(min_length=1)],
+    Discriminator(lambda v: "[list]" if isinstance(v, (list, tuple)) else "[number]"),
+]
+"""Height of all storeys, or one for each."""

@@ -1,0 +1,84 @@
+"""A design spectrum given point by point: from a list in a project's file, or a table beside it."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from typing import TYPE_CHECKING
+
+from frames.design._errors import ProjectError
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Points = tuple[tuple[float, float], ...]
+
+_UNITS = {
+    "g": STANDARD_GRAVITY,
+    "m/s2": 1.0,
+    "m/s^2": 1.0,
+    "cm/s2": 0.01,
+    "cm/s^2": 0.01,
+    "gal": 0.01,
+}
+_HEAD = "period [s],acceleration [g]"
+
+
+def read_points(path: Path) -> Points:
+    """Return the points of a spectrum from a table of two columns.
+
+    Parameters
+    ----------
+    path : Path
+        A CSV file: a head "period [s],acceleration [g]" (or m/s2, cm/s2, gal), then a point a line;
+        lines that begin with # are left out.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Periods [s] and pseudo-accelerations [m/s2].
+
+    Raises
+    ------
+    ProjectError
+        If there is no such file, or it is no such table: the message names file and line.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as cause:
+        reason = getattr(cause, "strerror", None) or "no text in UTF-8"
+        msg = f"[spectrum] points = {path.name}: {reason}: name a CSV file beside the project's"
+        raise ProjectError(msg) from cause
+    lines = [
+        (k, row)
+        for k, row in enumerate(csv.reader(text.splitlines()), start=1)
+        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
+    ]
+    factor = _unit_of(path, lines[0][1] if lines else [])
+    found = []
+    for k, row in lines[1:]:
+        try:
+            period, level = map(float, row)
+        except ValueError:
+            period = math.nan
+        if not math.isfinite(period):
+            msg = f"{path.name}, line {k}: {','.join(row)} must be two numbers: period, level"
+            raise ProjectError(msg)
+        found.append((period, factor * level))
+    return tuple(found)
+
+
+def _unit_of(path: Path, head: list[str]) -> float:
+    # Of accelerations, from the head of their column.
+    words = [re.fullmatch(r"\s*(.*?)\s*\[(.*)\]\s*", cell) for cell in head]
+    names = [(word[1].lower(), word[2].strip()) if word else ("", "") for word in words]
+    if len(names) != 2 or names[0] != ("period", "s") or names[1][0] != "acceleration":
+        msg = f'{path.name} begins with "{",".join(head)}": its first line must be "{_HEAD}"'
+        raise ProjectError(msg)
+    unit = names[1][1].lower()
+    if unit not in _UNITS:
+        msg = f"{path.name}: accelerations in {names[1][1]}: give them in {', '.join(_UNITS)}"
+        raise ProjectError(msg)
+    return _UNITS[unit]

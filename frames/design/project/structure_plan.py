@@ -1,0 +1,259 @@
+"""From ``[structure]`` of kind "moment frame" to the frame on its bearings."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from frames._errors import ModelError
+from frames.design._errors import ProjectError
+from frames.design.project.irregular_plan import irregular_plan
+from frames.design.project.member_sections import NamedSection, by_storey, named_section
+from frames.design.project.schema_loads import LoadsTable
+from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.structure_loads import BuildingLoads, apply_loads
+from frames.design.project.walls_and_braces import with_walls_and_braces
+from frames.frame import Frame
+from frames.library.building import build
+from frames.library.building_plan import BeamPart, BuildingPlan, ColumnPart, level_name
+from frames.library.moment_frames import (
+    DEFAULT_BASE_BEAM,
+    DEFAULT_BASE_DEPTH,
+    DEFAULT_BEAM,
+    DEFAULT_COLUMN,
+    tributary_masses,
+)
+from frames.model.damping import ModalDamping
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from frames.design.project.schema_structure import IrregularFrame, MomentFrame
+    from frames.model.sections import Section
+    from lir_element import LIRBearing
+
+T = TypeVar("T", bound=ColumnsTable | BeamsTable)
+
+DIRECTIONS = ("x", "y")
+
+
+_DEFAULTS: dict[str, tuple[Section, str]] = {
+    "columns": (DEFAULT_COLUMN, "box 400 x 400 x 25 mm"),
+    "beams": (DEFAULT_BEAM, "I 550 x 220 x 20 x 12 mm"),
+    "base_beams": (DEFAULT_BASE_BEAM, "I 800 x 300 x 30 x 16 mm"),
+}
+
+
+class MemberSections(NamedTuple):
+    """Sections of a regular frame.
+
+    Attributes
+    ----------
+    columns : list of NamedSection
+        By storey.
+    beams : dict of str to list of NamedSection
+        By direction, "x" and "y", then by floor.
+    base_beams : dict of str to NamedSection
+        By direction.
+    assumed : tuple of str
+        Keys that are not in the file, whose sections are assumed.
+    """
+
+    columns: list[NamedSection]
+    beams: dict[str, list[NamedSection]]
+    base_beams: dict[str, NamedSection]
+    assumed: tuple[str, ...]
+
+
+def sections_of(given: MomentFrame) -> MemberSections:
+    """Return the sections of a regular frame, those that the file leaves out assumed.
+
+    Parameters
+    ----------
+    given : MomentFrame
+        The section of the file.
+
+    Returns
+    -------
+    MemberSections
+        One for each storey and direction.
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If one cannot be, or a storey has none or several.
+    """
+    tables = {key: _tables(getattr(given, key)) for key in _DEFAULTS}
+    columns = _sections("columns", tables["columns"], given.storeys, None)
+    beams = {d: _sections("beams", tables["beams"], given.storeys, d) for d in DIRECTIONS}
+    base = {d: _sections("base_beams", tables["base_beams"], 1, d)[0] for d in DIRECTIONS}
+    assumed = tuple(key for key, each in tables.items() if not each)
+    return MemberSections(columns, beams, base, assumed)
+
+
+def _tables(given: T | Sequence[T] | None) -> list[T]:
+    if given is None:
+        return []
+    return [given] if isinstance(given, (ColumnsTable, BeamsTable)) else list(given)
+
+
+def _sections(
+    key: str, tables: list[ColumnsTable | BeamsTable], storeys: int, direction: str | None
+) -> list[NamedSection]:
+    if not tables:
+        section, said = _DEFAULTS[key]
+        return [NamedSection(section, None, f"{said}, steel (E 200 GPa), assumed")] * storeys
+    try:
+        chosen = by_storey(tables, storeys, direction)
+        made = {id(one): named_section(one, column=key == "columns") for one in chosen}
+    except (ModelError, ProjectError) as cause:
+        msg = f"[structure] {key}: {cause}"
+        raise ProjectError(msg) from cause
+    return [made[id(one)] for one in chosen]
+
+
+def regular_frame(
+    given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
+) -> Frame:
+    """Return a regular frame on its bearings.
+
+    Parameters
+    ----------
+    given : MomentFrame
+        The section of the file.
+    bearing : LIRBearing
+        Under each column.
+    name : str
+        Name of the model.
+    loads : BuildingLoads, optional
+        Loads of its floors in place of ``floor_load``.
+
+    Returns
+    -------
+    Frame
+        The parts have the names of `frames.moment_frame`.
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If it cannot be.
+    """
+    _require_one_load(given, loads)
+    plan = with_walls_and_braces(regular_plan(given), given)
+    frame = build(plan, bearing, name=name, damping=_damping(given))
+    if given.floor_load is None:
+        if loads is not None:
+            apply_loads(frame, plan, loads, given.eccentricity)
+        return frame
+    masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
+    for level in range(given.storeys + 1):
+        for (ix, iy), mass in masses.items():
+            frame.add_mass(f"{level_name(level)}-{ix}-{iy}", mass)
+    for (ix, iy), mass in masses.items():
+        inertia = mass * DEFAULT_BASE_DEPTH**2 / 12.0
+        frame.add_mass(f"base-{ix}-{iy}", 0.0, (inertia, inertia, 0.0))
+    return frame
+
+
+def irregular_frame(
+    given: IrregularFrame,
+    bearing: LIRBearing,
+    name: str,
+    folder: Path,
+    loads: BuildingLoads | None = None,
+) -> Frame:
+    """Return an irregular frame on its bearings.
+
+    Parameters
+    ----------
+    given : IrregularFrame
+        The section of the file.
+    bearing : LIRBearing
+        Under each column of the first storey.
+    name : str
+        Name of the model.
+    folder : Path
+        Folder of its tables.
+    loads : BuildingLoads, optional
+        Loads of its floors; ``floor_load`` stands for dead load that is mass.
+
+    Returns
+    -------
+    Frame
+        The parts have the names of `frames.library.building.build`.
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If it cannot be.
+    """
+    _require_one_load(given, loads)
+    plan = with_walls_and_braces(irregular_plan(given, folder), given)
+    frame = build(plan, bearing, name=name, damping=_damping(given))
+    if given.floor_load is not None:
+        dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
+        loads = BuildingLoads(dead, {"D": 1.0})
+    if loads is not None:
+        apply_loads(frame, plan, loads, given.eccentricity)
+    return frame
+
+
+def _damping(given: MomentFrame | IrregularFrame) -> ModalDamping | None:
+    return ModalDamping(given.damping) if given.damping > 0.0 else None
+
+
+def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:
+    if given.floor_load is not None and loads is not None:
+        msg = "[structure] floor_load and [loads] both say what floors weigh: leave one of them out"
+        raise ProjectError(msg)
+    if given.floor_load is None and loads is None:
+        msg = (
+            "[structure] floor_load is missing: give the mass of the floors, "
+            'floor_load = "450 kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
+        )
+        raise ProjectError(msg)
+
+
+def regular_plan(given: MomentFrame) -> BuildingPlan:
+    """Return the plan of a regular frame.
+
+    Parameters
+    ----------
+    given : MomentFrame
+        The section of the file.
+
+    Returns
+    -------
+    BuildingPlan
+        Its lines are named "<ix>-<iy>".
+
+    Raises
+    ------
+    ProjectError, ModelError
+        If a section cannot be.
+    """
+    sections = sections_of(given)
+    (n_x, n_y), (b_x, b_y) = given.bays, given.bay_width
+    places = list(product(range(n_x + 1), range(n_y + 1)))
+    columns, beams = [], []
+    for level in range(given.storeys + 1):
+        for ix, iy in places:
+            if level:
+                column = sections.columns[level - 1]
+                columns.append(ColumnPart(f"{ix}-{iy}", level, column.section, column.up))
+            for direction, there, end in (
+                ("x", ix < n_x, f"{ix + 1}-{iy}"),
+                ("y", iy < n_y, f"{ix}-{iy + 1}"),
+            ):
+                if there:
+                    each = sections.beams[direction]
+                    own = each[level - 1] if level else sections.base_beams[direction]
+                    name = f"beam-{direction}"
+                    beams.append(BeamPart(name, level, f"{ix}-{iy}", end, own.section))
+    return BuildingPlan(
+        lines={f"{ix}-{iy}": (ix * b_x, iy * b_y) for ix, iy in places},
+        heights=given.heights,
+        columns=tuple(columns),
+        beams=tuple(beams),
+    )

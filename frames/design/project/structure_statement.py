@@ -1,0 +1,192 @@
+"""The structure of a project in an engineer's words: storeys, sections, loads."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design.codes.registry import code_named
+from frames.design.project.materials import material_of
+from frames.design.project.member_sections import named_section
+from frames.design.project.schema_sections import CrackedTable
+from frames.design.project.schema_structure import (
+    BuildingTable,
+    IrregularFrame,
+    MomentFrame,
+    ShearBuilding,
+)
+from frames.design.project.structure_loads import loads_of
+from frames.design.project.structure_plan import DIRECTIONS, sections_of
+from frames.model.components import DEFAULT_CASE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from frames.design.project.schema import ProjectFile
+    from frames.design.project.schema_loads import LoadsTable
+    from frames.design.project.schema_sections import BraceTable, WallTable
+    from frames.exchange.account import Account
+    from frames.frame import Frame
+
+Rows = list[tuple[str, str]]
+
+
+def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
+    """Return what the structure is, a row for each thing.
+
+    Parameters
+    ----------
+    file : ProjectFile
+        The project's file.
+    frame : Frame
+        The structure that was made of it.
+
+    Returns
+    -------
+    list of (str, str)
+        What, and how it is; sections by storey, storeys of one section together.
+    """
+    given = file.structure
+    levels = frame.levels
+    rows = [
+        ("structure", f"{given.kind}, {len(levels) - 1} storeys on {len(frame.bearings)} bearings")
+    ]
+    if len(levels) > 1:
+        rows.append(("height above the base", f"{levels[-1].z - levels[0].z:.4g} m"))
+    if isinstance(given, (MomentFrame, ShearBuilding)):
+        sides = (n * w for n, w in zip(given.bays, given.bay_width, strict=True))
+        rows.append(("plan", " x ".join(f"{side:.4g}" for side in sides) + " m"))
+    if isinstance(given, MomentFrame):
+        rows += _sections(given)
+    if isinstance(given, IrregularFrame):
+        rows += _named_sections(given, frame)
+    if isinstance(given, BuildingTable):
+        rows += _areas(frame)
+        rows += _walls_and_braces(given)
+        rows.append(("damping above the bearings", f"{100.0 * given.damping:g} % in each mode"))
+    if isinstance(given, BuildingTable) and given.floor_load is not None:
+        rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
+    if file.loads is not None:
+        rows += _loads(file, file.loads)
+    if frame.imported is not None:
+        rows += _import(frame.imported)
+    return rows
+
+
+def _import(account: Account) -> Rows:
+    # What became of the file of another program, a row for each kind of object.
+    rows = [("import", f"of {account.file}")]
+    for fate, table, what, count, weight, stiffness in account.rows():
+        shares = [
+            f"{share} of {word}"
+            for share, word in ((weight, "own weight"), (stiffness, "stiffness"))
+            if share
+        ]
+        rows.append((fate, f"{table}: {what} ({', '.join([count, *shares])})"))
+    return rows
+
+
+def _named_sections(given: IrregularFrame, frame: Frame) -> Rows:
+    places = np.array([node.position[:2] for node in frame.nodes.values()])
+    sides = " x ".join(f"{side:.4g}" for side in np.ptp(places, axis=0))
+    kinds = Counter(name.split("-", maxsplit=1)[0] for name in frame.members)
+    counts = ", ".join(f"{count} {kind}s" for kind, count in kinds.items())
+    rows = [("plan, largest sides", f"{sides} m"), ("members", counts)]
+    for name, table in given.sections.items():
+        rows.append((f"section {name}", named_section(table, column=True).said))
+    return rows
+
+
+def _areas(frame: Frame) -> Rows:
+    # Areas that loads lie on, floors of one area together.
+    found = {level.name: 0.0 for level in frame.levels}
+    for load in frame.floor_loads.values():
+        corners = [frame.nodes[node] for node in load.nodes]
+        pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
+        level = next(each.name for each in frame.levels if corners[0].name in each.nodes)
+        if load.case == DEFAULT_CASE:
+            found[level] += 0.5 * sum(a.x * b.y - b.x * a.y for a, b in pairs)
+    if not any(found.values()):
+        return []
+    said = []
+    for area, group in groupby(found, key=lambda level: f"{found[level]:.5g}"):
+        names = list(group)
+        where = names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
+        said.append(f"{where} {area} m2")
+    return [("loaded area", ", ".join(said))]
+
+
+def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
+    rule = code_named(file.project.code).loads
+    names = {"D": "dead", "L": "live", "S": "snow"}
+    rows = []
+    for what in ("floors", "roof", "base"):
+        each = given.of_field(base=what == "base", roof=what == "roof")
+        parts = [f"{names[c]} {1e-3 * q:.4g}" for c, q in each.items() if q > 0.0]
+        rows.append((f"loads of {what}, besides the members", ", ".join(parts) + " kN/m2"))
+    if given.facade > 0.0:
+        rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
+    found = loads_of(given, rule)
+    mass = {} if found is None else found.mass
+    source = rule.clause if given.mass is None else "as the file says"
+    rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
+    for name, factors in rule.combinations(getattr(file.spectrum, "s_ms", None)).items():
+        rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))
+    return rows
+
+
+def _sum(factors: Mapping[str, float]) -> str:
+    return " + ".join(f"{factor:g} {case}" for case, factor in factors.items() if factor > 0.0)
+
+
+def _sections(given: MomentFrame) -> Rows:
+    found = sections_of(given)
+    rows = _by_storey("columns", [one.said for one in found.columns])
+    alike = [one.said for one in found.beams["x"]] == [one.said for one in found.beams["y"]]
+    for direction in DIRECTIONS[: 1 if alike else 2]:
+        what = "beams" if alike else f"beams along {direction}"
+        rows += _by_storey(what, [one.said for one in found.beams[direction]])
+    base = {found.base_beams[direction].said: direction for direction in DIRECTIONS}
+    for said, direction in base.items():
+        rows.append(("base beams" if len(base) == 1 else f"base beams along {direction}", said))
+    return rows
+
+
+def _walls_and_braces(given: BuildingTable) -> Rows:
+    rows = []
+    for wall in given.walls:
+        material = material_of(wall.material)
+        said = f"{1e3 * wall.thickness:.5g} mm, {material.name}"
+        said += f" (E {1e-9 * material.elastic_modulus:.4g} GPa)"
+        bending = wall.cracked if isinstance(wall.cracked, float) else None
+        bending = wall.cracked.bending if isinstance(wall.cracked, CrackedTable) else bending
+        said += "" if bending is None else f", cracked: {bending:g} of the bending stiffness"
+        rows.append((f"wall {_between(wall)}, as a wide column", said))
+    for rod in given.braces:
+        said = f"{_PATTERNS[rod.pattern]}, {named_section(rod, column=False).said}"
+        rows.append((f"braces {_between(rod)}", said))
+    for what, kind in (("floors", given.floor_diaphragm), ("base", given.base_diaphragm)):
+        if kind == "flexible":
+            rows.append((f"diaphragm of {what}", "none: beams alone hold it in plan"))
+    return rows
+
+
+_PATTERNS = {"x": "crossed", "up": "rising to the second", "down": "rising to the first"}
+
+
+def _between(part: WallTable | BraceTable) -> str:
+    where = "" if part.storeys is None else f", storeys {part.storeys[0]} to {part.storeys[1]}"
+    return f"{part.between[0]} to {part.between[1]}{where}"
+
+
+def _by_storey(what: str, said: Sequence[str]) -> Rows:
+    rows, storey = [], 1
+    for text, group in groupby(said):
+        last = storey + len(list(group)) - 1
+        where = f", storey {storey}" if last == storey else f", storeys {storey} to {last}"
+        rows.append((what + ("" if last - storey + 1 == len(said) else where), text))
+        storey = last + 1
+    return rows

@@ -1,0 +1,175 @@
+"""Candidates of a proposal put to the project's time histories: demands, and checks that fail."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from typing import TYPE_CHECKING, NamedTuple
+
+import pandas as pd
+
+from frames._errors import ModelError, MotionError
+from frames.design._errors import CheckError
+from frames.design.project.design_run import run_project
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.schema import bearing_table
+from lir_element.errors import AnalysisError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from frames.batch.cases import BatchProgress
+    from frames.design.calculation.check import Checks
+    from frames.design.project.design_run import ProjectRun
+    from frames.design.sizing.candidate import Candidate
+    from lir_element import LIRBearing
+
+_DEMANDS = (
+    "isolator displacement",
+    "interface slip",
+    "rim force",
+    "base shear",
+    "storey drift ratio",
+    "floor acceleration in plan",
+)
+
+
+class Verified(NamedTuple):
+    """A candidate after the time histories of its project.
+
+    Attributes
+    ----------
+    candidate : Candidate
+        Which.
+    run : ProjectRun or None
+        Its runs, demands and checks; None where it could not be run.
+    reason : str
+        Why it could not be run; empty where it was.
+    """
+
+    candidate: Candidate
+    run: ProjectRun | None
+    reason: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether it was run and no check fails."""
+        return self.run is not None and self.run.checks.passed
+
+    def row(self) -> dict[str, object]:
+        """Return its main numbers and what fails.
+
+        Returns
+        -------
+        dict
+            Numbers in SI units, demands as envelopes over the bounds; where a code has several
+            levels of the seismic action those of the level that it judges the bearings at. "fails"
+            names each kind of check that fails with its largest ratio.
+        """
+        t = self.candidate.trace
+        found: dict[str, object] = {
+            "radius [m]": self.candidate.radius,
+            "friction [-]": self.candidate.friction.f_max,
+            "slider radius [m]": t.value("a"),
+            "capacity [m]": t.value("U_cap"),
+            "interface friction [-]": t.value("mu_h"),
+        }
+        if self.run is None:
+            return found | {"fails": f"cannot be run: {self.reason}"}
+        demands = self.run.demands
+        own = demands[demands["level"] == self.run.rules.bearing_level]
+        for name in _DEMANDS:
+            if name in own.index:
+                found[f"{name} [{own.loc[name, 'unit']}]"] = float(own.loc[name, "envelope"])
+        every = [data for each in self.run.runs.values() for data in each.values()]
+        stopped = sum(int((data["status"].to_numpy() != "ok").sum()) for data in every)
+        return found | {
+            "runs that stopped": stopped,
+            "checks": len(self.run.checks),
+            "failed checks": len(self.run.checks.failed),
+            "fails": _failures(self.run.checks.failed),
+        }
+
+
+def _failures(failed: Checks) -> str:
+    # Kinds of checks that fail with their largest ratio; then those without a value for design.
+    worst: dict[str, float] = {}
+    for check in failed:
+        if not check.void:
+            worst[check.title] = max(check.ratio, worst.get(check.title, 0.0))
+    said = [
+        f"{title} (ratio {ratio:.2f})" if math.isfinite(ratio) else title
+        for title, ratio in worst.items()
+    ]
+    if void := sum(bool(check.void) for check in failed):
+        said.append(f"{void} checks have no value for design, since runs failed")
+    return "; ".join(said)
+
+
+def on_bearing(parts: ProjectInputs, bearing: LIRBearing) -> ProjectInputs:
+    """Return a project whose section ``[bearing]`` is what `section_of` writes of a bearing."""
+    given = bearing_table().model_validate(tomllib.loads(section_of(bearing))["bearing"])
+    return ProjectInputs(parts.file.model_copy(update={"bearing": given}), parts.folder)
+
+
+def section_of(bearing: LIRBearing) -> str:
+    """Return a proposed bearing as it stands in a project's file, rounded to millimetres."""
+    return (
+        f'[bearing]\nradius = "{bearing.radii[0]:g} m"\n'
+        f'slider_height = "{1e3 * bearing.slider_height:.0f} mm"\n'
+        f'slider_radius = "{1e3 * bearing.slider_radius:.0f} mm"\n'
+        f'capacity = "{1e3 * bearing.lateral_capacity:.0f} mm"\n'
+        f"friction = {bearing.frictions[0].f_max:g}\n"
+        f"interface_friction = {bearing.interface_friction:g}\n"
+    )
+
+
+def verified(
+    parts: ProjectInputs,
+    candidates: Sequence[Candidate],
+    *,
+    progress: Callable[[BatchProgress], None] | bool | None = None,
+) -> Iterator[Verified]:
+    """Put candidates to the time histories of a project, each when it is asked for.
+
+    Parameters
+    ----------
+    parts : ProjectInputs
+        The project: its structure, motions, bounds, limits and options. Its own bearing is left
+        aside.
+    candidates : sequence of Candidate
+        Of `frames.design.design` with one size of slider, such as ``Design.ranked[:3]``.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+
+    Yields
+    ------
+    Verified
+        Each when its runs are done. The bearing is that of `section_of`: what is verified is what
+        the file will say.
+
+    Raises
+    ------
+    CheckError
+        If a candidate has several sizes of slider: a file's section has one bearing.
+    AnalysisInterrupted
+        After Ctrl-C.
+    """
+    for candidate in candidates:
+        if len(candidate.bearings) != 1:
+            msg = (
+                f"a candidate has {len(candidate.bearings)} sizes of slider, and [bearing] of a "
+                "project has one: verify with sizes = 1"
+            )
+            raise CheckError(msg)
+        try:
+            run = run_project(on_bearing(parts, candidate.bearings[0]), progress=progress)
+        except (CheckError, ModelError, MotionError, AnalysisError) as cause:
+            yield Verified(candidate, None, str(cause))
+        else:
+            yield Verified(candidate, run)
+
+
+def verification_table(found: Sequence[Verified]) -> pd.DataFrame:
+    """Return verified candidates, a row for each, in SI units: `Verified.row`."""
+    return pd.DataFrame([one.row() for one in found])

@@ -1,0 +1,118 @@
+"""What governs a design: the checks of the highest ratios, and of which runs their values are."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from frames.design.calculation.check import Check
+
+MOST = 10
+"""How many checks are shown."""
+
+COUNTS = {"n", "n_failed", "n_odd", "n_spoilt", "S_mean"}
+"""Symbols of checks that count motions and runs, and of the mean spectrum, which scaling brings to
+its limit: they tell nothing of the structure while they pass."""
+
+_LARGEST_OF_RUNS = {"t_up", "g", "N_land"}
+_MEAN = re.compile(r"sum\((\w+_i)\) / n\b")
+_LARGEST = re.compile(r"max\((\w+_i)\)")
+_SCALE = 1.25  # ratio at the end of the axis, at least
+
+
+class Bar(NamedTuple):
+    """A bar of what governs.
+
+    Attributes
+    ----------
+    check : Check
+        The check.
+    length : float
+        Of its bar, over that of the axis [-].
+    ratio : str
+        Its ratio, as words where there is none.
+    """
+
+    check: Check
+    length: float
+    ratio: str
+
+
+class Governing(NamedTuple):
+    """What governs.
+
+    Attributes
+    ----------
+    bars : list of Bar
+        Highest ratio first.
+    limit : float
+        Place of the ratio 1 on the axis [-].
+    """
+
+    bars: list[Bar]
+    limit: float
+
+
+def what_governs(checks: Iterable[Check]) -> Governing:
+    """Return the checks of the highest ratios, of each title at each level its highest one.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        All checks of a run.
+
+    Returns
+    -------
+    Governing
+        The first `MOST`, those without a value for design first; counts and the scaling of motions
+        aside while they pass.
+    """
+    highest: dict[tuple[str, str], Check] = {}
+    for check in checks:
+        if check.passed and check.symbol in COUNTS:
+            continue
+        key = (check.title, check.level)
+        if key not in highest or check.ratio > highest[key].ratio:
+            highest[key] = check
+    first = sorted(highest.values(), key=lambda check: -check.ratio)[:MOST]
+    finite = [check.ratio for check in first if math.isfinite(check.ratio)]
+    end = max([_SCALE, *(min(ratio, 2.0 * _SCALE) for ratio in finite)])
+    bars = [
+        Bar(check, min(check.ratio / end, 1.0), f"{check.ratio:.2f}")
+        if math.isfinite(check.ratio)
+        else Bar(check, 1.0, "no value" if check.void else "not met")
+        for check in first
+    ]
+    return Governing(bars, 1.0 / end)
+
+
+def statistic_of(check: Check) -> str:
+    """Return of which runs the demand of a check is.
+
+    Parameters
+    ----------
+    check : Check
+        The check with its calculation.
+
+    Returns
+    -------
+    str
+        "mean of 7 runs", "largest of 3 runs", "largest of all runs", "1 run", or "" where no
+        statistic of runs enters.
+    """
+    found: list[str] = []
+    for step in check.trace:
+        for pattern, word in ((_MEAN, "mean"), (_LARGEST, "largest")):
+            for runs in pattern.findall(step.formula):
+                values = check.trace[runs].value
+                count = len(values) if isinstance(values, tuple) else 1
+                found.append(f"{word} of {count} runs" if count > 1 else "1 run")
+        if step.note == "largest of the run":
+            found.append("1 run")
+    if not found and check.symbol in _LARGEST_OF_RUNS:
+        return "largest of all runs"
+    return ", ".join(dict.fromkeys(found))

@@ -1,0 +1,99 @@
+"""Checks as the report shows them: words in place of zeros that nothing may exceed."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames.design.calculation.unevaluated import NOT_EVALUATED
+from frames.design.report.governs import statistic_of
+
+if TYPE_CHECKING:
+    from frames.design.calculation.check import Check
+    from frames.design.codes.bounds import PropertyBounds
+
+_ZERO = {0.0}  # exact: as it was given
+
+
+class Judged(NamedTuple):
+    """A check as the report shows it.
+
+    Attributes
+    ----------
+    check : Check
+        The check.
+    demand, sign, limit, ratio : str
+        As text, with units.
+    statistic : str
+        Of which runs the demand is.
+    steps : list of (str, str, str)
+        Lines of its calculation: formula as MathML, source, note.
+    """
+
+    check: Check
+    demand: str
+    sign: str
+    limit: str
+    ratio: str
+    statistic: str
+    steps: list[tuple[str, str, str]]
+
+
+def judged(check: Check) -> Judged:
+    """Return a check as the report shows it.
+
+    Parameters
+    ----------
+    check : Check
+        The check.
+
+    Returns
+    -------
+    Judged
+        Where nothing is allowed, and nothing is there, words in place of numbers.
+    """
+    demand, limit, ratio = check.said
+    sign = "" if check.void else "≤" if check.relation == "<=" else "≥"
+    if check.limit in _ZERO and check.relation == "<=":  # nothing may be there: no ratio
+        limit, sign, ratio = "none allowed", "", ""
+        demand = "none" if check.demand in _ZERO and not check.void else demand
+    if math.isinf(check.demand):
+        demand, sign, ratio = NOT_EVALUATED if not check.void else "not known", "", ""
+    if math.isinf(check.limit):
+        limit, sign, ratio = "no limit", "", ""
+    if ratio == "inf":
+        ratio = ""
+    return Judged(
+        check=check,
+        demand=demand,
+        sign=sign,
+        limit=limit,
+        ratio="" if ratio == "-" else ratio,
+        statistic=statistic_of(check),
+        steps=[(step.mathml(), step.source, step.note) for step in check.trace],
+    )
+
+
+def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """Return the calculations of factors on friction that are given by source.
+
+    Parameters
+    ----------
+    bounds : PropertyBounds
+        Bounds of the bearings' properties.
+
+    Returns
+    -------
+    list of (str, list)
+        What the factors are on, and the steps as those of a check; nothing of factors that are
+        given as they are.
+    """
+    both = {
+        "Factors on the friction of the surfaces": bounds.friction,
+        "Factors on the friction of the interface": bounds.interface,
+    }
+    return [
+        (what, [(step.mathml(), step.source, step.note) for step in one.trace])
+        for what, one in both.items()
+        if one is not None and len(one.trace)
+    ]

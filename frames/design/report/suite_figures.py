@@ -1,0 +1,315 @@
+"""Figures of all runs of a project: each motion at each bound, and the bearings in plan."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+
+from frames.design.histories.eccentricity import raised_suite
+from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.plots import plot_style as ps
+from frames.results.peak_response import largest
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from frames._types import FloatArray
+    from frames.design.calculation.check import Check
+    from frames.design.histories.suite import Suite
+    from frames.design.project.design_run import ProjectRun
+
+_OF_BEARINGS = {
+    "isolator displacement": "displacement",
+    "slip over the overlap": "slip",
+    "slip over its stable limit s*": "slip",
+    "residual slip": "slip_left",
+    "rim force": "rim_force",
+    "normalised eccentricity e/a": "eccentricity",
+    "lateral force of a bearing": "force",
+    "maximum axial force": "axial_force",
+}
+"""Checks whose demand is of one bearing, and the quantity that it is of."""
+
+
+class Reached(NamedTuple):
+    """What the motions reached at one bound, at the place that governs there.
+
+    Attributes
+    ----------
+    bound : str
+        The bound.
+    motions : tuple of str
+        Names.
+    values : ndarray, (n_runs,)
+        Of each motion.
+    design : float
+        What the code makes of them: mean or largest.
+    statistic : str
+        Which of the two, and whether accidental eccentricity raises it.
+    where : str
+        Bearing or storey.
+    """
+
+    bound: str
+    motions: tuple[str, ...]
+    values: FloatArray
+    design: float
+    statistic: str
+    where: str
+
+
+def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
+    """Return what all motions reached of a quantity at each bound.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+    name : str
+        The quantity.
+    of_bearings : bool
+        Whether it is judged with the bearings, or with what stands on them: that decides the level
+        of the seismic action.
+
+    Returns
+    -------
+    list of Reached
+        By bound; of the bearing or storey whose value for design is largest. Empty where the runs
+        do not have the quantity.
+    """
+    level = next(
+        level.name
+        for level in run.rules.levels
+        if (level.judges_bearings if of_bearings else level.judges_structure)
+    )
+    found = []
+    for bound, data in run.runs[level].items():
+        if f"reached_{name}" not in data:
+            continue
+        values = peaks_of_runs(data, name)
+        values = values.reshape(len(values), -1)
+        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
+        design = [suite.value(column, name) for column in values.T]
+        k = int(np.argmax(np.nan_to_num(design, nan=-math.inf)))
+        motions = tuple(map(str, data["motion"].to_numpy()))
+        found.append(
+            Reached(
+                bound,
+                motions,
+                values[:, k],
+                design[k],
+                suite.statistic + (", raised by moved masses" if suite.raised else ""),
+                names_of(data, name)[k],
+            )
+        )
+    return found
+
+
+def _statistic(suite: Suite) -> str:
+    return f"{suite.statistic}, raised by moved masses" if suite.raised else suite.statistic
+
+
+def motions_figure(run: ProjectRun) -> Figure:
+    """Draw displacement, slip and drift of every motion at every bound, and what counts of them.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    Figure
+        A panel for each quantity; marks are motions, lines the mean or the largest, whichever the
+        code counts, as in the table of demands.
+    """
+    quantities = (
+        ("isolator displacement", "displacement", "mm", 1e3, True),
+        ("interface slip", "slip", "mm", 1e3, True),
+        ("storey drift ratio", "drift", "%", 1e2, False),
+    )
+    shown = [
+        (title, unit, factor, found)
+        for title, name, unit, factor, of_bearings in quantities
+        if (found := reached(run, name, of_bearings=of_bearings))
+    ]
+    figure, panels = ps.panels_of(len(shown), 1, 1.75, share=False)
+    for panel, (title, unit, factor, found) in zip(panels, shown, strict=True):
+        _motions(panel, found, factor)
+        where = ", ".join(
+            dict.fromkeys(
+                f"{each.where} at {each.bound}" if each.bound else each.where for each in found
+            )
+        )
+        ps.caption(panel, y=f"[{unit}]", title=f"{title}: {where}")
+    motions = shown[0][3][0].motions
+    for panel in panels:
+        panel.set_xticks(range(len(motions)), motions if panel is panels[-1] else [], rotation=90)
+    statistics = sorted({each.statistic for *_, found in shown for each in found})
+    handles = [
+        Line2D(
+            [],
+            [],
+            color=ps.PALETTE[k],
+            marker="o^v"[k % 3],
+            linestyle="-",
+            label=each.bound or "runs",
+        )
+        for k, each in enumerate(shown[0][3])
+    ]
+    title = f"All motions; lines: the {' or the '.join(statistics)}, at the place that governs"
+    ps.add_legend(figure, handles, title=title)
+    return figure
+
+
+def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
+    for k, each in enumerate(found):
+        shift = 0.18 * (k - 0.5 * (len(found) - 1))
+        places = np.arange(len(each.values)) + shift
+        panel.plot(places, factor * each.values, "o^v"[k % 3], color=ps.PALETTE[k], markersize=4.0)
+        if math.isfinite(each.design):
+            panel.axhline(factor * each.design, color=ps.PALETTE[k], linewidth=1.0)
+    panel.set_ylim(bottom=0.0)
+
+
+def profiles_figure(run: ProjectRun) -> Figure | None:
+    """Draw the drift of every storey in every motion, and what counts of it.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    Figure or None
+        A panel for each bound: thin lines are motions, the thick one their mean or largest; None
+        where there are fewer than two storeys.
+    """
+    level = next(level.name for level in run.rules.levels if level.judges_structure)
+    runs = {bound: data for bound, data in run.runs[level].items() if "reached_drift" in data}
+    if not runs or peaks_of_runs(next(iter(runs.values())), "drift").shape[1:] < (2,):
+        return None
+    figure, panels = ps.panels_of(len(runs), len(runs), 3.0)
+    for k, (panel, (bound, data)) in enumerate(zip(panels, runs.items(), strict=True)):
+        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
+        _profile(panel, data, suite, ps.PALETTE[k])
+        ps.caption(panel, x="storey drift ratio [%]", title=bound or "runs")
+    panels[0].set_xlim(left=0.0)
+    ps.add_legend(figure, [], title="Storey drift of all motions, and what counts of it")
+    return figure
+
+
+def _profile(panel: Axes, data: xr.Dataset, suite: Suite, colour: str) -> None:
+    values = 1e2 * peaks_of_runs(data, "drift")
+    design = np.array([suite.value(column, "drift") for column in values.T])
+    edges = np.arange(values.shape[1] + 1)
+    for motion in values:
+        panel.stairs(
+            motion, edges, orientation="horizontal", baseline=None, color=ps.GREY, linewidth=0.5
+        )
+    panel.stairs(
+        design, edges, orientation="horizontal", baseline=None, color=colour, linewidth=1.8
+    )
+    panel.set_yticks(edges[:-1] + 0.5, names_of(data, "drift"))
+
+
+def typical_bearing(data: xr.Dataset) -> str:
+    """Return the bearing whose largest displacement in a run is the median of all.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    str
+        Its name; of an even number the lower one of the two in the middle.
+    """
+    values = largest(data, "displacement").values
+    order = np.argsort(values, kind="stable")
+    return str(data["bearing"].to_numpy()[order[(len(order) - 1) // 2]])
+
+
+def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
+    """Return how far each bearing is used by the check of bearings that governs.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    (Check, ndarray (n_bearings,)) or None
+        The check of the highest ratio of those whose demand is of one bearing, and the value of
+        each bearing over its limit. None where there is no such check, runs failed, or bearings
+        are not alike, so that they have other limits.
+    """
+    alike = len({link.bearing for link in run.frame.bearings.values()}) == 1
+    of_one = [c for c in run.checks if c.title in _OF_BEARINGS and c.subject and not c.void]
+    if not alike or not of_one:
+        return None
+    check = max(of_one, key=lambda c: c.ratio)
+    level, name = check.level or run.rules.bearing_level, _OF_BEARINGS[check.title]
+    data = run.runs[level][check.bound]
+    suite = raised_suite(data, run.moved.get(level, {}).get(check.bound), run.rules)
+    each = np.array([suite.value(column, name) for column in peaks_of_runs(data, name).T])
+    if check.symbol == "D_d":
+        each = run.rules.displacement_factor * each
+        least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
+        each = np.maximum(each, least)
+    return check, each / check.limit
+
+
+def plan_figure(run: ProjectRun) -> Figure | None:
+    """Draw the bearings in plan by how far the check that governs uses them.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    Figure or None
+        A circle for each bearing, coloured by `utilisation`; None where there is none.
+    """
+    found = utilisation(run)
+    if found is None:
+        return None
+    check, shares = found
+    links = run.frame.bearings
+    spots = np.array([[run.frame.nodes[k.j].x, run.frame.nodes[k.j].y] for k in links.values()])
+    gaps = np.linalg.norm(spots[:, None] - spots[None], axis=-1)
+    apart = float(gaps[gaps > 0.0].min()) if (gaps > 0.0).any() else 1.0
+    low, high = spots.min(axis=0) - 0.7 * apart, spots.max(axis=0) + 0.7 * apart
+    width = ps.PAGE_WIDTH
+    tall = float(np.clip(width * (high[1] - low[1]) / (high[0] - low[0]), 2.4, 4.6))
+    figure = ps.new_figure(tall)
+    panel = ps.grid_of(figure, 1, 1)[0][0]
+    colours = ScalarMappable(Normalize(0.0, max(1.0, float(shares.max()))), "YlOrRd")
+    for name, (x, y), share in zip(links, spots, shares, strict=True):
+        panel.add_patch(
+            Circle((x, y), 0.2 * apart, facecolor=colours.to_rgba(share), edgecolor=ps.GREY)
+        )
+        text = f"{name}\n{share:.2f}"
+        panel.annotate(text, (x, y - 0.23 * apart), ha="center", va="top", fontsize=ps.SMALL)
+    panel.set_aspect("equal")
+    panel.set_xlim(low[0], high[0])
+    panel.set_ylim(low[1], high[1])
+    ps.caption(panel, x="x [m]", y="y [m]")
+    bar = figure.colorbar(colours, ax=panel, shrink=0.8)
+    bar.set_label("ratio to the limit [-]", fontsize=ps.LABEL)
+    bar.ax.tick_params(labelsize=ps.SMALL)
+    ps.add_legend(figure, [], title=f"{check.title}, {check.bound}")
+    return figure

@@ -1,0 +1,220 @@
+"""What a model and a bearing are, in the words and units of the field."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from frames.design.calculation.rendering import number as written
+from frames.design.report.page import Table
+from lir_element.device.field_units import FIELD_UNITS
+from lir_element.device.friction import FrictionLaw
+
+if TYPE_CHECKING:
+    from frames.statics.model_check import ModelCheck
+    from lir_element import LIRBearing
+
+TERMS = {
+    "radius": "radius of the concave surfaces",
+    "slider_height": "height of the inner slider",
+    "slider_radius": "radius of the inner slider in plan",
+    "friction": "friction coefficient of the concave surfaces",
+    "interface_friction": "friction coefficient of the interface",
+    "capacity": "displacement capacity, to rim contact",
+    "rims": "sliding on a surface to its restraining rim",
+    "axial_stiffness": "axial stiffness of the slider",
+    "axial_damping": "axial damping of the slider",
+    "rim_stiffness": "radial stiffness of a restraining rim",
+    "rim_damping": "radial damping of a restraining rim",
+    "rim_overrun": "rim deformation at restrainer failure",
+    "slip_capacity": "interface slip at the end of the overlap",
+    "design_load": "axial load that defaults refer to",
+    "yield_displacement": "elastic displacement before sliding, concave surfaces",
+    "interface_yield_displacement": "elastic displacement before slip, interface",
+    "friction_law": "hysteretic model of friction",
+    "bouc_wen_exponent": "exponent of the Bouc-Wen model",
+    "torsional_friction": "friction against rotation about the vertical",
+    "plate_thickness": "plate thickness, node to vertex of the surface",
+    "slider_density": "density of the sliders",
+    "slider_mass": "mass of the sliders",
+    "slider_inertia": "moments of inertia of the sliders",
+    "contact_points": "contact points of a slider's face",
+    "allow_weak_interface": "interface weaker than the surfaces accepted",
+    "pressure_dependence": "friction and pressure",
+    "friction_heating": "friction and temperature",
+}
+"""Fields of a bearing as the report calls them."""
+
+_ENDLESS = {
+    "interface_friction": "rigid slider",
+    "capacity": "no restraining rims",
+    "rims": "no restraining rims",
+    "rim_overrun": "no failure modelled",
+    "slip_capacity": "no end modelled",
+}
+_SHOWN = {
+    "m": ("mm", 1e3),
+    "N": ("kN", 1e-3),
+    "N/m": ("kN/m", 1e-3),
+    "N s/m": ("kN s/m", 1e-3),
+    "kg/m3": ("kg/m³", 1.0),
+    "kg m2": ("kg m²", 1.0),
+}
+_LONG = 1e5  # from here on with a power of ten
+_ONLY_WITH = {"bouc_wen_exponent": ("friction_law", "bouc-wen")}
+
+
+def device_table(bearing: LIRBearing) -> Table:
+    """Return what a bearing is: what was given, defaults, and what follows.
+
+    Parameters
+    ----------
+    bearing : LIRBearing
+        The bearing, friction nominal.
+
+    Returns
+    -------
+    Table
+        A row a property: its name, value, unit, and whether it was given, is a default or derived.
+    """
+    derived = [
+        ("effective radius", bearing.effective_radius, "m"),
+        ("pendulum period", bearing.period, "s"),
+        ("displacement capacity", bearing.lateral_capacity, "m"),
+        ("characteristic strength ratio Q/W", bearing.effective_friction, "-"),
+        ("stable limit of interface slip", bearing.slip_stability, "m"),
+    ]
+    rows = [
+        (title, _quantity(value, unit, "not limited"), _unit(value, unit), "derived")
+        for title, value, unit in derived
+    ]
+    resolved = bearing.resolved()
+    for field in fields(bearing):
+        name, value, origin = field.name, getattr(bearing, field.name), "given"
+        other, needed = _ONLY_WITH.get(name, ("", None))
+        if (value is None and name not in resolved) or (
+            other and getattr(bearing, other) != needed
+        ):
+            continue
+        if value is None:
+            value, origin = resolved[name], "default"
+        elif value == field.default:
+            origin = "default"
+        unit = FIELD_UNITS["LIRBearing"].get(name, "-" if _is_number(value) else "")
+        shown = _quantity(value, unit, _ENDLESS.get(name, "not limited"))
+        rows.append((TERMS.get(name, name.replace("_", " ")), shown, _unit(value, unit), origin))
+    return Table(("property", "value", "unit", "origin"), rows, frozenset({3}))
+
+
+def model_table(model: ModelCheck) -> Table:
+    """Return the totals of a model under its permanent loads.
+
+    Parameters
+    ----------
+    model : ModelCheck
+        Of `Frame.check`.
+
+    Returns
+    -------
+    Table
+        A row a quantity.
+    """
+    across = [abs(force) for force in model.loads[:2]]
+    taken = sum(force for _, force in model.supports)
+    periods = ", ".join(f"{value:.3g}" for value in model.periods)
+    rows = [
+        ("mass", f"{1e-3 * model.mass:.5g}", "t"),
+        ("permanent vertical load", f"{1e-3 * model.weight:.5g}", "kN"),
+        ("of it non-mass loads", f"{-1e-3 * model.loads[2] + 0.0:.5g}", "kN"),
+    ]
+    if any(across):
+        rows += [
+            (f"permanent load along {axis}", f"{1e-3 * force:.5g}", "kN")
+            for axis, force in zip("xy", model.loads[:2], strict=True)
+        ]
+    rows += [
+        ("carried by the bearings", f"{1e-3 * model.carried:.5g}", "kN"),
+        ("carried by other supports", f"{1e-3 * taken + 0.0:.5g}", "kN"),
+        ("periods, fixed base", periods or "none, rigid", "s" if periods else ""),
+        ("period on the bearings, sliding", f"{model.isolated_period:.3g}", "s"),
+    ]
+    return Table(("quantity", "value", "unit"), rows)
+
+
+def loads_table(model: ModelCheck) -> Table:
+    """Return what permanent loads make of each bearing.
+
+    Parameters
+    ----------
+    model : ModelCheck
+        Of `Frame.check`.
+
+    Returns
+    -------
+    Table
+        A row a bearing: axial force, pressure, settlement, period, stable limit of the slip.
+    """
+    rows = [
+        (
+            load.name,
+            f"{1e-3 * load.axial_force:.4g}",
+            f"{1e-6 * load.pressure:.3g}",
+            f"{1e3 * load.settlement:.2g}",
+            f"{load.period:.3g}",
+            _held(load.slip_stability, load.slip_capacity),
+        )
+        for load in model.bearings
+    ]
+    head = (
+        "bearing",
+        "axial force [kN]",
+        "pressure [MPa]",
+        "settlement [mm]",
+        "pendulum period [s]",
+        "stable limit of interface slip, of the overlap",
+    )
+    return Table(head, rows, frozenset({5}))
+
+
+def _held(stable: float, overlap: float) -> str:
+    if math.isinf(stable):
+        return "rigid slider"
+    end = f"{1e3 * overlap:.3g} mm"
+    if stable >= overlap:
+        return f"all {end}"
+    return f"{1e3 * max(stable, 0.0):.3g} of {end}"
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _unit(value: object, unit: str) -> str:
+    if _is_number(value) and not math.isfinite(float(value)):  # type: ignore[arg-type]  # a number
+        return ""
+    return "" if unit in {"", "-"} else _SHOWN.get(unit, (unit, 1.0))[0]
+
+
+def _quantity(value: object, unit: str, endless: str) -> str:
+    # A value in the unit shown; pairs that are alike once.
+    if isinstance(value, tuple):
+        parts = [_quantity(each, unit, endless) for each in value]
+        return parts[0] if len(set(parts)) == 1 else "; ".join(parts)
+    if isinstance(value, FrictionLaw):
+        return _friction(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not _is_number(value):
+        return str(value)
+    number = float(value)  # type: ignore[arg-type]  # a number
+    if not math.isfinite(number):
+        return endless
+    shown = _SHOWN.get(unit, (unit, 1.0))[1] * number
+    return f"{shown:.4g}" if abs(shown) < _LONG else written(shown)
+
+
+def _friction(law: FrictionLaw) -> str:
+    if law.f_max == law.f_min:
+        return f"{law.f_max:.4g}"
+    return f"{law.f_max:.4g} at high speed, {law.f_min:.4g} at rest"

@@ -1,0 +1,185 @@
+"""The account of an import: what was read, what was read as something else, what was left out."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from frames._errors import ModelError
+from lir_element.tables import text_table
+
+READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
+"""What becomes of objects of a file."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Objects of one table that fared alike.
+
+    Attributes
+    ----------
+    fate : str
+        `READ`, `READ_AS` or `LEFT_OUT`.
+    table : str
+        Table or section of the file.
+    what : str
+        Which objects, and what became of them.
+    count : int
+        How many.
+    names : tuple of str
+        Some of their names.
+    weight, stiffness : float or None
+        Share of the own weight, and of the stiffness of all elements, modulus times volume, that
+        they stand for [-].
+    """
+
+    fate: str
+    table: str
+    what: str
+    count: int
+    names: tuple[str, ...] = ()
+    weight: float | None = None
+    stiffness: float | None = None
+
+
+class Account:
+    """What became of everything in a file.
+
+    Parameters
+    ----------
+    file : str
+        Its name.
+    allow : collection of str
+        What may be left out although it changes the answer, by its key.
+    """
+
+    SHOWN = 6
+
+    def __init__(self, file: str, allow: Collection[str] = ()) -> None:
+        if isinstance(allow, str):
+            message = f'allow = "{allow}" must be a list of names: write ["{allow}"]'
+            raise TypeError(message)
+        self.file, self.allow = file, frozenset(allow)
+        self.entries: list[Entry] = []
+        self._used: set[str] = set()
+
+    def __str__(self) -> str:
+        """Return the account as a table, for people."""
+        return self.text()
+
+    def read(self, table: str, what: str, count: int) -> None:
+        """Note objects that were read as they are; none is not noted."""
+        if count:
+            self.entries.append(Entry(READ, table, what, count))
+
+    def read_as(
+        self,
+        table: str,
+        what: str,
+        names: Collection[str],
+        weight: float | None = None,
+        stiffness: float | None = None,
+    ) -> None:
+        """Note objects that were read as something else; none is not noted."""
+        self._add(READ_AS, table, what, names, weight, stiffness)
+
+    def left_out(
+        self,
+        table: str,
+        what: str,
+        names: Collection[str],
+        *,
+        weight: float | None = None,
+        stiffness: float | None = None,
+    ) -> None:
+        """Note objects that were left out and do not change the answer; none is not noted."""
+        self._add(LEFT_OUT, table, what, names, weight, stiffness)
+
+    def refuse(
+        self, key: str, table: str, what: str, names: Collection[str], place: str = ""
+    ) -> None:
+        """Refuse objects whose loss would change the answer, or note them where `allow` has them.
+
+        Parameters
+        ----------
+        key : str
+            By which `allow` names them.
+        table, what : str
+            Which objects, and what would be done without them.
+        names : collection of str
+            Their names; none is no matter.
+        place : str
+            Where the first one stands.
+
+        Raises
+        ------
+        ModelError
+            If there are some and `allow` does not have the key.
+        """
+        if not names:
+            return
+        if key not in self.allow:
+            message = (
+                f"{place or f'{self.file}, table {chr(34)}{table}{chr(34)}'}: {what} "
+                f"({self.some(names)}) would change the answer if left out: take it out of the "
+                f'model, or accept that with allow=["{key}"]'
+            )
+            raise ModelError(message)
+        self._used.add(key)
+        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names, None, None)
+
+    def finish(self) -> None:
+        """Raise where `allow` names something that the file does not have."""
+        idle = sorted(self.allow - self._used)
+        if idle:
+            message = (
+                f'{self.file}: allow names "{idle[0]}", and nothing of that name had to be '
+                "accepted: leave it out"
+            )
+            raise ModelError(message)
+
+    def some(self, names: Collection[str], count: int | None = None) -> str:
+        """Return the first names of many, and how many more there are."""
+        shown = [str(name) for name in list(names)[: self.SHOWN]]
+        more = (len(names) if count is None else count) - len(shown)
+        return ", ".join(shown) + (f" and {more} more" if more else "")
+
+    def rows(self) -> list[tuple[str, str, str, str, str, str]]:
+        """Return rows of text: fate, table, what, count, share of weight, share of stiffness."""
+        order = (LEFT_OUT, READ_AS, READ)
+        return [
+            (
+                entry.fate,
+                entry.table,
+                entry.what + (f": {self.some(entry.names, entry.count)}" if entry.names else ""),
+                str(entry.count),
+                _share(entry.weight),
+                _share(entry.stiffness),
+            )
+            for fate in order
+            for entry in self.entries
+            if entry.fate == fate
+        ]
+
+    def text(self) -> str:
+        """Return the account as a table, for people."""
+        head = ("", "table", "what", "count", "of weight", "of stiffness")
+        return f"import of {self.file}\n" + text_table([head, *self.rows()], left=3)
+
+    def _add(
+        self,
+        fate: str,
+        table: str,
+        what: str,
+        names: Collection[str],
+        weight: float | None,
+        stiffness: float | None,
+    ) -> None:
+        if names:
+            first = tuple(str(name) for name in list(names)[: self.SHOWN])
+            entry = Entry(fate, table, what, len(names), first, weight, stiffness)
+            self.entries.append(entry)
+
+
+def _share(value: float | None) -> str:
+    return "" if value is None else f"{value:.1%}"

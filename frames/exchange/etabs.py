@@ -1,0 +1,90 @@
+"""Reads an ETABS model: its text file (.e2k, .$et)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from frames.exchange.account import Account
+from frames.exchange.building import Building
+from frames.exchange.e2k_text import read_e2k
+from frames.exchange.etabs_loads import read_loads
+from frames.exchange.etabs_objects import Objects
+from frames.exchange.etabs_properties import read_properties, read_stories
+from frames.exchange.tables import Decimal, Tables
+from frames.exchange.units import FORCES, LENGTHS, Units, units_of
+
+REFUSED = {
+    "LINK": ("links", "links between joints"),
+    "LINKASSIGN": ("links", "links between joints"),
+    "HINGEASSIGN": ("hinges", "plastic hinges of frames, which stay elastic"),
+    "AREAHINGEASSIGN": ("hinges", "plastic hinges of walls, which stay elastic"),
+    "TENDONASSIGN": ("tendons", "tendons"),
+    "LINESPRING": ("line and area springs", "springs along lines"),
+    "AREASPRING": ("line and area springs", "springs under areas"),
+    "AREAJOINTOFFSETDATA": ("area overwrites", "offsets of corners of areas"),
+    "AREATHICKNESSOVERWRITE": ("area overwrites", "thickness of single areas"),
+    "AREAEDGERELEASE": ("edge releases", "releases along edges of areas"),
+    "LINECURVEDATA": ("curved frames", "curved lines, taken as straight ones"),
+    "AREACURVEDATA": ("curved areas", "curved edges of areas, taken as straight ones"),
+}
+"""First words whose loss would change the answer: key of `allow`, what it is."""
+
+
+def read_etabs(
+    path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
+) -> Building:
+    """Read an ETABS model.
+
+    Parameters
+    ----------
+    path : str or Path
+        A .e2k or .$et text file.
+    allow : collection of str
+        What may be left out although it changes the answer; the message of a refusal has the key.
+    decimal : {".", ","}
+        Decimal sign of the file: that of the Windows that wrote it.
+
+    Returns
+    -------
+    Building
+        All that was read, in SI; `Building.account` says what became of the rest.
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be used: the message has line, section and remedy.
+    """
+    file = Path(path)
+    tables = read_e2k(file, decimal)
+    account = Account(file.name, allow)
+    program = tables.rows("PROGRAM")
+    version = program[0].text("VERSION", "") if program else ""
+    building = Building(file.stem, "ETABS", version, _units(tables), account)
+    read_stories(tables, building)
+    read_properties(tables, building)
+    Objects(tables, building).read()
+    read_loads(tables, building)
+    for name, count in tables.unread().items():
+        if name in REFUSED:
+            rows = tables.rows(name)
+            first = next(iter(rows[0].values.values()), "")
+            key, what = REFUSED[name]
+            account.refuse(
+                key, rows[0].table, f"{what}, {count} lines", [str(first)], rows[0].place
+            )
+    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
+    account.left_out("other lines", "what the linear model does not need, by first word", rest)
+    return building
+
+
+def _units(tables: Tables) -> Units:
+    row = tables.needed("UNITS", "$ CONTROLS has the units; export it with the others")[0]
+    found = units_of(row.text("Force"), row.text("Length"))
+    if found is None:
+        message = (
+            f'UNITS "{row.text("Force")}" "{row.text("Length")}" must be a force of '
+            f"{', '.join(FORCES)} and a length of {', '.join(LENGTHS)}"
+        )
+        raise row.error(message)
+    return found

@@ -1,0 +1,288 @@
+"""Stories, materials and sections of an ETABS text file."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames.exchange.building import AreaSection, Building, FrameSection, Material, Modifiers
+from frames.exchange.section_shapes import section_by_shape
+from frames.exchange.tables import Row
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames.exchange.tables import Tables, Value
+
+SECTION_FACTORS = ("AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD", "MMOD", "WMOD")
+OBJECT_FACTORS = (
+    "PROPMODA",
+    "PROPMODA2",
+    "PROPMODA3",
+    "PROPMODT",
+    "PROPMODI22",
+    "PROPMODI33",
+    "PROPMODM",
+    "PROPMODW",
+)
+
+
+def merged(rows: Sequence[Row], *fields: str) -> dict[tuple[str, ...], Row]:
+    """Return one row for each object: its lines add up, a value that comes again replaces.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Lines of one first word.
+    *fields : str
+        The fields that name an object.
+
+    Returns
+    -------
+    dict of tuple of str to Row
+        At the place of its first line.
+    """
+    found: dict[tuple[str, ...], Row] = {}
+    for row in rows:
+        key = tuple(row.text(field) for field in fields)
+        if key in found:
+            found[key].values |= row.values
+        else:
+            values: dict[str, Value] = dict(row.values)
+            found[key] = Row(row.file, row.table, row.line, values, row.decimal)
+    return found
+
+
+def read_stories(tables: Tables, building: Building) -> None:
+    """Read the stories, which stand from the top; elevations are counted from the lowest.
+
+    Parameters
+    ----------
+    tables : Tables
+        Of the file.
+    building : Building
+        It is added to.
+
+    Raises
+    ------
+    ModelError
+        If there are none, several towers, or a height is missing or not positive.
+    """
+    towers = tables.rows("TOWER")
+    if len({row.text("Name", "") for row in towers}) > 1:
+        message = "models of several towers are not read: export them one by one"
+        raise towers[1].error(message)
+    rows = tables.needed("STORY", "an ETABS model has stories")
+    one = building.units.length
+    base = rows[-1]
+    elevation = one * base.number("ELEV", 0.0)
+    building.stories.append((base.text("Story"), elevation))
+    for row in reversed(rows[:-1]):
+        height = one * row.number("HEIGHT")
+        if height <= 0.0:
+            msg = f'HEIGHT of story "{row.text("Story")}" must be positive'
+            raise row.error(msg)
+        elevation += height
+        building.stories.append((row.text("Story"), elevation))
+    names = [name for name, _ in building.stories]
+    if len(set(names)) < len(names):
+        msg = "two stories have one name: rename one of them"
+        raise base.error(msg)
+    building.account.read("STORIES", "stories", len(names))
+
+
+def read_properties(tables: Tables, building: Building) -> None:
+    """Read materials, and the sections that objects have.
+
+    Parameters
+    ----------
+    tables : Tables
+        Of the file.
+    building : Building
+        It is added to.
+
+    Raises
+    ------
+    ModelError
+        If a number is missing or wrong, or a section is not known here.
+    """
+    for (name,), row in merged(tables.rows("MATERIAL"), "Material").items():
+        if row.has("E") or row.has("E1"):
+            building.materials[name] = _material(row, name, building)
+    building.account.read("MATERIAL PROPERTIES", "materials", len(building.materials))
+    frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
+    areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
+    given = merged(tables.rows("FRAMESECTION"), "Section")
+    for (name,), row in given.items():
+        if name in frames:
+            building.sections[name] = _section(row, name, building)
+    building.account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
+    idle = [name for (name,) in given if name not in frames]
+    building.account.left_out("FRAME SECTIONS", "which nothing has", idle)
+    for (name,), row in merged(tables.rows("SHELLPROP"), "Section").items():
+        if name in areas:
+            building.area_sections[name] = _shell(row, name, building)
+    building.account.read("SHELLPROP", "sections of areas in use", len(building.area_sections))
+
+
+def factors(row: Row, names: Sequence[str]) -> Modifiers:
+    """Return the factors of a line, 1 where it has none."""
+    values = [row.number(name, 1.0) for name in names]
+    if min(values) < 0.0:
+        msg = f"a modifier {min(values):g} must be 0 or greater"
+        raise row.error(msg)
+    return Modifiers(*values)
+
+
+def _material(row: Row, name: str, building: Building) -> Material:
+    units = building.units
+    modulus = row.number("E", row.number("E1", 0.0)) * units.stress
+    poisson = row.number("U", row.number("U1", 0.0))
+    if modulus <= 0.0 or not -1.0 < poisson <= 0.5:
+        msg = f'material "{name}" needs E > 0 and U in (-1, 0.5]'
+        raise row.error(msg)
+    weight = row.number("WEIGHTPERVOLUME", 0.0) * units.weight
+    density = row.number("MASSPERVOLUME", 0.0) * units.density or weight / STANDARD_GRAVITY
+    return Material(name, modulus, 0.5 * modulus / (1.0 + poisson), poisson, density, weight)
+
+
+def _section(row: Row, name: str, building: Building) -> FrameSection:
+    one = building.units.length
+    material, shape = row.text("MATERIAL", ""), row.text("SHAPE", "General")
+    if material not in building.materials:
+        msg = f'MATERIAL "{material}" of section "{name}" is not defined'
+        raise row.error(msg)
+    sizes = (
+        row.number("D", 0.0) * one,
+        row.number("B", 0.0) * one,
+        row.number("TF", 0.0) * one,
+        row.number("TW", row.number("TF", 0.0)) * one,
+    )
+    modifiers = factors(row, SECTION_FACTORS)
+    if row.has("AREA", "I33", "I22"):
+        return FrameSection(
+            name=name,
+            material=material,
+            shape=shape,
+            area=row.number("AREA") * one**2,
+            torsion=row.number("TORSION", 0.0) * one**4,
+            inertia_33=row.number("I33") * one**4,
+            inertia_22=row.number("I22") * one**4,
+            shear_2=row.number("AS2", 0.0) * one**2 or math.inf,
+            shear_3=row.number("AS3", 0.0) * one**2 or math.inf,
+            depth=sizes[0],
+            width=sizes[1] or sizes[0],
+            modifiers=modifiers,
+        )
+    poisson = building.materials[material].poisson_ratio
+    found = section_by_shape(row, name, material, shape, sizes, poisson)
+    return FrameSection(**{**vars(found), "modifiers": modifiers})
+
+
+def _shell(row: Row, name: str, building: Building) -> AreaSection:
+    units = building.units
+    kind = row.text("MODELINGTYPE", row.text("TYPE", "ShellThin")).lower()
+    if "layered" in kind:
+        what = "a layered shell, taken as a linear one of its thickness"
+        building.account.refuse("layered shells", row.table, what, [name], row.place)
+    shape = row.text("SLABTYPE", "Slab").lower()
+    if shape in {"ribbed", "waffle"}:
+        what = "a ribbed or waffle slab, taken as a flat one of its slab's thickness"
+        building.account.refuse("ribbed slabs", row.table, what, [name], row.place)
+    deck = row.text("PROPTYPE", "").lower() == "deck"
+    material = row.text("CONCMATERIAL" if deck else "MATERIAL", "")
+    if material not in building.materials:
+        msg = f'MATERIAL "{material}" of section "{name}" is not defined'
+        raise row.error(msg)
+    if deck:
+        ribs = 0.5 * (row.number("DECKRIBWIDTHTOP", 0.0) + row.number("DECKRIBWIDTHBOTTOM", 0.0))
+        spacing = row.number("DECKRIBSPACING", 0.0)
+        filled = row.number("DECKRIBDEPTH", 0.0) * ribs / spacing if spacing else 0.0
+        thickness = row.number("DECKSLABDEPTH") + filled
+    else:
+        fields = ("SLABTHICKNESS", "WALLTHICKNESS", "OVERALLDEPTH", "TM")
+        given = [row.number(field) for field in fields if row.has(field)]
+        if not given:
+            msg = f'section "{name}" has no thickness: {", ".join(fields)}'
+            raise row.error(msg)
+        thickness = given[0]
+    if thickness <= 0.0:
+        msg = f'the thickness of section "{name}" must be positive'
+        raise row.error(msg)
+    in_plane, bending = shell_factors(row, "{}{}MOD", building)
+    thickness *= units.length
+    return AreaSection(
+        name=name,
+        material=material,
+        kind="membrane" if deck or "membrane" in kind else "shell",
+        thickness=thickness,
+        bending_thickness=thickness,
+        in_plane=in_plane,
+        bending=bending,
+        mass=row.number("MMOD", 1.0),
+        weight=row.number("WMOD", 1.0),
+        one_way=deck or row.text("ONEWAYLOADDIST", "No").lower() == "yes",
+        extra_weight=row.number("DECKUNITWEIGHT", 0.0) * units.stress if deck else 0.0,
+    )
+
+
+def shell_factors(row: Row, pattern: str, building: Building) -> tuple[float, float]:
+    """Return the factors on in-plane and bending stiffness of a shell [-].
+
+    Parameters
+    ----------
+    row : Row
+        Of sections or assignments.
+    pattern : str
+        How a factor is called, by its letter and direction.
+    building : Building
+        Whose account refuses factors that differ by direction.
+
+    Returns
+    -------
+    tuple of float
+        Their means, which are they themselves where all directions have the same.
+    """
+    found = []
+    for letter in "FM":
+        values = [row.number(pattern.format(letter, d), 1.0) for d in ("11", "22", "12")]
+        if min(values) < 0.0:
+            msg = f"a modifier {min(values):g} must be 0 or greater"
+            raise row.error(msg)
+        if max(values) - min(values) > 1e-9:
+            what = "stiffness modifiers of an area that differ by direction, taken by their mean"
+            key, name = "directional area modifiers", pattern.format(letter, "11")
+            building.account.refuse(key, row.table, what, [name], row.place)
+        found.append(sum(values) / 3.0)
+    return found[0], found[1]
+
+
+class StoryIndex:
+    """Stories by name, and the joints that points make at them.
+
+    Parameters
+    ----------
+    building : Building
+        With its stories.
+    """
+
+    def __init__(self, building: Building) -> None:
+        self.names = [name for name, _ in building.stories]
+        self.elevations = [z for _, z in building.stories]
+
+    def below(self, row: Row, story: str, count: int) -> str:
+        """Return the story that is a number of stories below another, or raise."""
+        if story not in self.names:
+            some = ", ".join(self.names)
+            msg = f'story "{story}" is not defined: there are {some}'
+            raise row.error(msg)
+        place = self.names.index(story) - count
+        if count < 0 or place < 0:
+            message = f'{count} stories below "{story}" there is none'
+            raise row.error(message)
+        return self.names[place]
+
+    def elevation(self, story: str) -> float:
+        """Return the elevation of a story [m]."""
+        return self.elevations[self.names.index(story)]

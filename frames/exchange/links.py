@@ -1,0 +1,266 @@
+"""Links of an imported building: bearings, springs, dampers, gaps and yielding springs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.exchange.building import LINK_DOFS
+from frames.exchange.geometry import frame_axes
+from frames.model.laws import Bilinear, Gap, ViscousDamper
+from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.exchange.building import Building, LinkDof, LinkObject, LinkProperty
+    from frames.exchange.supports import Places
+    from frames.model.editing import FrameEditor
+
+SLIDER_HEIGHT, SLIDER_RADIUS = 0.1, 0.15
+"""Slider of a bearing made of a friction isolator link, whose file has none [m]."""
+
+PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
+"""Kinds of links that are friction pendulums."""
+
+
+def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
+    """Return the DCFP that slides like a friction isolator link.
+
+    Two equal surfaces of radius R_1 with L = 2 R_1 - h, the link's radius. At a displacement u each
+    slides by u R_1 / L, and Q/W = 2 mu R_1 / L: so friction coefficients are the link's times
+    L / (2 R_1), and the rate parameter is the link's times L / R_1. The slider is rigid, without
+    rims; its axial stiffness is that of U1.
+
+    Parameters
+    ----------
+    link : LinkProperty
+        Of a friction isolator.
+    place : str
+        Where a link of it stands, for messages.
+
+    Returns
+    -------
+    LIRBearing
+        The bearing; its slider's size is `SLIDER_HEIGHT` and `SLIDER_RADIUS`.
+
+    Raises
+    ------
+    ModelError
+        If radius or friction of U2 and U3 are missing, or differ.
+    """
+    shear = [link.dofs.get(name) for name in ("U2", "U3")]
+    found = [dof.values for dof in shear if dof is not None and dof.nonlinear]
+    words = ("radius", "slow", "fast", "rate")
+    if len(found) < 2 or any(word not in values for values in found for word in words[:3]):
+        message = (
+            f'{place}: link property "{link.name}" needs nonlinear U2 and U3 with radius and '
+            'friction to become a bearing: give the bearing, bearing={"' + link.name + '": ...}'
+        )
+        raise ModelError(message)
+    pairs = [tuple(values.get(word, 0.0) for word in words) for values in found]
+    if not np.allclose(pairs[0], pairs[1], rtol=1e-6) or not pairs[0][0] > 0.0:
+        message = (
+            f'{place}: link property "{link.name}" must have one positive radius and one friction '
+            'in U2 and U3 to become a bearing: give the bearing, bearing={"' + link.name + '": ...}'
+        )
+        raise ModelError(message)
+    radius, slow, fast, rate = pairs[0]
+    surface = 0.5 * (radius + SLIDER_HEIGHT)
+    share = radius / (2.0 * surface)
+    law: FrictionLaw = CoulombFriction(share * fast)
+    if fast > slow and rate > 0.0:
+        law = VelocityFriction(share * fast, share * slow, rate * radius / surface)
+    axial = link.dofs.get("U1")
+    values = {} if axial is None else axial.values
+    stiffness = values.get("stiffness", 0.0) or (0.0 if axial is None else axial.stiffness)
+    try:
+        return LIRBearing(
+            radius=surface,
+            slider_height=SLIDER_HEIGHT,
+            slider_radius=SLIDER_RADIUS,
+            friction=law,
+            interface_friction=math.inf,
+            capacity=math.inf,
+            axial_stiffness=stiffness or None,
+        )
+    except ValueError as cause:
+        message = f'{place}: link property "{link.name}": {cause}'
+        raise ModelError(message) from cause
+
+
+class Links:
+    """Adds the links of a building to a frame.
+
+    Parameters
+    ----------
+    frame : Frame
+        With the nodes; it is added to.
+    building : Building
+        With the links.
+    places : Places
+        Where bearings stand in place of links.
+    """
+
+    def __init__(self, frame: FrameEditor, building: Building, places: Places) -> None:
+        self.frame, self.building, self.places = frame, building, places
+        self._as: dict[str, list[str]] = {}
+
+    def add(self) -> None:
+        """Add all links.
+
+        Raises
+        ------
+        ModelError
+            If a link cannot be what it should.
+        """
+        for name, link in self.building.links.items():
+            prop = self.building.link_properties[link.property]
+            if name in self.places.links:
+                self._bearing(link, self.places.links[name])
+                self._note("links, in whose place the given bearing stands", name)
+            elif prop.kind.lower().startswith(PENDULUM_LINKS):
+                self._bearing(link, equivalent_bearing(prop, link.place))
+                what = (
+                    "friction isolators, as DCFP of the same radius and friction, two equal "
+                    f"surfaces and a rigid slider of radius {SLIDER_RADIUS:g} m without rims"
+                )
+                self._note(what, name)
+            else:
+                self._plain(link, prop)
+        for what, names in self._as.items():
+            self.building.account.read_as("links", what, names)
+
+    def _note(self, what: str, name: str) -> None:
+        self._as.setdefault(what, []).append(name)
+
+    def _bearing(self, link: LinkObject, device: LIRBearing) -> None:
+        frame, joint = self.frame, link.i
+        if link.j is None:
+            x, y, z = frame.nodes[joint].position
+            frame.add_node(f"ground-{link.name}", x, y, z - device.height)
+            frame.fix(f"ground-{link.name}", "all")
+            frame.add_bearing(link.name, f"ground-{link.name}", joint, device)
+            return
+        low, high = sorted((link.i, link.j), key=lambda name: frame.nodes[name].z)
+        try:
+            frame.add_bearing(link.name, low, high, device)
+        except ModelError as cause:
+            if not self._only_carries(low):
+                message = f'{link.place}, link "{link.name}": {cause}'
+                raise ModelError(message) from cause
+            x, y, z = frame.nodes[high].position
+            frame.add_node(f"ground-{link.name}", x, y, z - device.height)
+            frame.fix(f"ground-{link.name}", "all")
+            frame.add_bearing(link.name, f"ground-{link.name}", high, device)
+
+    def _only_carries(self, joint: str) -> bool:
+        # A joint of the ground that nothing but this link needs.
+        building, frame = self.building, self.frame
+        users = [link for link in building.links.values() if joint in {link.i, link.j}]
+        ends = {node for member in frame.members.values() for node in (member.i, member.j)}
+        return joint in building.restraints and len(users) == 1 and joint not in ends
+
+    def _plain(self, link: LinkObject, prop: LinkProperty) -> None:
+        frame, other = self.frame, link.j
+        if other is None:
+            other = f"ground-{link.name}"
+            frame.add_node(other, *frame.nodes[link.i].position)
+            frame.fix(other, "all")
+            first, last = other, link.i
+            axes = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+        else:
+            first, last = link.i, other
+            ends = [np.array(frame.nodes[name].position) for name in (first, last)]
+            apart = float(np.linalg.norm(ends[1] - ends[0]))
+            upright = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+            axes = frame_axes(ends[0], ends[1], link.angle) if apart > 1e-6 else upright
+        fixed = []
+        for k, name in enumerate(LINK_DOFS):
+            dof = prop.dofs.get(name)
+            if dof is None:
+                continue
+            if dof.fixed:
+                fixed.append((axes[k % 3], k >= 3))
+                continue
+            self._dof(link, prop, name, dof, (first, last), axes[k % 3])
+        if fixed:
+            self._tie(link.name, first, last, fixed)
+
+    def _dof(
+        self,
+        link: LinkObject,
+        prop: LinkProperty,
+        name: str,
+        dof: LinkDof,
+        ends: tuple[str, str],
+        axis: FloatArray,
+    ) -> None:
+        kind, values = prop.kind.lower(), dof.values
+        part = f"{link.name}-{name}"
+        direction: str | list[float] = axis.tolist()
+        turns = name.startswith("R")
+        if turns:
+            place = int(np.abs(axis).argmax())
+            if abs(axis[place]) < 1.0 - 1e-9 and (dof.stiffness or dof.nonlinear):
+                message = (
+                    f'{link.place}: {name} of link "{link.name}" turns about an axis that is not '
+                    "a global one: make the link vertical or horizontal along X or Y"
+                )
+                raise ModelError(message)
+            direction = ("rx", "ry", "rz")[place]
+        nonlinear = dof.nonlinear and kind != "linear"
+        if nonlinear and kind.startswith("gap") and not turns:
+            law = Gap(gap=values.get("open", 0.0), stiffness=values["stiffness"])
+            self.frame.add_link(part, *ends, law, (-axis).tolist())
+            self._note("gaps, which push only", link.name)
+        elif nonlinear and kind.startswith(("rubber", "plastic")):
+            law_b = Bilinear(
+                stiffness=values["stiffness"],
+                yield_force=values["yield"],
+                hardening=min(values.get("ratio", 0.0), 0.999),
+            )
+            self.frame.add_link(part, *ends, law_b, direction)
+            self._note("yielding links, by each of their directions for itself", link.name)
+        elif nonlinear:
+            what = f'links of kind "{prop.kind}", by their linear stiffness'
+            account = self.building.account
+            account.refuse("nonlinear links", "links", what, [link.name], link.place)
+            self._spring(part, ends, axis, dof.stiffness, turns=turns)
+        else:
+            self._spring(part, ends, axis, dof.stiffness, turns=turns)
+        if dof.damping > 0.0 and not nonlinear:
+            damper = ViscousDamper(coefficient=dof.damping)
+            self.frame.add_link(f"{part}-damper", *ends, damper, direction)
+
+    def _spring(
+        self, part: str, ends: tuple[str, str], axis: FloatArray, stiffness: float, *, turns: bool
+    ) -> None:
+        if stiffness <= 0.0:
+            return
+        along = np.outer(axis, axis) * stiffness
+        off = along - np.diag(np.diag(along))
+        if np.abs(off).max() > 1e-9 * stiffness:
+            message = (
+                f'spring "{part}" is not along a global axis: make the link vertical or '
+                "horizontal along X or Y, without an angle"
+            )
+            raise ModelError(message)
+        zero = [0.0, 0.0, 0.0]
+        values = [*zero, *np.diag(along)] if turns else [*np.diag(along), *zero]
+        self.frame.add_spring(part, *ends, [max(float(v), 0.0) for v in values])
+
+    def _tie(self, name: str, i: str, j: str, fixed: list[tuple[FloatArray, bool]]) -> None:
+        # No deformation: u_j - u_i - theta_i x r along an axis, theta_j - theta_i about it.
+        r = np.subtract(self.frame.nodes[j].position, self.frame.nodes[i].position)
+        rows = np.zeros((len(fixed), 12))
+        for row, (axis, turns) in zip(rows, fixed, strict=True):
+            if turns:
+                row[3:6], row[9:12] = -axis, axis
+            else:
+                row[0:3], row[6:9] = -axis, axis
+                row[3:6] = -np.cross(r, axis)
+        zero = np.zeros((12, 12))
+        self.frame.add_superelement(f"{name}-fixed", [i, j], zero, zero, equations=rows)

@@ -1,0 +1,254 @@
+"""A mesh of the areas that are shells: edges divided alike on both sides, and at joints on them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from frames._errors import ModelError
+from frames.exchange.stations import ON_LINE, Points
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from frames._types import FloatArray
+    from frames.exchange.building import AreaObject
+
+Edge = tuple[str, str]
+
+
+@dataclass
+class Mesh:
+    """Elements of shells: the area each belongs to, and its nodes in order (3 or 4).
+
+    `between` has the nodes made along edges, and the two corners each lies between.
+    """
+
+    elements: list[tuple[str, tuple[str, ...]]] = field(default_factory=list)
+    between: dict[str, tuple[str, str]] = field(default_factory=dict)
+
+    def of(self, area: str) -> list[tuple[str, ...]]:
+        """Return the elements of an area."""
+        return self._by_area().get(area, [])
+
+    def _by_area(self) -> dict[str, list[tuple[str, ...]]]:
+        found: dict[str, list[tuple[str, ...]]] = {}
+        for area, nodes in self.elements:
+            found.setdefault(area, []).append(nodes)
+        return found
+
+
+def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh:
+    """Divide areas into elements, and add their nodes to the points.
+
+    Parameters
+    ----------
+    areas : sequence of AreaObject
+        Of three or four corners.
+    points : dict of str to tuple
+        All nodes [m]; those of the mesh are added.
+    size : float
+        Longest side of an element [m], as far as corners and joints on edges allow.
+
+    Returns
+    -------
+    Mesh
+        Its elements.
+
+    Raises
+    ------
+    ModelError
+        If an area has more corners, or is a triangle that would have to be divided.
+    """
+    for area in areas:
+        if len(area.joints) > 4:
+            message = (
+                f'{area.place}: area "{area.name}" is a shell of {len(area.joints)} corners, those '
+                "of 3 and 4 are read: divide it, or give it a rigid diaphragm"
+            )
+            raise ModelError(message)
+    cuts = _cuts(areas, points, size)
+    joints = set(points)
+    names = {edge: _names(edge, shares, points) for edge, shares in cuts.items()}
+    mesh = Mesh()
+    for edge, along in names.items():
+        mesh.between |= {node: edge for node in along if node not in joints}
+    for area in areas:
+        if len(area.joints) == 4:
+            _quad(area, names, cuts, points, mesh)
+            continue
+        divided = [edge for edge in _edges(area) if len(names[_key(edge)]) > 2]
+        if divided:
+            message = (
+                f'{area.place}: triangle "{area.name}" has joints along its edge between '
+                f'"{divided[0][0]}" and "{divided[0][1]}", or needs some for the elements beside '
+                "it: divide it into quadrilaterals"
+            )
+            raise ModelError(message)
+        mesh.elements.append((area.name, area.joints))
+    return mesh
+
+
+def _edges(area: AreaObject) -> list[Edge]:
+    joints = area.joints
+    return [(joints[k], joints[(k + 1) % len(joints)]) for k in range(len(joints))]
+
+
+def _key(edge: Edge) -> Edge:
+    return edge if edge[0] < edge[1] else (edge[1], edge[0])
+
+
+def _cuts(areas: Sequence[AreaObject], points: Points, size: float) -> dict[Edge, list[float]]:
+    # Shares of each edge's length, from its first joint by name, at which it is divided.
+    edges = {_key(edge) for area in areas for edge in _edges(area)}
+    found = _joints_on(edges, points)
+    quads = [area for area in areas if len(area.joints) == 4]
+    _spread(quads, found)
+    cells: dict[Edge, list[int]] = {}
+    for edge, shares in found.items():
+        length = math.dist(points[edge[0]], points[edge[1]])
+        steps = np.diff(shares) * length
+        cells[edge] = [max(1, math.ceil(step / size - 1e-6)) for step in steps]
+    for area in areas:
+        if len(area.joints) == 3:
+            for edge in _edges(area):
+                cells[_key(edge)] = [1] * len(cells[_key(edge)])
+    _even_out(quads, cells)
+    return {
+        edge: [
+            float(a + (b - a) * k / count)
+            for a, b, count in zip(shares[:-1], shares[1:], cells[edge], strict=True)
+            for k in range(count)
+        ]
+        + [1.0]
+        for edge, shares in found.items()
+    }
+
+
+def _joints_on(edges: set[Edge], points: Points) -> dict[Edge, list[float]]:
+    names = list(points)
+    where = np.array([points[name] for name in names])
+    tree = cKDTree(where)
+    found = {}
+    for edge in edges:
+        first, last = (np.array(points[name]) for name in edge)
+        length = float(np.linalg.norm(last - first))
+        near = tree.query_ball_point(0.5 * (first + last), max(0.5 * length - ON_LINE, 0.0))
+        shares = {0.0, 1.0}
+        for k in near:
+            along = float((where[k] - first) @ (last - first)) / length**2
+            if np.linalg.norm(where[k] - first - along * (last - first)) <= ON_LINE:
+                shares.add(along)
+        found[edge] = sorted(shares)
+    return found
+
+
+def _pairs(area: AreaObject) -> list[tuple[Edge, Edge, bool]]:
+    # Opposite edges, and whether their shares run against each other.
+    a, b, c, d = area.joints
+    found = []
+    for one, two in (((a, b), (d, c)), ((b, c), (a, d))):
+        turned = (one == _key(one)) != (two == _key(two))
+        found.append((_key(one), _key(two), turned))
+    return found
+
+
+def _spread(quads: Sequence[AreaObject], found: dict[Edge, list[float]]) -> None:
+    # Until opposite edges are divided at the same shares.
+    pairs = [pair for area in quads for pair in _pairs(area)]
+    changed = True
+    while changed:
+        changed = False
+        for one, two, turned in pairs:
+            for source, target in ((one, two), (two, one)):
+                given = [1.0 - s for s in found[source]] if turned else found[source]
+                new = [s for s in given if min(abs(s - t) for t in found[target]) > 1e-6]
+                if new:
+                    found[target] = sorted([*found[target], *new])
+                    changed = True
+
+
+def _even_out(quads: Sequence[AreaObject], cells: dict[Edge, list[int]]) -> None:
+    # Until opposite edges have as many elements in each part.
+    pairs = [pair for area in quads for pair in _pairs(area)]
+    changed = True
+    while changed:
+        changed = False
+        for one, two, turned in pairs:
+            other = cells[two][::-1] if turned else cells[two]
+            most = [max(a, b) for a, b in zip(cells[one], other, strict=True)]
+            if most != cells[one] or most != other:
+                cells[one], cells[two] = most, most[::-1] if turned else list(most)
+                changed = True
+
+
+def _names(edge: Edge, shares: list[float], points: Points) -> list[str]:
+    # Nodes along an edge; a joint that is there already is one of them.
+    first, last = (np.array(points[name]) for name in edge)
+    known = {name: points[name] for name in points if name not in edge} if len(shares) > 2 else {}
+    names = [edge[0]]
+    where = np.array(list(known.values())).reshape(-1, 3)
+    labels = list(known)
+    for k, share in enumerate(shares[1:-1], start=1):
+        place = first + share * (last - first)
+        if len(labels):
+            apart = np.linalg.norm(where - place, axis=1)
+            near = int(apart.argmin())
+            if apart[near] <= ON_LINE:
+                names.append(labels[near])
+                continue
+        name = f"{edge[0]}~{edge[1]}~{k}"
+        x, y, z = place.tolist()
+        points[name] = (x, y, z)
+        names.append(name)
+    return [*names, edge[1]]
+
+
+def _quad(
+    area: AreaObject,
+    names: dict[Edge, list[str]],
+    cuts: dict[Edge, list[float]],
+    points: Points,
+    mesh: Mesh,
+) -> None:
+    a, b, c, d = area.joints
+    bottom, top = _along((a, b), names), _along((d, c), names)
+    left, right = _along((a, d), names), _along((b, c), names)
+    corners = np.array([points[name] for name in (a, b, c, d)])
+    u, v = (_shares(edge, cuts) for edge in ((a, b), (a, d)))
+    grid = [[""] * len(u) for _ in v]
+    for row in range(len(v)):
+        for column in range(len(u)):
+            if row in {0, len(v) - 1}:
+                grid[row][column] = (bottom if row == 0 else top)[column]
+            elif column in {0, len(u) - 1}:
+                grid[row][column] = (left if column == 0 else right)[row]
+            else:
+                name = f"{area.name}~{row}~{column}"
+                x, y, z = _bilinear(corners, u[column], v[row]).tolist()
+                points[name] = (x, y, z)
+                grid[row][column] = name
+    for row in range(len(v) - 1):
+        for column in range(len(u) - 1):
+            low, high = grid[row], grid[row + 1]
+            nodes = (low[column], low[column + 1], high[column + 1], high[column])
+            mesh.elements.append((area.name, nodes))
+
+
+def _along(edge: Edge, names: dict[Edge, list[str]]) -> list[str]:
+    found = names[_key(edge)]
+    return found if edge == _key(edge) else found[::-1]
+
+
+def _shares(edge: Edge, cuts: dict[Edge, list[float]]) -> list[float]:
+    found = cuts[_key(edge)]
+    return found if edge == _key(edge) else [1.0 - share for share in found[::-1]]
+
+
+def _bilinear(corners: FloatArray, u: float, v: float) -> FloatArray:
+    weights = np.array([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v])
+    return weights @ corners

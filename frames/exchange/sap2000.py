@@ -1,0 +1,157 @@
+"""Reads a SAP2000 model: its text tables (.s2k, .$2k) or the workbook with the same tables."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from frames.exchange.account import Account
+from frames.exchange.building import Building
+from frames.exchange.excel_tables import read_excel
+from frames.exchange.s2k_text import read_s2k
+from frames.exchange.sap2000_loads import read_loads
+from frames.exchange.sap2000_objects import read_objects
+from frames.exchange.sap2000_properties import read_properties
+from frames.exchange.tables import Decimal, Tables
+from frames.exchange.units import FORCES, LENGTHS, Units, units_of
+
+_BOOKS = {".xlsx", ".xlsm"}
+
+REFUSED = (
+    ("FRAME HINGE ASSIGN", "hinges", "plastic hinges of frames, which stay elastic"),
+    ("CONNECTIVITY - CABLE", "cables", "cables"),
+    ("CONNECTIVITY - TENDON", "tendons", "tendons"),
+    ("CONNECTIVITY - SOLID", "solids", "solids"),
+    ("FRAME TENSION AND COMPRESSION LIMITS", "tension limits", "limits of axial force, without"),
+    ("CASE - STATIC 5", "staged construction", "stages of construction, taken as built at once"),
+    ("CASE - STATIC 6", "staged construction", "stages of construction, taken as built at once"),
+    ("JOINT SPRING ASSIGNMENTS 2", "coupled springs", "coupled springs of joints"),
+    ("FRAME SPRING ASSIGNMENTS", "line and area springs", "springs along frames"),
+    ("AREA SPRING ASSIGNMENTS", "line and area springs", "springs under areas"),
+    ("FRAME RELEASE ASSIGNMENTS 2", "partial fixity", "partial fixity, taken as full releases"),
+    ("FRAME LOCAL AXES ASSIGNMENTS 2", "advanced axes", "advanced axes of frames"),
+    ("AREA OVERWRITES", "area overwrites", "thickness and joint offsets of single areas"),
+    ("AREA EDGE CONSTRAINT", "edge constraints", "constraints along edges of areas"),
+    ("FRAME LOADS - TEMPERATURE", "imposed strains", "temperatures of frames"),
+    ("FRAME LOADS - STRAIN", "imposed strains", "strains of frames"),
+    ("FRAME LOADS - DEFORMATION", "imposed strains", "deformations of frames"),
+    ("FRAME LOADS - TARGET", "imposed strains", "target forces of frames"),
+    ("JOINT LOADS - GROUND DISPLACEMENT", "imposed strains", "displacements of supports"),
+    ("AREA LOADS - TEMPERATURE", "imposed strains", "temperatures of areas"),
+    ("AREA LOADS - STRAIN", "imposed strains", "strains of areas"),
+    ("AREA LOADS - SURFACE PRESSURE", "surface pressures", "pressures on faces of areas"),
+    ("AREA ADDED MASS", "added masses", "masses added to areas"),
+    ("FRAME ADDED MASS", "added masses", "masses added to frames"),
+    ("JOINT ADDED MASS BY", "added masses", "masses added to joints by weight or volume"),
+)
+"""Tables whose loss would change the answer: beginning of the name, key of `allow`, what it is."""
+
+HARMLESS = (
+    "AREA AUTO MESH",
+    "AREA BRIDGE",
+    "AREA LOCAL AXES",
+    "AREA SECTION PROPERTY",
+    "AREA VEHICLE",
+    "FRAME BRIDGE",
+    "FRAME DESIGN",
+    "FRAME JOINT OFFSETS - BRIDGE",
+    "FRAME LOAD TRANSFER",
+    "FRAME LOADS - OPEN STRUCTURE",
+    "FRAME OUTPUT STATION",
+    "FRAME P-DELTA",
+    "FRAME PROGRAM DETERMINED",
+    "FRAME SECTION PROPERTIES",
+    "FRAME VEHICLE",
+    "JOINT BRIDGE",
+    "JOINT MERGE",
+    "JOINT PANEL ZONE",
+    "JOINT PATTERN",
+    "JOINT VEHICLE",
+    "LINK BRIDGE",
+    "LINK FREQUENCY",
+    "LINK VEHICLE",
+)
+"""Tables of objects that the linear model does not need, by the beginning of the name."""
+
+_OBJECTS = ("CONNECTIVITY", "CONSTRAINT DEFINITIONS", "JOINT ", "FRAME ", "AREA ", "LINK ")
+
+
+def read_sap2000(
+    path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
+) -> Building:
+    """Read a SAP2000 model.
+
+    Parameters
+    ----------
+    path : str or Path
+        A .s2k or .$2k text file, or an .xlsx workbook with the same tables.
+    allow : collection of str
+        What may be left out although it changes the answer; the message of a refusal has the key.
+    decimal : {".", ","}
+        Decimal sign of a text file: that of the Windows that wrote it.
+
+    Returns
+    -------
+    Building
+        All that was read, in SI; `Building.account` says what became of the rest.
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be used: the message has line, table and remedy.
+    """
+    file = Path(path)
+    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, decimal)
+    account = Account(file.name, allow)
+    units, version = _units(tables)
+    building = Building(file.stem, "SAP2000", version, units, account)
+    _refuse_plane(tables)
+    read_properties(tables, building)
+    read_objects(tables, building)
+    read_loads(tables, building)
+    _judge_rest(tables, account)
+    return building
+
+
+def _units(tables: Tables) -> tuple[Units, str]:
+    row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
+    words = [word.strip() for word in row.text("CurrUnits").split(",")]
+    found = units_of(words[0], words[1]) if len(words) >= 2 else None
+    if found is None:
+        message = (
+            f'CurrUnits = "{row.text("CurrUnits")}" must be a force of {", ".join(FORCES)} and a '
+            f'length of {", ".join(LENGTHS)}, such as "KN, m, C"'
+        )
+        raise row.error(message)
+    return found, row.text("Version", "")
+
+
+def _refuse_plane(tables: Tables) -> None:
+    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
+        idle = [name for name in ("UX", "UY", "UZ", "RX", "RY", "RZ") if not row.yes(name)]
+        if idle:
+            message = (
+                f"{', '.join(idle)} is not active: bearings move in all directions; make the model "
+                "one in space (Analyze > Set Analysis Options)"
+            )
+            raise row.error(message)
+
+
+def _judge_rest(tables: Tables, account: Account) -> None:
+    # Tables that nobody read: refused, harmless, or noted.
+    for name, count in tables.unread().items():
+        refused = next((r for r in REFUSED if name.startswith(r[0])), None)
+        if refused is not None:
+            rows = tables.rows(name)
+            what = f"{refused[2]}, {count} rows"
+            account.refuse(refused[1], name, what, [_first(rows[0].values)], rows[0].place)
+        elif name.startswith(_OBJECTS) and not name.startswith(HARMLESS):
+            rows = tables.rows(name)
+            what = f"a table that is not known here, {count} rows"
+            account.refuse("other tables", name, what, [_first(rows[0].values)], rows[0].place)
+    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
+    account.left_out("other tables", "what the linear model does not need, with rows", rest)
+
+
+def _first(values: dict[str, str | float | bool]) -> str:
+    return str(next(iter(values.values()), ""))

@@ -1,0 +1,119 @@
+"""Constants of the cross-sections that a file gives by shape and dimensions alone."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._errors import ModelError
+from frames.exchange.building import FrameSection
+from frames.model.sections import Section
+
+if TYPE_CHECKING:
+    from frames.exchange.tables import Row
+
+_SOLID = {"rectangular", "concrete rectangular", "steel plate", "steel rod rectangular"}
+_ROUND = {"circle", "concrete circle", "steel rod", "steel solid rod"}
+_I = {"i/wide flange", "steel i/wide flange", "i section"}
+_TUBE = {"box/tube", "tube", "steel tube"}
+_PIPE = {"pipe", "steel pipe"}
+_ANY = 1e9  # Pa: the constants of a shape are those of any material but for its Poisson's ratio
+
+
+def shape_constants(
+    shape: str, sizes: tuple[float, float, float, float], poisson_ratio: float
+) -> Section | None:
+    """Return the constants of a shape.
+
+    Parameters
+    ----------
+    shape : str
+        As the programs call it.
+    sizes : tuple of float
+        Depth, width, thickness of flanges and of web [m]; 0 for what it does not have.
+    poisson_ratio : float
+        Of the material [-].
+
+    Returns
+    -------
+    Section or None
+        Depth along local z; None of a shape that is not known here.
+
+    Raises
+    ------
+    ModelError
+        If the dimensions do not fit the shape.
+    """
+    word = shape.strip().lower()
+    depth, width, flange, web = sizes
+    if word in _SOLID:
+        return Section.rectangle(width, depth, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _ROUND:
+        return Section.circle(depth, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _I:
+        return Section.i_shape(
+            depth, width, flange, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio
+        )
+    if word in _TUBE and math.isclose(flange, web, rel_tol=1e-6):
+        return Section.box(width, depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _PIPE:
+        return Section.circle(depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    return None
+
+
+def section_by_shape(
+    row: Row,
+    name: str,
+    material: str,
+    shape: str,
+    sizes: tuple[float, float, float, float],
+    poisson_ratio: float,
+) -> FrameSection:
+    """Return a cross-section that is given by its shape.
+
+    Parameters
+    ----------
+    row : Row
+        Where it stands, for messages.
+    name, material, shape : str
+        As the file has them.
+    sizes : tuple of float
+        Depth, width, thickness of flanges and of web [m].
+    poisson_ratio : float
+        Of the material [-].
+
+    Returns
+    -------
+    FrameSection
+        Its constants; shear areas as `Section` has them.
+
+    Raises
+    ------
+    ModelError
+        If the shape is not known or its dimensions do not fit.
+    """
+    try:
+        found = shape_constants(shape, sizes, poisson_ratio)
+    except ModelError as cause:
+        msg = f'section "{name}": {cause}'
+        raise row.error(msg) from cause
+    if found is None:
+        message = (
+            f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: known '
+            "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes; "
+            "define it as a general section"
+        )
+        raise row.error(message)
+    return FrameSection(
+        name=name,
+        material=material,
+        shape=shape,
+        area=found.area,
+        torsion=found.torsion_constant,
+        inertia_33=found.inertia_y,
+        inertia_22=found.inertia_z,
+        shear_2=found.shear_area_z,
+        shear_3=found.shear_area_y,
+        depth=sizes[0],
+        width=sizes[1] or sizes[0],
+    )

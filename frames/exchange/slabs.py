@@ -1,0 +1,225 @@
+"""Loads of areas that are no shells: to the members around each panel, or to corners."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.exchange.geometry import area_normal
+from frames.model.components import FloorLoad
+from frames.model.floors import floor_panel, members_at, panel_loads
+
+if TYPE_CHECKING:
+    from frames._types import FloatArray
+    from frames.exchange.building import AreaObject, Building
+    from frames.model.editing import FrameEditor
+    from frames.model.floors import PanelLoads
+
+_FLAT = 1e-3
+_PANEL = "panel"
+
+
+def corner_shares(points: FloatArray) -> FloatArray:
+    """Return the share of a uniform load that each corner of a polygon gets (n,).
+
+    The polygon is cut into triangles from each corner in turn, a third of each goes to each of its
+    corners, and the mean is taken: force and moments are those of the load.
+
+    Parameters
+    ----------
+    points : ndarray, (n, 3)
+        Corners in order [m].
+
+    Returns
+    -------
+    ndarray, (n,)
+        Shares, whose sum is 1.
+    """
+    count = len(points)
+    normal, area = area_normal(points)
+    shares = np.zeros(count)
+    for first in range(count):
+        for k in range(1, count - 1):
+            corners = [first, (first + k) % count, (first + k + 1) % count]
+            a, b, c = points[corners]
+            size = 0.5 * float(np.cross(b - a, c - a) @ normal)
+            shares[corners] += size / (3.0 * area * count)
+    return shares
+
+
+class Slabs:
+    """Distributes loads on horizontal areas to the members that run along their panels.
+
+    A slab is cut into panels along the members within it; a panel gives its load to the members
+    along its edges, each point to the nearest edge, or one way. Where no members run along all
+    edges that carry, the corners of the area get it.
+
+    Parameters
+    ----------
+    frame : Frame
+        With all members.
+    building : Building
+        With the areas.
+    """
+
+    def __init__(self, frame: FrameEditor, building: Building) -> None:
+        self.frame, self.building = frame, building
+        self._around = members_at(frame.members)
+        self._levels = _by_level(frame)
+        self._unit: dict[str, list[PanelLoads] | None] = {}
+        self.at_corners: set[str] = set()
+
+    def add(self, area: AreaObject, load: FloatArray, case: str) -> None:
+        """Add a load on an area.
+
+        Parameters
+        ----------
+        area : AreaObject
+            The area.
+        load : ndarray, (3,)
+            Per its own area, global axes [N/m2].
+        case : str
+            Load case.
+        """
+        down = -float(load[2])
+        if down > 0.0 and not load[:2].any():
+            parts = self._panels(area)
+            if parts is not None:
+                for part in parts:
+                    self._put(part, down, case)
+                return
+        points = self._points(area)
+        _, size = area_normal(points)
+        self.at_corners.add(area.name)
+        for joint, share in zip(area.joints, corner_shares(points), strict=True):
+            force = share * size * load
+            self.frame.add_load(joint, [*force.tolist(), 0.0, 0.0, 0.0], case=case)
+
+    def _points(self, area: AreaObject) -> FloatArray:
+        return np.array([self.frame.nodes[name].position for name in area.joints])
+
+    def _put(self, part: PanelLoads, size: float, case: str) -> None:
+        for member, load in part.members:
+            start, end = size * np.array(load.start), size * np.array(load.end)
+            self.frame.add_tapered_load(
+                member, start.tolist(), end.tolist(), load.a, load.b, case=case
+            )
+        for node, forces in part.nodes:
+            self.frame.add_load(node, (size * forces).tolist(), case=case)
+
+    def _panels(self, area: AreaObject) -> list[PanelLoads] | None:
+        if area.name not in self._unit:
+            self._unit[area.name] = self._unit_loads(area)
+        return self._unit[area.name]
+
+    def _unit_loads(self, area: AreaObject) -> list[PanelLoads] | None:
+        points = self._points(area)
+        if np.ptp(points[:, 2]) > _FLAT:
+            return None
+        section = self.building.area_sections.get(area.section)
+        span = None
+        if section is not None and section.one_way:
+            turn = math.radians(area.angle)
+            span = (math.cos(turn), math.sin(turn))
+        found = []
+        for corners in self._faces(area, points):
+            try:
+                chosen, way = floor_panel(self.frame.nodes, area.name, corners, span)
+                load = FloorLoad(_PANEL, chosen, 1.0, way, None, _PANEL)
+                found.append(panel_loads(self.frame.nodes, self._around, load))
+            except ModelError:  # no members along its edges, or not convex: to the corners
+                return None
+        return found
+
+    def _faces(self, area: AreaObject, points: FloatArray) -> list[list[str]]:
+        # Panels between the members within the area; the area itself where they do not fill it.
+        level = self._levels.get(round(float(points[0, 2]) / _FLAT), {})
+        low, high = points[:, :2].min(axis=0) - _FLAT, points[:, :2].max(axis=0) + _FLAT
+        plan: dict[str, FloatArray] = {}
+        for name in level:
+            place = np.array(self.frame.nodes[name].position[:2])
+            if (place >= low).all() and (place <= high).all() and _within(place, points[:, :2]):
+                plan[name] = place
+        links = {name: [o for o in level[name] if o in plan] for name in plan}
+        faces = _faces_of(plan, links)
+        whole = area_normal(points)[1]
+        size = sum(_signed(np.array([plan[n] for n in face])) for face in faces)
+        if len(faces) < 2 or abs(size - whole) > 1e-6 * whole:
+            return [list(area.joints)]
+        return [_corners(face, plan) for face in faces]
+
+
+def _by_level(frame: FrameEditor) -> dict[int, dict[str, list[str]]]:
+    # Nodes and their neighbours along horizontal members, by elevation.
+    found: dict[int, dict[str, list[str]]] = {}
+    for member in frame.members.values():
+        first, last = frame.nodes[member.i], frame.nodes[member.j]
+        if abs(first.z - last.z) <= _FLAT:
+            level = found.setdefault(round(first.z / _FLAT), {})
+            level.setdefault(member.i, []).append(member.j)
+            level.setdefault(member.j, []).append(member.i)
+    return found
+
+
+def _within(place: FloatArray, outline: FloatArray) -> bool:
+    # Inside a polygon, or within a millimetre of its edges.
+    inside = False
+    for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        way, apart = b - a, place - a
+        length = float(np.hypot(*way))
+        if length > 0.0:
+            along = float(apart @ way) / length
+            beside = abs(float(way[0] * apart[1] - way[1] * apart[0])) / length
+            if beside <= _FLAT and -_FLAT <= along <= length + _FLAT:
+                return True
+        if (a[1] > place[1]) != (b[1] > place[1]):
+            cut = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+            inside ^= bool(place[0] < cut)
+    return inside
+
+
+def _faces_of(plan: dict[str, FloatArray], links: dict[str, list[str]]) -> list[list[str]]:
+    # Bounded faces of a plane graph, anticlockwise; ends that hang free are cut off first.
+    left = {name: set(others) for name, others in links.items()}
+    while loose := [name for name, others in left.items() if len(others) < 2]:
+        for name in loose:
+            for other in left.pop(name):
+                if other in left:
+                    left[other].discard(name)
+    turned = {
+        name: sorted(others, key=lambda o: math.atan2(*(plan[o] - plan[name])[::-1]))
+        for name, others in left.items()
+    }
+    seen: set[tuple[str, str]] = set()
+    faces = []
+    for name in left:
+        for other in turned[name]:
+            face, here, there = [], name, other
+            while (here, there) not in seen:
+                seen.add((here, there))
+                face.append(here)
+                around = turned[there]
+                here, there = there, around[around.index(here) - 1]
+            if len(face) > 2 and _signed(np.array([plan[n] for n in face])) > 0.0:
+                faces.append(face)
+    return faces
+
+
+def _signed(points: FloatArray) -> float:
+    x, y = points.T
+    return 0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
+
+
+def _corners(face: list[str], plan: dict[str, FloatArray]) -> list[str]:
+    # Without nodes that lie on the line between their neighbours.
+    kept = []
+    for k, name in enumerate(face):
+        before, after = plan[face[k - 1]], plan[face[(k + 1) % len(face)]]
+        one, two = plan[name] - before, after - plan[name]
+        size = float(np.hypot(*one) * np.hypot(*two))
+        if abs(float(one[0] * two[1] - one[1] * two[0])) > 1e-6 * size:
+            kept.append(name)
+    return kept

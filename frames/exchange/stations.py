@@ -1,0 +1,225 @@
+"""Where frame objects are divided: at joints on their line, nodes of meshes, point loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from frames._errors import ModelError
+from frames.exchange.building import NOWHERE, FrameObject
+from frames.exchange.geometry import cardinal_shift, frame_axes
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from frames._types import FloatArray
+    from frames.exchange.building import Building
+
+ON_LINE = 1e-3
+"""How far a joint may be beside the line of a frame object to lie on it [m]."""
+
+Points = dict[str, tuple[float, float, float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Divided:
+    """A frame object divided into members.
+
+    Attributes
+    ----------
+    frame : FrameObject
+        The object.
+    nodes : list of str
+        From joint i to joint j.
+    shares : ndarray
+        Where they are, of the length between the joints [-].
+    start, way : ndarray, (3,)
+        Its axis: where it is at joint i, and the vector to where it is at joint j [m].
+    length : float
+        Between the joints [m].
+    axes : ndarray, (3, 3)
+        Axes 1, 2, 3.
+    stiff : tuple of float
+        Shares of the length that are stiff at i and at j [-].
+    """
+
+    frame: FrameObject
+    nodes: list[str]
+    shares: FloatArray
+    start: FloatArray
+    way: FloatArray
+    length: float
+    axes: FloatArray
+    stiff: tuple[float, float]
+
+    @property
+    def members(self) -> list[str]:
+        """Names of its members, from i to j."""
+        if len(self.nodes) == 2:
+            return [self.frame.name]
+        return [f"{self.frame.name}/{k}" for k in range(1, len(self.nodes))]
+
+    def at(self, share: float) -> FloatArray:
+        """Return the point of its axis at a share of the length (3,) [m]."""
+        return self.start + share * self.way
+
+    def flexible(self, place: int) -> tuple[float, float]:
+        """Return from where to where a member is flexible, as shares of the length."""
+        first, last = float(self.shares[place]), float(self.shares[place + 1])
+        if place == 0:
+            first = self.stiff[0]
+        if place == len(self.nodes) - 2:
+            last = 1.0 - self.stiff[1]
+        return first, last
+
+
+def divide(
+    building: Building, points: Points, loads: Mapping[str, Sequence[float]]
+) -> list[Divided]:
+    """Divide all frame objects.
+
+    Parameters
+    ----------
+    building : Building
+        With the frame objects.
+    points : dict of str to tuple
+        All nodes [m]; nodes under point loads are added.
+    loads : mapping of str to sequence of float
+        Places of point loads by frame object, as shares of its length.
+
+    Returns
+    -------
+    list of Divided
+        One for each frame object.
+
+    Raises
+    ------
+    ModelError
+        If a frame object has no length, or a point between stiff zones cannot be.
+    """
+    names = list(points)
+    where = np.array([points[name] for name in names])
+    tree = cKDTree(where)
+    found = []
+    for frame in building.frames.values():
+        first, last = (np.array(points[name]) for name in (frame.i, frame.j))
+        length = float(np.linalg.norm(last - first))
+        if length < ON_LINE:
+            message = (
+                f'{frame.place}: frame "{frame.name}" is {length:g} m long between joints '
+                f'"{frame.i}" and "{frame.j}": merge them, or join them by a link'
+            )
+            raise ModelError(message)
+        between: list[tuple[float, str]] = []
+        if frame.meshed:
+            near = tree.query_ball_point(0.5 * (first + last), 0.5 * length - ON_LINE)
+            between = _on_line(near, names, where, first, last, length)
+        found.append(_divided(building, frame, between, (first, last), length))
+    _at_loads(found, points, loads)
+    return found
+
+
+def _on_line(
+    near: list[int],
+    names: list[str],
+    where: FloatArray,
+    first: FloatArray,
+    last: FloatArray,
+    length: float,
+) -> list[tuple[float, str]]:
+    if not near:
+        return []
+    unit = (last - first) / length
+    apart = where[near] - first
+    along = apart @ unit
+    beside = np.linalg.norm(apart - along[:, None] * unit, axis=1)
+    return sorted(
+        (float(a) / length, names[k])
+        for k, a, b in zip(near, along, beside, strict=True)
+        if b <= ON_LINE
+    )
+
+
+def _divided(
+    building: Building,
+    frame: FrameObject,
+    between: list[tuple[float, str]],
+    ends: tuple[FloatArray, FloatArray],
+    length: float,
+) -> Divided:
+    axes = frame_axes(ends[0], ends[1], frame.angle)
+    shifts = [np.zeros(3), np.zeros(3)]
+    if frame.transforms:
+        section = building.sections[frame.section]
+        two, three = cardinal_shift(frame.cardinal, section.depth, section.width)
+        middle = two * axes[1] + three * axes[2]
+        shifts = [np.array(o) + middle for o in (frame.offset_i, frame.offset_j)]
+    start, end = ends[0] + shifts[0], ends[1] + shifts[1]
+    return Divided(
+        frame=frame,
+        nodes=[frame.i, *(name for _, name in between), frame.j],
+        shares=np.array([0.0, *(share for share, _ in between), 1.0]),
+        start=start,
+        way=end - start,
+        length=length,
+        axes=axes,
+        stiff=(frame.rigid * frame.end_i / length, frame.rigid * frame.end_j / length),
+    )
+
+
+def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence[float]]) -> None:
+    # A node under each point load that is on the flexible part.
+    for k, each in enumerate(found):
+        for share in sorted(set(loads.get(each.frame.name, ()))):
+            low, high = each.stiff[0], 1.0 - each.stiff[1]
+            known = float(np.abs(found[k].shares - share).min()) * each.length < ON_LINE
+            if known or not low < share < high:
+                continue
+            one = found[k]
+            place = int(np.searchsorted(one.shares, share))
+            name = f"{each.frame.name}@{share:.4g}"
+            first, last = (np.array(points[n]) for n in (each.frame.i, each.frame.j))
+            x, y, z = (first + share * (last - first)).tolist()
+            points[name] = (x, y, z)
+            nodes = [*one.nodes[:place], name, *one.nodes[place:]]
+            shares = np.insert(one.shares, place, share)
+            found[k] = Divided(
+                one.frame, nodes, shares, one.start, one.way, one.length, one.axes, one.stiff
+            )
+
+
+def under_loads(found: list[Divided], joints: Points) -> dict[str, list[tuple[str, float]]]:
+    """Return the nodes under point loads, and by the rule of the lever those beside them.
+
+    Parameters
+    ----------
+    found : list of Divided
+        All frame objects.
+    joints : dict of str to tuple
+        Nodes that are there without point loads.
+
+    Returns
+    -------
+    dict of str to list of (str, float)
+        By node: the next joint towards i and towards j, with its share [-].
+    """
+    beside = {}
+    for one in found:
+        real = [k for k, node in enumerate(one.nodes) if node in joints]
+        for k, node in enumerate(one.nodes):
+            if node not in joints:
+                low = max(r for r in real if r < k)
+                high = min(r for r in real if r > k)
+                part = one.shares[k] - one.shares[low]
+                share = float(part / (one.shares[high] - one.shares[low]))
+                beside[node] = [(one.nodes[low], 1.0 - share), (one.nodes[high], share)]
+    return beside
+
+
+def is_offset(frame: FrameObject) -> bool:
+    """Return whether the axis of a frame object is beside its joints."""
+    beside = frame.offset_i != NOWHERE or frame.offset_j != NOWHERE or frame.cardinal < 10
+    return frame.transforms and beside

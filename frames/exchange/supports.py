@@ -1,0 +1,215 @@
+"""Supports, springs, constraints and bearings of an imported building."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._errors import ModelError
+from frames.model.components import DOFS, bearing_height
+
+if TYPE_CHECKING:
+    from frames.exchange.building import Building, Constraint
+    from frames.exchange.options import Options
+    from frames.model.editing import FrameEditor
+    from lir_element import LIRBearing
+
+LEVEL_STEP = 1e-3
+"""Within what joints are at one elevation [m]."""
+
+
+class Places:
+    """Where bearings stand.
+
+    Attributes
+    ----------
+    joints : dict of str to LIRBearing
+        Devices under joints.
+    links : dict of str to LIRBearing
+        Devices in place of links.
+    """
+
+    def __init__(self, building: Building, options: Options) -> None:
+        self._building = building
+        self.joints: dict[str, LIRBearing] = {}
+        self.links: dict[str, LIRBearing] = {}
+        given = options.bearing
+        if given is None:
+            return
+        if isinstance(given, Mapping):
+            for name, device in given.items():
+                self._put(name, device)
+        elif options.at is None:
+            for joint in standing(building):
+                self.joints[joint] = given
+        else:
+            for name in options.at:
+                self._put(name, given)
+        for name, device in {**self.joints, **self.links}.items():
+            bearing_height(name, device)
+        if not self.joints and not self.links:
+            message = (
+                f"{building.account.file} has no joint that is restrained vertically to put a "
+                'bearing under: name groups, joints, links or link properties, at=["..."]'
+            )
+            raise ModelError(message)
+
+    def _put(self, name: str, device: LIRBearing) -> None:
+        building = self._building
+        joints: list[str] = []
+        links: list[str] = []
+        if name in building.groups:
+            held = set(standing(building))
+            members = building.groups[name]
+            joints = [label for kind, label in members if kind == "joint" and label in held]
+            links = [label for kind, label in members if kind == "link"]
+        elif name in building.link_properties:
+            links = [k for k, link in building.links.items() if link.property == name]
+        elif name in building.links:
+            links = [name]
+        elif name in building.joints:
+            joints = [name]
+        else:
+            message = (
+                f'"{name}" is no group, link property, link or joint of {building.account.file}: '
+                f"it has groups {', '.join(building.groups) or 'none'}, link properties "
+                f"{', '.join(building.link_properties) or 'none'}"
+            )
+            raise ModelError(message)
+        if not joints and not links:
+            message = f'"{name}" of {building.account.file} has no restrained joint and no link'
+            raise ModelError(message)
+        for place, found in ((self.joints, joints), (self.links, links)):
+            for each in found:
+                if each in place:
+                    message = f'"{each}" would get two bearings: it belongs to "{name}" and others'
+                    raise ModelError(message)
+                place[each] = device
+
+
+def standing(building: Building) -> list[str]:
+    """Return the joints that are restrained vertically and in plan."""
+    return [name for name, held in building.restraints.items() if "uz" in held and "ux" in held]
+
+
+def add_supports(frame: FrameEditor, building: Building, places: Places, options: Options) -> None:
+    """Fix supports, put bearings under joints, add springs to the ground.
+
+    Parameters
+    ----------
+    frame : Frame
+        With the nodes; it is added to.
+    building : Building
+        With its supports.
+    places : Places
+        Where bearings stand.
+    options : Options
+        Of the import.
+
+    Raises
+    ------
+    ModelError
+        If a bearing cannot stand where it should.
+    """
+    stay = [joint for joint in building.restraints if joint not in places.joints]
+    for joint, held in building.restraints.items():
+        if joint not in places.joints:
+            frame.fix(joint, *held)
+    if places.joints or places.links:
+        what = "supports that stay as they are, beside bearings"
+        building.account.read_as("supports", what, stay)
+    for joint, device in places.joints.items():
+        x, y, z = frame.nodes[joint].position
+        frame.add_node(f"ground-{joint}", x, y, z - device.height)
+        frame.fix(f"ground-{joint}", "all")
+        frame.add_bearing(f"bearing-{joint}", f"ground-{joint}", joint, device)
+        held = building.restraints.get(joint, ())
+        turns = [dof for dof in ("rx", "ry") if dof in held]
+        if options.base_rotations != "kept":
+            turns = ["rx", "ry"] if options.base_rotations == "fixed" else []
+        if turns:
+            frame.fix(joint, *turns)
+    if places.joints:
+        what = "supports, each of them a bearing on the ground"
+        building.account.read_as("supports", what, list(places.joints))
+    for joint, stiffness in building.springs.items():
+        frame.add_node(f"spring-{joint}", *frame.nodes[joint].position)
+        frame.fix(f"spring-{joint}", "all")
+        frame.add_spring(f"spring-{joint}", f"spring-{joint}", joint, stiffness)
+
+
+def add_constraints(
+    frame: FrameEditor, building: Building, places: Places, options: Options
+) -> None:
+    """Add diaphragms, bodies and equal displacements, and a base diaphragm over bearings.
+
+    Parameters
+    ----------
+    frame : Frame
+        With the nodes; it is added to.
+    building : Building
+        With its constraints.
+    places : Places
+        Where bearings stand.
+    options : Options
+        Of the import.
+    """
+    plain = []
+    for constraint in building.constraints.values():
+        joints = [joint for joint in constraint.joints if joint in frame.nodes]
+        if constraint.kind == "diaphragm":
+            free = [j for j in joints if not {"ux", "uy"} <= frame.fixed_dofs.get(j, frozenset())]
+            for k, group in enumerate(by_elevation(frame, free)):
+                name = constraint.name if k == 0 else f"{constraint.name}-{k + 1}"
+                if len(group) > 1:
+                    frame.add_diaphragm(name, group)
+        elif len(joints) > 1:
+            _add_ties(frame, constraint, joints)
+        if len(joints) < 2:
+            plain.append(constraint.name)
+    building.account.left_out("constraints", "of fewer than two joints", plain)
+    if options.base_diaphragm and places.joints:
+        _add_base(frame, building, list(places.joints))
+
+
+def _add_base(frame: FrameEditor, building: Building, joints: list[str]) -> None:
+    taken = {node for part in frame.diaphragms.values() for node in part.nodes}
+    for k, group in enumerate(by_elevation(frame, joints)):
+        if len(group) > 1 and not taken.intersection(group):
+            frame.add_diaphragm("base" if k == 0 else f"base-{k + 1}", group)
+            what = "joints on bearings at one elevation, which move in plan as one body"
+            building.account.read_as("supports", what, group)
+
+
+def by_elevation(frame: FrameEditor, joints: list[str]) -> list[list[str]]:
+    """Return nodes by their elevation, from below; those of one group are within 1 mm."""
+    groups: list[list[str]] = []
+    low = -np.inf
+    for joint in sorted(joints, key=lambda name: frame.nodes[name].z):
+        if frame.nodes[joint].z - low > LEVEL_STEP:
+            groups.append([])
+            low = frame.nodes[joint].z
+        groups[-1].append(joint)
+    return groups
+
+
+def _add_ties(frame: FrameEditor, constraint: Constraint, joints: list[str]) -> None:
+    # A body: u_n = u_m + theta_m x r, theta_n = theta_m; equal: u_n = u_m; for the named ones.
+    size = 6 * len(joints)
+    first = np.array(frame.nodes[joints[0]].position)
+    rows = []
+    for k, joint in enumerate(joints[1:], start=1):
+        follow = np.eye(6)
+        if constraint.kind == "body":
+            x, y, z = np.array(frame.nodes[joint].position) - first
+            follow[0:3, 3:6] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+        for axis, dof in enumerate(DOFS):
+            if dof in constraint.dofs:
+                row = np.zeros(size)
+                row[6 * k + axis] = 1.0
+                row[0:6] -= follow[axis]
+                rows.append(row)
+    zero = np.zeros((size, size))
+    frame.add_superelement(constraint.name, joints, zero, zero, equations=np.array(rows))

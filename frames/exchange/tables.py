@@ -1,0 +1,232 @@
+"""Tables of another program's file: rows of named values that know where they stand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Literal, TypeAlias
+
+from frames._errors import ModelError
+
+Value: TypeAlias = str | float | bool
+"""A cell: text of a text file, or what a workbook holds."""
+
+Decimal: TypeAlias = Literal[".", ","]
+"""The decimal sign of a file, which is that of the Windows that wrote it."""
+
+_YES = {"yes": True, "true": True, "no": False, "false": False}
+
+
+class Row:
+    """One row of a table.
+
+    Parameters
+    ----------
+    file, table : str
+        Where it stands, for messages.
+    line : int
+        Its line in the file, or its row in the sheet.
+    values : dict of str to Value
+        Values by field.
+    decimal : {".", ","}
+        Decimal sign of the file.
+    """
+
+    __slots__ = ("decimal", "file", "line", "table", "values")
+
+    def __init__(
+        self, file: str, table: str, line: int, values: dict[str, Value], decimal: Decimal = "."
+    ) -> None:
+        self.file, self.table, self.line = file, table, line
+        self.values, self.decimal = values, decimal
+
+    @property
+    def place(self) -> str:
+        """Where the row stands: file, line and table."""
+        return f'{self.file}, line {self.line}, table "{self.table}"'
+
+    def error(self, message: str) -> ModelError:
+        """Return an error that begins with the place of the row."""
+        return ModelError(f"{self.place}: {message}")
+
+    def has(self, *fields: str) -> bool:
+        """Return whether every field has a value."""
+        return all(self.values.get(field, "") != "" for field in fields)
+
+    def text(self, field: str, default: str | None = None) -> str:
+        """Return a value as text; without a default it must be there.
+
+        Parameters
+        ----------
+        field : str
+            Name of the field.
+        default : str, optional
+            What an absent value stands for.
+
+        Returns
+        -------
+        str
+            The value; a whole number of a workbook without its ".0".
+
+        Raises
+        ------
+        ModelError
+            If there is none.
+        """
+        value = self.values.get(field, "")
+        if value == "":
+            if default is None:
+                message = (
+                    f"no value of {field}, there are {', '.join(self.values)}: export the table "
+                    "with all its fields"
+                )
+                raise self.error(message)
+            return default
+        if isinstance(value, bool):
+            return "Yes" if value else "No"
+        if isinstance(value, float):
+            return str(int(value)) if value.is_integer() else repr(value)
+        return value
+
+    def number(self, field: str, default: float | None = None) -> float:
+        """Return a value as a finite number; without a default it must be there.
+
+        Parameters
+        ----------
+        field : str
+            Name of the field.
+        default : float, optional
+            What an absent value stands for.
+
+        Returns
+        -------
+        float
+            The number, in the units of the file.
+
+        Raises
+        ------
+        ModelError
+            If it is absent, no number or not finite.
+        """
+        value = self.values.get(field, "")
+        if value == "" and default is not None:
+            return default
+        if isinstance(value, float) and math.isfinite(value):
+            return value
+        return as_number(self, field, self.text(field))
+
+    def count(self, field: str, default: int | None = None) -> int:
+        """Return a value as a whole number, as `number` does."""
+        value = self.number(field, None if default is None else float(default))
+        if not value.is_integer():
+            msg = f"{field} = {value:g} must be a whole number"
+            raise self.error(msg)
+        return int(value)
+
+    def yes(self, field: str, *, default: bool | None = None) -> bool:
+        """Return whether a value says Yes; anything but Yes and No is refused."""
+        text = self.text(field, None if default is None else "Yes" if default else "No")
+        found = _YES.get(text.strip().lower())
+        if found is None:
+            msg = f'{field} = "{text}" must be Yes or No'
+            raise self.error(msg)
+        return found
+
+
+def as_number(row: Row, field: str, text: str) -> float:
+    """Return a text as a finite number in the decimal sign of the row's file, or raise."""
+    sign = row.decimal
+    try:
+        if sign == "," and "." in text:
+            raise ValueError(text)
+        found = float(text.replace(",", ".") if sign == "," else text)
+    except ValueError:
+        other = "." if sign == "," else ","
+        remedy = "give a number"
+        if other in text:
+            remedy = (
+                f"it was written with the other decimal sign: read the file with decimal={other!r}"
+            )
+        msg = f'{field} = "{text}" is no number: {remedy}'
+        raise row.error(msg) from None
+    if not math.isfinite(found) or "_" in text:
+        msg = f'{field} = "{text}" must be a finite number'
+        raise row.error(msg)
+    return found
+
+
+class Tables:
+    """The tables of a file by name, upper case.
+
+    Parameters
+    ----------
+    file : str
+        Name of the file, for messages.
+    """
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self._rows: dict[str, list[Row]] = {}
+        self._read: set[str] = set()
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of tables that have rows, in the order of the file."""
+        return (name for name, rows in self._rows.items() if rows)
+
+    def begin(self, name: str) -> list[Row]:
+        """Return the rows of a table to add to, those that it has already included."""
+        return self._rows.setdefault(name.upper(), [])
+
+    def rows(self, name: str) -> list[Row]:
+        """Return the rows of a table, none if it is not there, and note that it was read."""
+        self._read.add(name.upper())
+        return self._rows.get(name.upper(), [])
+
+    def starting(self, beginning: str) -> list[Row]:
+        """Return the rows of all tables whose names begin so."""
+        names = [name for name in self._rows if name.startswith(beginning.upper())]
+        return [row for name in names for row in self.rows(name)]
+
+    def needed(self, name: str, remedy: str) -> list[Row]:
+        """Return the rows of a table that must be there, or raise with the remedy."""
+        found = self.rows(name)
+        if not found:
+            msg = f'{self.file}: table "{name}" is missing or empty: {remedy}'
+            raise ModelError(msg)
+        return found
+
+    def unread(self) -> dict[str, int]:
+        """Return the tables that nobody asked for, and how many rows they have."""
+        return {name: len(self._rows[name]) for name in self if name not in self._read}
+
+
+def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
+    """Return rows by the text of a field; a name that comes twice is refused.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Of one table.
+    field : str
+        The field with the name.
+
+    Returns
+    -------
+    dict of str to Row
+        In the order of the table.
+
+    Raises
+    ------
+    ModelError
+        If a name comes twice.
+    """
+    found: dict[str, Row] = {}
+    for row in rows:
+        name = row.text(field)
+        if name in found:
+            message = (
+                f'{field} "{name}" stands in line {found[name].line} already: keep one of the two'
+            )
+            raise row.error(message)
+        found[name] = row
+    return found

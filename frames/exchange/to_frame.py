@@ -1,0 +1,365 @@
+"""From a building of another program to a frame on bearings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames._errors import ModelError
+from frames.exchange.area_loads import OWN_MASS, Loading
+from frames.exchange.building import MassSource
+from frames.exchange.links import Links
+from frames.exchange.members import LEAST_FACTOR, Sections, add_members
+from frames.exchange.mesh import Mesh, mesh_areas
+from frames.exchange.shares import Shares
+from frames.exchange.slabs import Slabs
+from frames.exchange.stations import divide, is_offset, under_loads
+from frames.exchange.supports import Places, add_constraints, add_supports, by_elevation
+from frames.model.applied_loads import applied_loads, load_masses
+
+if TYPE_CHECKING:
+    from frames.exchange.building import AreaObject, Building
+    from frames.exchange.options import Options
+    from frames.exchange.stations import Divided, Points
+    from frames.model.editing import FrameEditor
+
+_KINDS = (
+    ("D", ("dead", "super dead", "superdead", "superimposed dead")),
+    ("L", ("live", "reducible live", "reduce live", "roof live", "reducelive", "rooflive")),
+    ("S", ("snow",)),
+)
+"""Load cases of the frame, and the kinds of patterns that belong to them."""
+
+_NO_MASS = (
+    "has no mass source: define it (Define > Mass Source) and export the file again, or say what "
+    'is mass by shares of load patterns, mass={"DEAD": 1.0, "LIVE": 0.25}'
+)
+
+
+def fill(frame: FrameEditor, building: Building, options: Options) -> None:
+    """Add all of a building to an empty frame, on bearings.
+
+    Parameters
+    ----------
+    frame : Frame
+        It is added to.
+    building : Building
+        What was read; its account is added to.
+    options : Options
+        Of the import.
+
+    Raises
+    ------
+    ModelError
+        If something cannot be what it should; the message says where it stands in the file.
+    """
+    places = Places(building, options)
+    factors = permanent(building, options)
+    source = _source(building, options)
+    points = _points(building)
+    mesh = mesh_areas(_shells(building), points, options.mesh)
+    at_loads: dict[str, list[float]] = {}
+    for load in building.line_loads:
+        if load.point and (load.pattern in factors or load.pattern in source.patterns):
+            at_loads.setdefault(load.frame, []).append(load.a)
+    joints = dict(points)
+    divided = divide(building, points, at_loads)
+    _add_nodes(frame, building, points, mesh, divided)
+    sections = Sections(building)
+    add_members(frame, divided, sections)
+    _add_shells(frame, building, mesh)
+    add_supports(frame, building, places, options)
+    _hold_edges(frame, building, places, mesh)
+    _hold_pins(frame, building, divided, mesh)
+    Links(frame, building, places).add()
+    add_constraints(frame, building, places, options)
+    loading = Loading(building, {one.frame.name: one for one in divided}, mesh)
+    _add_masses(frame, building, loading, source, under_loads(divided, joints))
+    slabs = Slabs(frame, building)
+    loading.put(frame, slabs, factors, own=False)
+    _add_levels(frame, building, places)
+    _say(building, sections, divided, slabs, mesh)
+    building.account.finish()
+
+
+def permanent(building: Building, options: Options) -> dict[str, tuple[float, str]]:
+    """Return factor and case of the load patterns that are permanent loads of the frame.
+
+    Parameters
+    ----------
+    building : Building
+        With its patterns.
+    options : Options
+        Whose `loads` says which; None: dead loads, and others by their share in the mass source.
+
+    Returns
+    -------
+    dict of str to (float, str)
+        By pattern; those that are left out are noted in the account.
+
+    Raises
+    ------
+    ModelError
+        If a pattern or a combination is not known.
+    """
+    given = options.loads
+    if given == "all":
+        given = {name: 1.0 for name, part in building.patterns.items() if case_of(part.kind)}
+    if isinstance(given, str):
+        if given not in building.combinations:
+            some = ", ".join(building.combinations) or "none"
+            message = (
+                f'loads = "{given}" is no combination of {building.account.file}: it has {some}'
+            )
+            raise ModelError(message)
+        given = building.combinations[given]
+    shares: dict[str, float] = {}
+    if given is not None:
+        for name, factor in given.items():
+            if name not in building.patterns:
+                some = ", ".join(building.patterns) or "none"
+                message = f'loads: "{name}" is no load pattern of {building.account.file}: {some}'
+                raise ModelError(message)
+            shares[name] = float(factor)
+    else:
+        source = building.mass_source.patterns if building.mass_source else {}
+        shares = dict(options.mass if options.mass is not None else source)
+        for name, pattern in building.patterns.items():
+            if case_of(pattern.kind) == "D":
+                shares.setdefault(name, 1.0)
+    account = building.account
+    account.left_out(
+        "load patterns",
+        "which are no permanent loads here",
+        [name for name in building.patterns if not shares.get(name)],
+    )
+    part = [f"{name} by {share:g}" for name, share in shares.items() if share not in {0.0, 1.0}]
+    account.read_as("load patterns", "permanent loads by a factor", part)
+    return {
+        name: (share, case_of(building.patterns[name].kind) or "D")
+        for name, share in shares.items()
+        if share and name in building.patterns
+    }
+
+
+def case_of(kind: str) -> str:
+    """Return the load case of a kind of pattern: "D", "L", "S", or none."""
+    word = kind.strip().lower()
+    return next((case for case, words in _KINDS if word in words), "")
+
+
+def _source(building: Building, options: Options) -> MassSource:
+    if options.mass is None:
+        if building.mass_source is None:
+            message = f"{building.account.file} {_NO_MASS}"
+            raise ModelError(message)
+        return building.mass_source
+    unknown = [name for name in options.mass if name not in building.patterns]
+    if unknown:
+        some = ", ".join(building.patterns) or "none"
+        message = f'mass: "{unknown[0]}" is no load pattern of {building.account.file}: {some}'
+        raise ModelError(message)
+    return MassSource(elements=False, added=True, patterns=dict(options.mass))
+
+
+def _shells(building: Building) -> list[AreaObject]:
+    # Areas whose stiffness counts: all but those that lie in a rigid diaphragm.
+    sets = [set(c.joints) for c in building.constraints.values() if c.kind == "diaphragm"]
+    found, flat = [], []
+    for area in building.areas.values():
+        section = building.area_sections.get(area.section)
+        if section is None or section.kind == "none":
+            continue
+        heights = [building.joints[name].z for name in area.joints]
+        level = max(heights) - min(heights) < 1e-3
+        if (level and any(set(area.joints) <= joints for joints in sets)) or (
+            level and section.kind == "membrane" and section.one_way
+        ):
+            flat.append(area.name)
+        else:
+            found.append(area)
+    what = "slabs in rigid diaphragms, by their loads and masses alone: their bending is not stiff"
+    weight, stiffness = Shares(building).of(flat)
+    building.account.read_as("areas", what, flat, weight, stiffness)
+    return found
+
+
+def _points(building: Building) -> Points:
+    # Joints that something needs.
+    used = {joint for frame in building.frames.values() for joint in (frame.i, frame.j)}
+    used |= {joint for area in building.areas.values() for joint in area.joints}
+    used |= {link.i for link in building.links.values()}
+    used |= {link.j for link in building.links.values() if link.j is not None}
+    idle = [name for name in building.joints if name not in used]
+    needed = set(building.springs) | set(building.masses)
+    needed |= {load.joint for load in building.joint_loads}
+    needed |= {joint for part in building.constraints.values() for joint in part.joints}
+    plain = [name for name in idle if name not in needed]
+    building.account.left_out("joints", "which nothing needs", plain)
+    for name in plain:
+        building.restraints.pop(name, None)
+    kept = used | needed
+    return {name: joint.position for name, joint in building.joints.items() if name in kept}
+
+
+def _add_nodes(
+    frame: FrameEditor, building: Building, points: Points, mesh: Mesh, divided: list[Divided]
+) -> None:
+    for name, place in points.items():
+        frame.add_node(name, *place)
+    # what has no stiffness of its own cannot move by itself
+    stiff = {node for one in divided for node in one.nodes}
+    stiff |= {node for _, nodes in mesh.elements for node in nodes}
+    stiff |= {j for link in building.links.values() for j in (link.i, link.j) if j is not None}
+    tied = {j for part in building.constraints.values() for j in part.joints}
+    for name in points:
+        if name in stiff:
+            continue
+        spring = building.springs.get(name, (0.0,) * 6)
+        held = ["ux", "uy", "uz", "rx", "ry", "rz"]
+        kind = {c.kind for c in building.constraints.values() if name in c.joints}
+        if "body" in kind or "equal" in kind:
+            continue
+        if name in tied:
+            held = ["uz", "rx", "ry"]
+        free = [
+            dof for dof, k in zip(("ux", "uy", "uz", "rx", "ry", "rz"), spring, strict=True) if k
+        ]
+        frame.fix(name, *(dof for dof in held if dof not in free))
+
+
+def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
+    if mesh.elements:
+        from frames.exchange.shells import add_shells  # needs the optional openseespy
+
+        add_shells(frame, building, mesh)
+        areas = list(dict.fromkeys(area for area, _ in mesh.elements))
+        what = f"shells, in {len(mesh.elements)} elements of OpenSees"
+        building.account.read_as("areas", what, areas, *Shares(building).of(areas))
+
+
+def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Mesh) -> None:
+    # Nodes of a mesh along an edge whose corners are both held: held as they are.
+    fixed, free = [], []
+    for node, (one, two) in mesh.between.items():
+        both = set(building.restraints.get(one, ())) & set(building.restraints.get(two, ()))
+        if not both:
+            continue
+        if one in places.joints or two in places.joints:
+            free.append(node)
+        else:
+            frame.fix(node, *sorted(both))
+            fixed.append(node)
+    what = "nodes of the mesh along edges whose corners are supports, held as these"
+    building.account.read_as("supports", what, fixed)
+    what = "nodes of the mesh along edges whose corners stand on bearings, free between these"
+    building.account.read_as("supports", what, free)
+
+
+def _hold_pins(frame: FrameEditor, building: Building, divided: list[Divided], mesh: Mesh) -> None:
+    # Nodes at which every member is hinged: nothing holds their rotations.
+    ends: dict[str, list[bool]] = {}
+    for one in divided:
+        last = len(one.nodes) - 1
+        for place, node in enumerate(one.nodes):
+            words = one.frame.releases[0] if place == 0 else one.frame.releases[1]
+            pinned = place in {0, last} and {"M2", "M3"} <= words
+            ends.setdefault(node, []).append(pinned)
+    shells = {node for _, nodes in mesh.elements for node in nodes}
+    others = {j for link in building.links.values() for j in (link.i, link.j)} | shells
+    others |= set(building.springs)
+    free = [node for node, pins in ends.items() if all(pins) and node not in others]
+    for node in free:
+        frame.fix(node, "rx", "ry", "rz")
+    building.account.read_as("joints", "with hinges alone, whose rotations are held", free)
+
+
+def _add_masses(
+    frame: FrameEditor,
+    building: Building,
+    loading: Loading,
+    source: MassSource,
+    between: dict[str, list[tuple[str, float]]],
+) -> None:
+    # As the programs lump them: at joints, those of nodes under point loads by the lever.
+    scratch = frame.copy()
+    shares = {name: 1.0 for name, share in source.patterns.items() if share}
+    loading.put(
+        scratch,
+        Slabs(scratch, building),
+        {name: (1.0, name) for name in shares},
+        own=source.elements,
+    )
+    scratch.set_mass_source({**source.patterns, OWN_MASS: 1.0})
+    for node, mass in load_masses(scratch, applied_loads(scratch)).items():
+        for joint, share in between.get(node, [(node, 1.0)]):
+            frame.add_mass(joint, share * mass, weighs=False)
+    if not source.added:
+        building.account.left_out(
+            "masses",
+            "masses added to joints, which the mass source leaves out",
+            list(building.masses),
+        )
+        return
+    vertical = []
+    for joint, values in building.masses.items():
+        if abs(values[0] - values[1]) > 1e-9 * max(values):
+            what = "masses that differ between X and Y, taken by their mean"
+            building.account.refuse("directional masses", "masses", what, [joint])
+        if abs(values[2] - values[0]) > 1e-9 * max(values):
+            vertical.append(joint)
+        inertia = [float(v) for v in values[3:]]
+        frame.add_mass(joint, 0.5 * (values[0] + values[1]), inertia, weighs=False)
+    building.account.read_as("masses", "masses in plan, which act vertically as well", vertical)
+
+
+def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
+    joints = [name for name in building.joints if name in frame.nodes]
+    groups = {round(frame.nodes[g[0]].z, 3): g for g in by_elevation(frame, joints)}
+    stories = {round(z, 3): name for name, z in building.stories}
+    if not stories:
+        levels = {
+            round(frame.nodes[node].z, 3)
+            for part in frame.diaphragms.values()
+            for node in part.nodes
+        }
+        if not levels:
+            levels = {
+                round(frame.nodes[member.i].z, 3)
+                for member in frame.members.values()
+                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < 1e-3
+            }
+        levels |= {round(frame.nodes[name].z, 3) for name in places.joints}
+        stories = {z: f"level-{k}" for k, z in enumerate(sorted(levels))}
+    for z in sorted(stories):
+        near = min(groups, key=lambda other: abs(other - z))
+        if abs(near - z) < 2e-3:
+            frame.add_level(stories[z], groups[near])
+
+
+def _say(
+    building: Building, sections: Sections, divided: list[Divided], slabs: Slabs, mesh: Mesh
+) -> None:
+    account = building.account
+    account.read_as(
+        "sections",
+        f"with a stiffness of none, taken as {LEAST_FACTOR:g} of it",
+        sorted(sections.softened),
+    )
+    parts = [one.frame.name for one in divided if len(one.nodes) > 2]
+    shares = Shares(building)
+    what = "divided at joints on their line or under point loads"
+    account.read_as("frames", what, parts, *shares.of(parts))
+    beside = [
+        one.frame.name
+        for one in divided
+        if not one.frame.transforms and (one.frame.cardinal < 10 or any(one.frame.offset_i))
+    ]
+    what = "insertion points that do not transform the stiffness, as the file says"
+    account.read_as("frames", what, beside, *shares.of(beside))
+    offset = [one.frame.name for one in divided if is_offset(one.frame)]
+    account.read_as("frames", "insertion points, as rigid offsets", offset, *shares.of(offset))
+    shells = {area for area, _ in mesh.elements}
+    loaded = [name for name in slabs.at_corners if name not in shells]
+    account.read_as("areas", "loads on areas, at their corners: no members around them", loaded)
+    if building.patterns:
+        account.read_as("masses", "of loads and elements, in all three directions", ["all"])

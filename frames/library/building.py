@@ -1,0 +1,121 @@
+"""A building on bearings from its plan: lines of columns, storeys, beams between lines."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from frames.frame import Frame
+from frames.library.building_checks import require_whole
+from frames.library.building_plan import BuildingPlan, level_name
+from frames.library.building_walls import add_arms, add_braces, add_wall_nodes, add_walls
+from frames.library.grid import require_device
+from frames.library.moment_frames import DEFAULT_DAMPING
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from frames.model.damping import Damping
+    from lir_element import LIRBearing
+
+
+def build(
+    plan: BuildingPlan,
+    bearing: LIRBearing,
+    *,
+    name: str = "building",
+    damping: Damping | None = DEFAULT_DAMPING,
+    gravity: float = STANDARD_GRAVITY,
+) -> Frame:
+    """Return the frame of a building, without loads and masses but those of its members.
+
+    Parameters
+    ----------
+    plan : BuildingPlan
+        The building.
+    bearing : LIRBearing
+        Under each column of the first storey.
+    name : str
+        Name of the model.
+    damping : RayleighDamping, ModalDamping or None
+        Damping of the structure; default 2 per cent in every mode.
+    gravity : float
+        Acceleration of gravity [m/s2].
+
+    Returns
+    -------
+    Frame
+        Levels "base", "floor-1", ... with nodes "<level>-<line>", a diaphragm for what beams join
+        on each; fixed nodes "ground-<line>", bearings "bearing-<line>", members
+        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that
+        it begins at; where several begin there, the line that it ends at follows; walls and
+        braces as in `frames.library.building_walls`.
+
+    Raises
+    ------
+    ModelError
+        If a column or beam does not go from node to node, or a node hangs in the air.
+    """
+    require_device("bearing", bearing)
+    require_whole(plan)
+    frame = Frame(name, gravity)
+    heights = [bearing.height + z for z in accumulate(plan.heights, initial=0.0)]
+    for line in plan.at_level(0):
+        x, y = plan.lines[line]
+        frame.add_node(f"ground-{line}", x, y, 0.0)
+        frame.fix(f"ground-{line}", "all")
+        frame.add_node(f"base-{line}", x, y, heights[0])
+        frame.add_bearing(f"bearing-{line}", f"ground-{line}", f"base-{line}", bearing)
+    _add_level(frame, plan, 0)
+    for storey in range(1, len(plan.heights) + 1):
+        floor, below = level_name(storey), level_name(storey - 1)
+        parts = {part.line: part for part in plan.standing(storey)}
+        for line in plan.at_level(storey):
+            x, y = plan.lines[line]
+            frame.add_node(f"{floor}-{line}", x, y, heights[storey])
+            if line in parts:
+                part = parts[line]
+                foot, head = f"{below}-{line}", f"{floor}-{line}"
+                frame.add_member(f"column-{storey}-{line}", foot, head, part.section, part.up)
+        _add_level(frame, plan, storey)
+        add_walls(frame, plan, storey)
+        add_braces(frame, plan, storey)
+    frame.set_damping(damping)
+    return frame
+
+
+def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
+    # Beams, diaphragm and level; beams in the order of the lines that they begin at.
+    floor, lines = level_name(level), plan.at_level(level)
+    beams = plan.beams_at(level)
+    order = {line: k for k, line in enumerate(lines)}
+    for part in sorted(beams, key=lambda part: order[part.start]):
+        start, end = f"{floor}-{part.start}", f"{floor}-{part.end}"
+        name = f"{part.name}-{start}"
+        alone = sum((b.name, b.start) == (part.name, part.start) for b in beams) == 1
+        frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
+    nodes = [f"{floor}-{line}" for line in lines]
+    axes = add_wall_nodes(frame, plan, level)
+    add_arms(frame, plan, level)
+    if level not in plan.flexible:
+        for k, slab in enumerate(_slabs([*nodes, *axes], plan.edges(level))):
+            if len(slab) > 1:
+                first = slab[0].removeprefix(f"{floor}-")
+                frame.add_diaphragm(floor if k == 0 else f"{floor}-{first}", slab)
+    frame.add_level(floor, nodes)
+
+
+def _slabs(nodes: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
+    # Nodes that beams join, one list for each part of a level that stands apart.
+    group = {node: node for node in nodes}
+
+    def root(node: str) -> str:
+        while group[node] != node:
+            node = group[node]
+        return node
+
+    for start, end in edges:
+        group[root(end)] = root(start)
+    found: dict[str, list[str]] = {}
+    for node in nodes:
+        found.setdefault(root(node), []).append(node)
+    return list(found.values())

@@ -1,0 +1,168 @@
+"""What a building is made of: lines of columns in plan, storeys, beams, braces and walls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from frames.model.components import Vector
+    from frames.model.sections import Section
+
+
+class ColumnPart(NamedTuple):
+    """A column over one storey.
+
+    Attributes
+    ----------
+    line : str
+        The line in plan that it stands on.
+    storey : int
+        1 is the one on the base.
+    section : Section
+        Its section.
+    up : tuple of 3 floats, optional
+        As in `Frame.add_member`; None has the depth of the section along global x.
+    """
+
+    line: str
+    storey: int
+    section: Section
+    up: Vector | None = None
+
+
+class BeamPart(NamedTuple):
+    """A beam between two lines at a level.
+
+    Attributes
+    ----------
+    name : str
+        What its name begins with, "beam-x" or "beam".
+    level : int
+        0 is the base, k the floor on storey k.
+    start, end : str
+        Its lines in plan.
+    section : Section
+        Its section.
+    """
+
+    name: str
+    level: int
+    start: str
+    end: str
+    section: Section
+
+
+class BracePart(NamedTuple):
+    """A rod across one storey, hinged at both ends.
+
+    Attributes
+    ----------
+    start, end : str
+        The line in plan at its foot, and at its head.
+    storey : int
+        The storey.
+    section : Section
+        Its section.
+    """
+
+    start: str
+    end: str
+    storey: int
+    section: Section
+
+
+class WallPart(NamedTuple):
+    """A wall between two lines from the base up, as a column on its axis with rigid arms.
+
+    Attributes
+    ----------
+    start, end : str
+        Its ends in plan; bearings stand under them.
+    last : int
+        The storey that it ends with.
+    section : Section
+        Its section: local z along the wall, local y across.
+    """
+
+    start: str
+    end: str
+    last: int
+    section: Section
+
+
+@dataclass(frozen=True, kw_only=True)
+class BuildingPlan:
+    """What a building is made of.
+
+    Parameters
+    ----------
+    lines : mapping of str to (float, float)
+        Lines in plan on which columns stand, by name: x and y [m].
+    heights : tuple of float
+        Height of each storey, the lowest first [m].
+    columns : tuple of ColumnPart
+        A bearing stands under each column of the first storey, and at both ends of a wall.
+    beams : tuple of BeamPart
+        Those of the base, level 0, among them; one within a wall goes into its arms.
+    braces : tuple of BracePart
+        Rods.
+    walls : tuple of WallPart
+        Walls.
+    flexible : frozenset of int
+        Levels whose floor is no rigid diaphragm.
+    """
+
+    lines: Mapping[str, tuple[float, float]]
+    heights: tuple[float, ...]
+    columns: tuple[ColumnPart, ...]
+    beams: tuple[BeamPart, ...]
+    braces: tuple[BracePart, ...] = ()
+    walls: tuple[WallPart, ...] = ()
+    flexible: frozenset[int] = frozenset()
+
+    def standing(self, storey: int) -> list[ColumnPart]:
+        """Return the columns of a storey."""
+        return [part for part in self.columns if part.storey == storey]
+
+    def walls_at(self, level: int) -> list[WallPart]:
+        """Return the walls that a level has."""
+        return [wall for wall in self.walls if level <= wall.last]
+
+    def beams_at(self, level: int) -> list[BeamPart]:
+        """Return the beams of a level that are in no wall."""
+        walls = {frozenset((wall.start, wall.end)) for wall in self.walls_at(level)}
+        return [
+            beam
+            for beam in self.beams
+            if beam.level == level and frozenset((beam.start, beam.end)) not in walls
+        ]
+
+    def at_level(self, level: int) -> list[str]:
+        """Return the lines that have a node at a level: column heads, feet, ends of walls."""
+        below = [part.line for part in self.standing(level)]
+        above = [part.line for part in self.standing(level + 1)]
+        walls = [end for wall in self.walls_at(level) for end in (wall.start, wall.end)]
+        return list(dict.fromkeys([*below, *above, *walls]))
+
+    def edges(self, level: int) -> list[tuple[str, str]]:
+        """Return the beams and the arms of walls of a level, from node to node."""
+        floor = level_name(level)
+        beams = [(f"{floor}-{beam.start}", f"{floor}-{beam.end}") for beam in self.beams_at(level)]
+        arms = [
+            (f"{floor}-{end}", wall_node(wall, level))
+            for wall in self.walls_at(level)
+            for end in (wall.start, wall.end)
+        ]
+        return [*beams, *arms]
+
+
+def level_name(level: int) -> str:
+    """Return the name of a level, "base" or "floor-<k>"."""
+    return f"floor-{level}" if level else "base"
+
+
+def wall_node(wall: WallPart, level: int) -> str:
+    """Return the name of the node on the axis of a wall."""
+    return f"{level_name(level)}-wall-{wall.start}-{wall.end}"

@@ -1,0 +1,233 @@
+"""Accidental eccentricity of a project: masses moved each way, what they raise, how it is kept."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+pytest.importorskip("typer")
+
+import pandas as pd
+import xarray as xr
+from typer.testing import CliRunner
+
+from frames import AnalysisInterrupted, load
+from frames.command.app import app
+from frames.design import CheckError, ProjectError, history_checks, history_demands
+from frames.design.project import level_runs
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.preliminary import preliminary
+from frames.design.project.reading import read_project
+
+PROJECT = """
+[project]
+name = "One storey"
+code = "ASCE 7-22"
+[structure]
+kind = "shear building"
+bays = [2, 1]
+bay_width = ["6 m", "6 m"]
+storey_mass = ["150 t"]
+storey_stiffness = ["400 kN/mm"]
+storey_height = "3 m"
+[bearing]
+radius = "1.5 m"
+slider_height = "200 mm"
+slider_radius = "0.2 m"
+capacity = "180 mm"
+friction = 0.05
+interface_friction = 0.15
+[spectrum]
+s_ms = 1.2
+s_m1 = 0.6
+[motions]
+folder = "motions"
+only = ["artificial-1", "artificial-3"]
+scale = 0.8
+[bounds]
+friction = [0.8, 1.3]
+[limits]
+rim_strength = "5 MN"
+base_shear = "5 MN"
+floor_acceleration = "8 m/s2"
+drift = "1 %"
+[analysis]
+level = "pendulum"
+bounds = ["lower"]
+"""
+FACTORED = {
+    "displacement": "isolator displacement",
+    "base_shear": "base shear",
+    "drift": "storey drift ratio",
+    "floor_plan": "floor acceleration in plan",
+}
+ADDED = {"slip": "interface slip", "rim_force": "rim force"}
+run = CliRunner().invoke
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    """The project's folder after a run."""
+    folder = put_example(tmp_path_factory.mktemp("eccentric"))
+    (folder / "project.toml").write_text(PROJECT)
+    done = run(
+        app,
+        ["run", "--no-figures", str(folder / "project.toml"), "--results", str(folder / "out")],
+    )
+    assert done.exit_code in {0, 1}, done.output
+    said = "2 time histories: 2 motions, bounds lower, level MCE_R; 4 more with the masses moved"
+    assert said in " ".join(done.output.split())
+    return folder
+
+
+def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
+    """Ratios of the governing motion, by hand of the files; they multiply what the suite gives."""
+    out = ran / "out"
+    runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
+    worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+    assert set(moved["motion"].values) == {runs["motion"].values[worst]}
+    assert list(moved["masses_moved"].values) == ["+x", "-x", "+y", "-y"]
+    table = pd.read_csv(out / "eccentricity.csv")
+    demands = pd.read_csv(out / "demands.csv", index_col=0)
+    [column] = [name for name in demands.columns if name.startswith("lower, ")]
+    assert column == "lower, largest of 2 runs, raised by moved masses"
+    checks = pd.read_csv(out / "checks.csv").set_index("title")
+    for name, title in (FACTORED | ADDED).items():
+        own = runs[f"reached_{name}"].to_numpy().reshape(2, -1)
+        each = moved[f"reached_{name}"].to_numpy().reshape(4, -1).max(axis=1)
+        rows = table[table["quantity"] == name.replace("_", " ")]
+        centred = own[worst].max()
+        np.testing.assert_allclose(rows["centred"], centred, rtol=1e-12)
+        np.testing.assert_allclose(rows["moved"], each, rtol=1e-12)
+        if name in FACTORED:
+            np.testing.assert_allclose(rows["factor"], np.maximum(each / centred, 1.0), rtol=1e-12)
+            expected = own.max() * max(each.max() / centred, 1.0)
+        else:
+            np.testing.assert_allclose(rows["added"], np.maximum(each - centred, 0.0), atol=1e-12)
+            expected = own.max() + max(each.max() - centred, 0.0)
+        assert demands.loc[title, column] == pytest.approx(expected, rel=1e-12)
+        if title in checks.index:
+            found = checks.loc[[title]]
+            assert found["demand"].to_numpy()[0] == pytest.approx(expected, rel=1e-9)
+    assert table.loc[table["quantity"] == "displacement", "factor"].max() > 1.01
+    text = (out / "checks.txt").read_text(encoding="utf-8")
+    assert "accidental eccentricity: masses moved" in text
+    assert "e_D D_c" in text
+    assert "masses moved by 5 % of the plan each way raise the demands" in text
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "moved by 5 % of the plan&#39;s sides each way, 4 time histories more" in page
+
+
+def test_the_report_reads_moved_runs_again(ran: Path) -> None:
+    out = ran / "out"
+    before = {name: (out / name).read_bytes() for name in ("checks.csv", "eccentricity.csv")}
+    again = ["report", "--no-figures", str(ran / "project.toml"), "--results", str(out)]
+    assert run(app, again).exit_code in {0, 1}
+    assert before == {name: (out / name).read_bytes() for name in before}
+    off = ran / "off.toml"
+    off.write_text(PROJECT + 'accidental_eccentricity = "4 %"\n')
+    done = run(app, ["report", str(off), "--results", str(out)])
+    assert done.exit_code == 2
+    assert "are of another input (analysis differ)" in " ".join(done.output.split())
+
+
+def test_a_run_goes_on_between_its_moved_masses(ran: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cut, file = ran / "cut", ran / "project.toml"
+    own, calls = level_runs.time_histories, []
+
+    def stopped(*given: object, **options: object) -> xr.Dataset:
+        calls.append(options)
+        found = own(*given, **options)  # type: ignore[arg-type]
+        if len(calls) == 2:
+            raise AnalysisInterrupted(1.0, found.isel(run=[0]))
+        return found
+
+    monkeypatch.setattr(level_runs, "time_histories", stopped)
+    words = ["run", "--no-figures", str(file), "--results", str(cut)]
+    assert run(app, words).exit_code == 130
+    assert load(cut / "interrupted.nc").sizes["run"] == 2
+    next((cut / "unfinished" / "moved").iterdir()).unlink()
+    monkeypatch.undo()
+    done = run(app, words)
+    assert done.exit_code in {0, 1}, done.output
+    assert "1 of 1 runs (3 more were complete before)" in done.output
+    for name in ("checks.csv", "demands.csv", "eccentricity.csv"):
+        assert (cut / name).read_bytes() == (ran / "out" / name).read_bytes()
+    assert not (cut / "unfinished").exists()
+    assert list(json.loads((cut / "run.json").read_text())["moved"]) == ["lower"]
+
+
+def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
+    """Seven runs of which each was moved: means over means."""
+    data, moved = (load(ran / "out" / f"{kind}-lower.nc") for kind in ("runs", "moved"))
+    many = data.isel(run=[0, 1] * 4).assign_coords(motion=("run", list("abcdefgh")))
+    ways = [
+        many.assign_coords(masses_moved=("run", [way] * 8)).assign(
+            reached_displacement=many["reached_displacement"] * factor
+        )
+        for way, factor in (("+x", 0.9), ("-x", 1.2), ("+y", 1.1), ("-y", 1.0))
+    ]
+    beside = xr.concat(ways, "run", data_vars="minimal", coords="minimal", compat="override")
+    table = history_demands(many, "ASCE 7-22", moved=beside)
+    plain = history_demands(many, "ASCE 7-22")
+    rows = ("isolator displacement", "value")
+    assert table.loc[rows] == pytest.approx(1.2 * plain.loc[rows], rel=1e-12)
+    assert table.loc["base shear", "value"] == plain.loc["base shear", "value"]
+    assert table.attrs["statistics"]["value"] == "mean of 8 runs, raised by moved masses"
+    with pytest.raises(CheckError, match="is not among the runs: give runs of the same motions"):
+        history_demands(many, "ASCE 7-22", moved=moved)
+    odd = moved.assign_coords(masses_moved=("run", ["up"] * 4))
+    with pytest.raises(CheckError, match="masses_moved = 'up' must be one of"):
+        history_demands(data, "ASCE 7-22", moved=odd)
+    with pytest.raises(CheckError, match="no coordinate 'masses_moved'"):
+        history_demands(data, "ASCE 7-22", moved=data)
+    with pytest.raises(CheckError, match="of which there are no runs"):
+        history_demands({"lower": data}, "ASCE 7-22", moved={"upper": moved})
+
+
+def test_a_moved_run_that_fails_leaves_no_value(ran: Path) -> None:
+    data, moved = (load(ran / "out" / f"{kind}-lower.nc") for kind in ("runs", "moved"))
+    status = moved["status"].copy(data=["ok", "slip_exceeded", "ok", "ok"])
+    frame = ProjectInputs(read_project(ran / "project.toml"), ran).frame()
+    checks = history_checks(data, frame, "ASCE 7-22", moved=moved.assign(status=status))
+    [check] = [c for c in checks if c.title == "runs with moved masses that failed"]
+    assert (check.demand, check.passed) == (1.0, False)
+    assert "masses moved -x" in check.note
+    [shift] = [c for c in checks if c.title == "isolator displacement"]
+    assert "slip_exceeded" in shift.void
+    assert not shift.passed
+
+
+@pytest.mark.parametrize("value", ['"none"', "0", '"0 %"'])
+def test_it_is_left_out_where_the_file_says_so(ran: Path, value: str) -> None:
+    file = ran / "none.toml"
+    file.write_text(f"{PROJECT}accidental_eccentricity = {value}\n")
+    parts = ProjectInputs(read_project(file), ran)
+    assert parts.rules().accidental_eccentricity == 0.0
+    known = preliminary(parts)
+    assert not known.moved
+    assert level_runs.said_of_runs(parts, known.motions).endswith("is left out")
+    data = load(ran / "out" / "runs-lower.nc")
+    note = history_checks(data, known.frame, parts.rules())[0].note
+    assert "without accidental eccentricity, of which ASCE 7-22 17.6.2.1 asks 5 %" in note
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("0.5", "must be a share of the sides of the plan between 0 and 0.25"),
+        ("-0.05", "must be a share of the sides of the plan between 0 and 0.25"),
+        ('"5 mm"', "no unit of a pure number"),
+    ],
+)
+def test_shares_out_of_bounds_are_refused(ran: Path, value: str, words: str) -> None:
+    file = ran / "odd.toml"
+    file.write_text(f"{PROJECT}accidental_eccentricity = {value}\n")
+    with pytest.raises(ProjectError, match=words):
+        read_project(file)

@@ -1,0 +1,182 @@
+"""ETABS' text: the same building as from SAP2000's tables; bad files are refused with a remedy."""
+
+from __future__ import annotations
+
+import random
+import warnings
+from dataclasses import astuple
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+from frames import Frame, ModelError
+from frames.demo import bearing_for
+from lir_element.opensees import opensees
+from tests import etabs_models, sap2000_models
+
+TEXT = etabs_models.building(bays=(1, 1))
+BEARING = bearing_for(400e3)
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "model.e2k"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def changed(old: str, new: str) -> str:
+    assert old in TEXT, old
+    return TEXT.replace(old, new, 1)
+
+
+def with_lines(*lines: str) -> str:
+    return changed("$ MASS SOURCE", "\n".join(["$ MORE", *lines, "", "$ MASS SOURCE"]))
+
+
+@pytest.mark.parametrize("walls", [False, True])
+@pytest.mark.parametrize("units", [("KN", "M"), ("KIP", "IN")])
+def test_both_formats_give_one_frame(tmp_path: Path, walls: bool, units: tuple[str, str]) -> None:
+    opensees().wipe()
+    one = Frame.from_etabs(written(tmp_path, etabs_models.building(units, walls=walls)))
+    path = tmp_path / "model.s2k"
+    path.write_text(sap2000_models.text(sap2000_models.building(walls=walls)), encoding="utf-8")
+    two = Frame.from_sap2000(path)
+    assert len(one.nodes) == len(two.nodes)
+    assert len(one.members) == len(two.members)
+    by_place = {tuple(round(x, 6) for x in n.position): name for name, n in two.nodes.items()}
+    for name, node in one.nodes.items():
+        other = by_place[tuple(round(x, 6) for x in node.position)]
+        for group in ("masses", "loads"):
+            found, expected = (getattr(f, group).get(n) for f, n in ((one, name), (two, other)))
+            assert (found is None) == (expected is None)
+            if found is not None:
+                assert_allclose(found, expected, rtol=1e-9, atol=1e-6)
+    sections = [sorted({astuple(m.section) for m in f.members.values()}) for f in (one, two)]
+    assert_allclose(sections[0], sections[1], rtol=1e-9)
+    assert_allclose(one.check().weight, two.check().weight, rtol=1e-9)
+    assert [level.name for level in one.levels] == ["Base", "Story1", "Story2"]
+    assert ("shells" in one.superelements) == walls
+
+
+BAD = {
+    "truncated": (TEXT[: len(TEXT) // 2], r"is cut off|is not closed|needs its name"),
+    "no end": (TEXT.replace("$ END OF MODEL FILE", ""), r"without the line \$ END OF MODEL FILE"),
+    "not a model": ("hello", r"is no ETABS text file"),
+    "decimal comma": (
+        changed("HEIGHT 3.0", "HEIGHT 3,0"),
+        r'line \d+, table "STORIES.*decimal=\',',
+    ),
+    "story twice": (changed('"Story2"  HEIGHT', '"Story1"  HEIGHT'), r"two stories have one name"),
+    "unknown story": (changed('"C1"  "Story1"', '"C1"  "Roof"'), r'story "Roof" is not defined'),
+    "unknown section": (
+        changed('SECTION "COL"', 'SECTION "COX"'),
+        r'"COX" of line "C1" is not def',
+    ),
+    "unknown point": (changed('BEAM  "1"', 'BEAM  "77"'), r'point "77" is not defined'),
+    "point twice": (changed('POINT "2"', 'POINT "1"'), r'point "1" is there already'),
+    "below the base": (changed('"1"  "1"  1', '"1"  "1"  3'), r"stories below .* there is none"),
+    "no mass source": (TEXT.replace("  MASSSOURCE  ", "  MASSSAUCE  "), r"has no mass source"),
+    "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS "stone" "M" must be a force'),
+    "shape": (changed("AREA 0.2", "AREB 0.2"), r'is a "General" without Area'),
+    "restraint": (changed("UX UY UZ", "UX UY UX9"), r'RESTRAINT "UX9" must be of'),
+    "hinges": (with_lines('  HINGEASSIGN "C1" "Story1"'), r'allow=\["hinges"\]'),
+    "links": (with_lines('  LINK "K1" POINT "1" "2"'), r'allow=\["links"\]'),
+    "towers": (with_lines('  TOWER "T1"', '  TOWER "T2"'), r"several towers are not read"),
+    "ties": (changed('SECTION "COL"', 'LIMITTENSION 0  SECTION "COL"'), r'\["tension limits"\]'),
+    "area": (changed("FLOOR  4", "FLOOR  5"), r"an area needs its name, kind, number of corners"),
+    "quote": (changed('SECTION "COL"', 'SECTION "COL'), r"a quotation mark is not closed"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_files_are_refused_with_a_remedy(tmp_path: Path, name: str) -> None:
+    text, message = BAD[name]
+    with pytest.raises(ModelError, match=message):
+        Frame.from_etabs(written(tmp_path, text))
+
+
+def test_assignments_become_what_members_have(tmp_path: Path) -> None:
+    text = changed(
+        'LINEASSIGN  "Y1"  "Story1"  SECTION "BEAM"',
+        'LINEASSIGN  "Y1"  "Story1"  SECTION "BEAM"  RELEASE "PINNED" LENGTHOFFI 0.2 RIGIDZONE 0.5 '
+        "PROPMODI33 0.35 CARDINALPT 8",
+    )
+    lines = [
+        '  LINELOAD  "X1"  "Story1"  TYPE "TRAPF"  DIR "GRAV"  LC "Dead"  FSTART 4  FEND 8 '
+        " RDSTART 0  RDEND 0.5",
+        '  LINELOAD  "X3"  "Story1"  TYPE "POINTF"  DIR "GRAV"  LC "Dead"  FVAL 15  RDIST 0.4',
+        '  POINTLOAD  "1"  "Story2"  TYPE "FORCE"  LC "Dead"  FX 7',
+    ]
+    more = "\n".join(["$ MORE", *lines, "", "$ MASS SOURCE"])
+    frame = Frame.from_etabs(written(tmp_path, text.replace("$ MASS SOURCE", more, 1)))
+    member = frame.members["Y1-Story1"]
+    assert member.releases == (("My", "Mz"), ("My", "Mz"))
+    assert_allclose(member.offsets[0], (0.0, 0.1, 0.0))  # the insertion point moves nothing
+    assert_allclose(member.section.inertia_y, 0.35 * 0.3 * 0.6**3 / 12)
+    (load,) = [x for x in frame.tapered_loads["X1-Story1"] if x.start == (0.0, 0.0, -4e3)]
+    assert (load.a, load.b, load.end) == (0.0, 3.0, (0.0, 0.0, -8e3))
+    assert_allclose(frame.loads["X3-Story1@0.4"], [0, 0, -15e3, 0, 0, 0])
+    assert_allclose(frame.loads["1-Story2"][0], 7e3)
+    assert "insertion points that do not transform" in str(frame.imported)
+
+
+def test_a_semirigid_floor_is_shells(tmp_path: Path) -> None:
+    opensees().wipe()
+    frame = Frame.from_etabs(written(tmp_path, changed("TYPE RIGID", "TYPE SEMIRIGID")), mesh=3.0)
+    assert not frame.diaphragms
+    assert "shells" in frame.superelements
+    assert "semi-rigid diaphragms, by their shells: D1" in str(frame.imported)
+    rigid = Frame.from_etabs(written(tmp_path, TEXT))
+    assert_allclose(frame.check().weight, rigid.check().weight, rtol=1e-9)
+
+
+def test_the_foot_of_a_wall_is_held_between_its_corners(tmp_path: Path) -> None:
+    opensees().wipe()
+    path = written(tmp_path, etabs_models.building(walls=True))
+    frame = Frame.from_etabs(path, mesh=1.5)
+    feet = [name for name, node in frame.nodes.items() if node.z == 0.0 and "~" in name]
+    assert len(feet) == 2 * 3  # two walls 6 m long, in four parts
+    assert all(len(frame.fixed_dofs[name]) == 6 for name in feet)
+    isolated = Frame.from_etabs(path, BEARING, mesh=1.5)
+    assert not set(feet) & set(isolated.fixed_dofs)
+    assert "corners stand on bearings, free between these" in str(isolated.imported)
+
+
+def test_bearings_stand_under_the_supports(tmp_path: Path) -> None:
+    frame = Frame.from_etabs(written(tmp_path, TEXT), BEARING, loads="G")
+    assert list(frame.bearings) == [f"bearing-{k}-Base" for k in range(1, 5)]
+    assert frame.load_cases == ("D", "L")
+    whole = Frame.from_etabs(written(tmp_path, TEXT), BEARING, loads="all")
+    live = 2 * 30.0 * 3e3
+    assert_allclose(whole.check().weight - frame.check().weight, 0.3 * live, rtol=1e-9)
+
+
+def test_mutated_files_end_in_models_or_messages(tmp_path: Path) -> None:
+    for seed in range(250):
+        rng = random.Random(seed)  # noqa: S311
+        lines = TEXT.splitlines()
+        for _ in range(rng.randint(1, 3)):
+            k = rng.randrange(len(lines))
+            how = rng.randrange(6)
+            if how == 0:
+                del lines[k]
+            elif how == 1:
+                lines.insert(k, lines[rng.randrange(len(lines))])
+            elif how == 2:
+                lines[k] = lines[k][: rng.randint(0, len(lines[k]))]
+            elif lines[k]:
+                at = rng.randrange(len(lines[k]))
+                new = rng.choice(['"', "$", "-", "0", "x", " ", ",", "9e99", "\0", "nan"])
+                lines[k] = lines[k][:at] + new + lines[k][at + (how > 3) :]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            survive(written(tmp_path, "\n".join(lines)))
+
+
+def survive(path: Path) -> None:
+    try:
+        frame = Frame.from_etabs(path)
+    except ModelError:
+        return
+    assert frame.members

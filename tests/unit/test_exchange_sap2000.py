@@ -1,0 +1,363 @@
+"""SAP2000's tables: bad files are refused with line and remedy, nothing is lost in silence."""
+
+from __future__ import annotations
+
+import random
+import re
+import warnings
+from dataclasses import astuple, replace
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+import openpyxl
+import pytest
+from numpy.testing import assert_allclose
+
+from frames import Frame, ModelError
+from frames.demo import bearing_for
+from frames.exchange.geometry import cardinal_shift, frame_axes
+from frames.exchange.links import equivalent_bearing
+from frames.exchange.sap2000 import read_sap2000
+from frames.exchange.slabs import corner_shares
+from tests import sap2000_models as models
+from tests.patience import start_up
+
+SMALL = models.building(bays=(1, 1), storeys=1, details=True)
+TEXT = models.text(SMALL)
+BEARING = bearing_for(400e3)
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "model.s2k"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def changed(old: str, new: str) -> str:
+    assert old in TEXT, old
+    return TEXT.replace(old, new, 1)
+
+
+BAD = {
+    "truncated": (TEXT[: len(TEXT) // 2], r"is cut off, export it again|is not of the form"),
+    "no end": (TEXT.replace("END TABLE DATA", ""), r"ends in table .* without the line END TABLE"),
+    "not a table": ("hello\n", r"holds no tables of SAP2000.*Export"),
+    "decimal comma": (
+        changed("XorR=6.0", "XorR=6,0"),
+        r'line \d+, table "JOINT COORDINATES": XorR = "6,0" .*decimal=\',',
+    ),
+    "no number": (
+        changed("Y=5.0", "Y=five"),
+        r'line \d+, table "JOINT COORDINATES": Y = "five" is no number',
+    ),
+    "infinite": (changed("Y=5.0", "Y=inf"), r"must be a finite number"),
+    "joint twice": (changed("Joint=2   ", "Joint=1   "), r'Joint "1" stands in line \d+ already'),
+    "unknown section": (
+        changed("AnalSect=COL", "AnalSect=COX"),
+        r'section "COX" is not defined: there are COL, BEAM',
+    ),
+    "unknown joint": (
+        changed("JointJ=5", "JointJ=99"),
+        r'table "CONNECTIVITY - FRAME": JointJ "99" is not defined',
+    ),
+    "no material": (
+        changed("Material=C30   Shape", "Material=C99   Shape"),
+        r'material "C99", which is not defined',
+    ),
+    "no mass source": (
+        TEXT.replace("MASS SOURCE", "MASS SAUCE"),
+        r"has no mass source: define it .*mass=",
+    ),
+    "units": (
+        changed("KN, m, C", "stone, m, C"),
+        r'CurrUnits = "stone, m, C" must be a force of N, KN',
+    ),
+    "no units": (
+        TEXT.replace("PROGRAM CONTROL", "PROGRAM CONTRAL"),
+        r'table "PROGRAM CONTROL" is missing',
+    ),
+    "no section of a frame": (
+        TEXT.replace("FRAME SECTION ASSIGNMENTS", "X"),
+        r"has no row in FRAME SECTION ASSIGNMENTS",
+    ),
+    "no yes or no": (changed("U1=Yes", "U1=Ja"), r'U1 = "Ja" must be Yes or No'),
+    "not a pair": (
+        changed("CoordSys=GLOBAL", "CoordSys GLOBAL"),
+        r'"CoordSys GLOBAL.*" is not of the form Key=Value',
+    ),
+    "load off the frame": (
+        changed("RelDistB=0.7", "RelDistB=1.7"),
+        r"1.7 of the length of frame .* is not on it",
+    ),
+    "negative stiffness": (changed("E1=", "E1=-"), r"must be positive"),
+    "hinges": (
+        changed(
+            "END TABLE",
+            'TABLE:  "FRAME HINGE ASSIGNS 02 - USER DEFINED PROPERTIES"\n   Frame=C5\nEND TABLE',
+        ),
+        r'plastic hinges .*allow=\["hinges"\]',
+    ),
+    "cables": (
+        changed("END TABLE", 'TABLE:  "CONNECTIVITY - CABLE"\n   Cable=1\nEND TABLE'),
+        r'allow=\["cables"\]',
+    ),
+    "something new": (
+        changed("END TABLE", 'TABLE:  "FRAME MAGIC"\n   Frame=1\nEND TABLE'),
+        r'not known here.*allow=\["other tables"\]',
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_files_are_refused_with_a_remedy(tmp_path: Path, name: str) -> None:
+    text, message = BAD[name]
+    with pytest.raises(ModelError, match=message):
+        Frame.from_sap2000(written(tmp_path, text))
+
+
+def test_what_is_allowed_is_left_out_and_noted(tmp_path: Path) -> None:
+    path = written(tmp_path, BAD["hinges"][0])
+    frame = Frame.from_sap2000(path, allow=["hinges"])
+    assert 'accepted by allow = "hinges"' in str(frame.imported)
+    with pytest.raises(ModelError, match='allow names "cables", and nothing of that name'):
+        Frame.from_sap2000(path, allow=["hinges", "cables"])
+
+
+def test_every_table_is_in_the_account(tmp_path: Path) -> None:
+    extra = 'TABLE:  "GRID LINES"\n   CoordSys=GLOBAL   AxisDir=X\nEND TABLE DATA'
+    frame = Frame.from_sap2000(written(tmp_path, changed("END TABLE DATA", extra)))
+    account = str(frame.imported)
+    for table in ("GRID LINES (1)", "JOINT COORDINATES", "CONNECTIVITY - FRAME", "WIND"):
+        assert table in account
+
+
+def test_weight_and_mass_are_those_of_the_tables(tmp_path: Path) -> None:
+    # by hand: 4 columns, 4 beams, a slab of 30 m2, and 30 % of 3 kN/m2
+    tables = models.building(bays=(1, 1), storeys=1)
+    frame = Frame.from_sap2000(written(tmp_path, models.text(tables)), BEARING)
+    concrete = 4 * 3.0 * 0.5 * 0.4 + 22.0 * 0.6 * 0.3 + 30.0 * 0.15
+    check = frame.check()
+    assert_allclose(check.weight, 25e3 * concrete + 0.3 * 3e3 * 30.0, rtol=1e-12)
+    assert_allclose(check.mass, 2500.0 * concrete + 0.3 * 3e3 * 30.0 / frame.gravity, rtol=1e-12)
+    assert len(frame.bearings) == 4
+    assert frame.diaphragms["base"].nodes == ("1", "2", "3", "4")
+
+
+def test_the_workbook_is_the_same_model(tmp_path: Path) -> None:
+    book = openpyxl.Workbook()
+    for k, (name, rows) in enumerate(SMALL.items()):
+        sheet = book.create_sheet(f"{k}")
+        fields = list(dict.fromkeys(key for row in rows for key in row))
+        sheet.append([f"TABLE:  {name.title()}"])
+        sheet.append(fields)
+        sheet.append(["Text"] * len(fields))
+        for row in rows:
+            values = [row.get(field) for field in fields]
+            sheet.append(["Yes" if v is True else "No" if v is False else v for v in values])
+    book.save(tmp_path / "model.xlsx")
+    one = Frame.from_sap2000(tmp_path / "model.xlsx")
+    two = Frame.from_sap2000(written(tmp_path, TEXT))
+    assert list(one.members) == list(two.members)
+    for name, member in one.members.items():
+        other = two.members[name]
+        assert member == replace(other, section=member.section)
+        assert_allclose(astuple(member.section), astuple(other.section), rtol=1e-12)
+    assert one.nodes == two.nodes
+    assert list(one.masses) == list(two.masses)
+    for node, mass in one.masses.items():
+        assert_allclose(mass, two.masses[node], rtol=1e-12)
+
+
+@pytest.mark.parametrize(("decimal", "sign"), [(".", "."), (",", ",")])
+def test_either_decimal_sign_is_read(tmp_path: Path, decimal: str, sign: str) -> None:
+    text = TEXT.replace("XorR=6.0", f"XorR=6{sign}0").replace("Y=5.0", f"Y=5{sign}0")
+    if sign == ",":
+        text = re.sub(r"=(-?\d+)\.(\d)", r"=\1,\2", text)
+        text = text.replace("Version=22,0.0", "Version=22.0.0")
+    frame = Frame.from_sap2000(written(tmp_path, text), decimal=decimal)  # type: ignore[arg-type]
+    assert frame.nodes["4"].position == (6.0, 5.0, 0.0)
+
+
+def mutated(rng: random.Random, text: str) -> str:
+    lines = text.splitlines()
+    for _ in range(rng.randint(1, 3)):
+        k = rng.randrange(len(lines))
+        how = rng.randrange(7)
+        if how == 0:
+            del lines[k]
+        elif how == 1:
+            lines.insert(k, lines[rng.randrange(len(lines))])
+        elif how == 2:
+            lines[k] = lines[k][: rng.randint(0, len(lines[k]))]
+        elif how == 3:
+            lines = lines[: k + 1]
+        elif lines[k]:
+            at = rng.randrange(len(lines[k]))
+            new = rng.choice(
+                ['"', "=", "-", "0", "x", " ", ",", "9e99", "\0", "TABLE:", "nan", "_"]
+            )
+            lines[k] = lines[k][:at] + new + lines[k][at + (how > 4) :]
+    return "\n".join(lines)
+
+
+def survive(tmp_path: Path, seed: int) -> None:
+    path = written(tmp_path, mutated(random.Random(seed), TEXT))  # noqa: S311
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            frame = Frame.from_sap2000(path)
+        except ModelError:
+            return
+    places = np.array([node.position for node in frame.nodes.values()])
+    assert np.isfinite(places).all()
+
+
+def test_mutated_files_end_in_models_or_messages(tmp_path: Path) -> None:
+    for seed in range(1000):
+        survive(tmp_path, seed)
+
+
+@pytest.mark.slow
+def test_ten_thousand_frames_are_read_in_five_seconds(tmp_path: Path) -> None:
+    path = written(tmp_path, models.text(models.building(bays=(20, 20), storeys=8)))
+    start = perf_counter()
+    building = read_sap2000(path)
+    taken = perf_counter() - start
+    assert len(building.frames) > 10_000
+    assert taken < 10.0 * start_up()  # 5 s, where it takes half a second to start
+
+
+def test_axes_are_those_of_the_manual() -> None:
+    beam = frame_axes((0, 0, 0), (5, 0, 0))
+    assert_allclose(beam, [[1, 0, 0], [0, 0, 1], [0, -1, 0]], atol=1e-15)
+    column = frame_axes((0, 0, 0), (0, 0, 3))
+    assert_allclose(column, [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-15)
+    turned = frame_axes((0, 0, 0), (0, 0, 3), 90.0)
+    assert_allclose(turned[1], [0, 1, 0], atol=1e-15)
+
+
+def test_top_centre_puts_the_axis_half_the_depth_below() -> None:
+    assert cardinal_shift(8, 0.6, 0.3) == (-0.3, 0.0)
+    assert cardinal_shift(1, 0.6, 0.3) == (0.3, -0.15)
+    assert cardinal_shift(10, 0.6, 0.3) == (0.0, 0.0)
+
+
+def test_corner_shares_keep_force_and_moments() -> None:
+    points = np.array([[0, 0, 0], [4, 0.5, 0], [5, 3, 0], [1, 4, 0.0]])
+    shares = corner_shares(points)
+    assert_allclose(shares.sum(), 1.0)
+    x, y = points[:, 0], points[:, 1]
+    twist = x * np.roll(y, -1) - np.roll(x, -1) * y
+    centre = np.array([((x + np.roll(x, -1)) * twist).sum(), ((y + np.roll(y, -1)) * twist).sum()])
+    assert_allclose(shares @ points[:, :2], centre / (3 * twist.sum()))
+
+
+def test_slabs_are_cut_along_the_beams_within_them(tmp_path: Path) -> None:
+    # one area over two bays, a beam between them: as two areas
+    tables = models.building(bays=(2, 1), storeys=1)
+    two = Frame.from_sap2000(written(tmp_path, models.text(tables)), loads={"LIVE": 1.0})
+    joints = tables["CONNECTIVITY - AREA"][0] | {"Joint2": 9, "Joint3": 12}
+    tables["CONNECTIVITY - AREA"] = [joints]
+    for table in ("AREA SECTION ASSIGNMENTS", "AREA LOADS - UNIFORM"):
+        tables[table] = tables[table][:1]
+    one = Frame.from_sap2000(written(tmp_path, models.text(tables)), loads={"LIVE": 1.0})
+    for member, loads in two.tapered_loads.items():
+        key = lambda load: (load.a, load.b, load.start)  # noqa: E731
+        found = sorted(one.tapered_loads[member], key=key)
+        assert len(found) == len(loads)
+        for a, b in zip(found, sorted(loads, key=key), strict=True):
+            assert_allclose([a.a, a.b, *a.start, *a.end], [b.a, b.b, *b.start, *b.end], atol=1e-9)
+
+
+PENDULUM = "Fixed=No NonLinear=Yes TransKE=500 TransK=20000 Slow=0.03 Fast=0.06 Rate=20 Radius=2.2"
+
+LINKS = f"""
+TABLE:  "LINK PROPERTY DEFINITIONS 01 - GENERAL"
+   Link=FP   LinkType="Friction Isolator"   Mass=0   Weight=0
+   Link=STOP   LinkType=Gap   Mass=0   Weight=0
+
+TABLE:  "LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR"
+   Link=FP   DOF=U1   Fixed=No   NonLinear=Yes   TransKE=2000000   TransCE=0   TransK=2000000
+   Link=FP DOF=U2 {PENDULUM}
+   Link=FP DOF=U3 {PENDULUM}
+
+TABLE:  "LINK PROPERTY DEFINITIONS 05 - GAP"
+   Link=STOP   DOF=U1   Fixed=No   NonLinear=Yes   TransKE=0   TransK=1000   TransOpen=0.02
+
+TABLE:  "CONNECTIVITY - LINK"
+   Link=1   JointI=1   JointJ=1
+   Link=2   JointI=2   JointJ=2
+   Link=3   JointI=3   JointJ=3
+   Link=4   JointI=4   JointJ=4
+   Link=5   JointI=5   JointJ=6
+
+TABLE:  "LINK PROPERTY ASSIGNMENTS"
+   Link=1   LinkType="Friction Isolator"   LinkJoints=SingleJoint   LinkProp=FP
+   Link=2   LinkType="Friction Isolator"   LinkJoints=SingleJoint   LinkProp=FP
+   Link=3   LinkType="Friction Isolator"   LinkJoints=SingleJoint   LinkProp=FP
+   Link=4   LinkType="Friction Isolator"   LinkJoints=SingleJoint   LinkProp=FP
+   Link=5   LinkType=Gap   LinkJoints=TwoJoint   LinkProp=STOP
+
+END TABLE DATA"""
+
+
+def isolated(tmp_path: Path) -> Path:
+    tables = models.building(bays=(1, 1), storeys=1)
+    held = tables["JOINT RESTRAINT ASSIGNMENTS"]
+    tables["JOINT RESTRAINT ASSIGNMENTS"] = [
+        {"Joint": r["Joint"], "R1": True, "R2": True} for r in held
+    ]
+    return written(tmp_path, models.text(tables).replace("END TABLE DATA", LINKS))
+
+
+def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
+    frame = Frame.from_sap2000(isolated(tmp_path))
+    assert list(frame.bearings) == ["1", "2", "3", "4"]
+    bearing = frame.bearings["1"].bearing
+    assert_allclose(bearing.effective_radius, 2.2)
+    assert bearing.is_dcfp
+    assert bearing.axial_stiffness == 2e9
+    # at a speed v of the link the surfaces, of R = 1.15 m, slide at v R / L each: Q/W by the speed
+    assert_allclose(bearing.effective_friction, 0.06)
+    law, speed = bearing.frictions[0], 0.1 * 1.15 / 2.2
+    assert_allclose(law.at_speed(speed) * 2.3 / 2.2, 0.06 - 0.03 * np.exp(-20.0 * 0.1))
+    assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))
+    assert "friction isolators, as DCFP" in str(frame.imported)
+    given = Frame.from_sap2000(isolated(tmp_path), {"FP": BEARING})
+    assert {link.bearing for link in given.bearings.values()} == {BEARING}
+
+
+def test_a_friction_isolator_without_radius_needs_a_bearing(tmp_path: Path) -> None:
+    building = read_sap2000(isolated(tmp_path))
+    link = building.link_properties["FP"]
+    del link.dofs["U3"].values["radius"]
+    with pytest.raises(ModelError, match=r"needs nonlinear U2 and U3 with radius"):
+        equivalent_bearing(link, "here")
+
+
+def test_bearings_stand_where_groups_say(tmp_path: Path) -> None:
+    tables = models.building(bays=(1, 1), storeys=1)
+    tables["GROUPS 2 - ASSIGNMENTS"] = [
+        {"GroupName": "EDGE", "ObjectType": "Joint", "ObjectLabel": 1},
+        {"GroupName": "EDGE", "ObjectType": "Joint", "ObjectLabel": 2},
+        {"GroupName": "REST", "ObjectType": "Joint", "ObjectLabel": 3},
+    ]
+    path = written(tmp_path, models.text(tables))
+    frame = Frame.from_sap2000(path, {"EDGE": BEARING, "REST": BEARING})
+    assert list(frame.bearings) == ["bearing-1", "bearing-2", "bearing-3"]
+    assert frame.fixed_dofs["4"] == {"ux", "uy", "uz", "rx", "ry", "rz"}
+    with pytest.raises(ModelError, match=r'"CORE" is no group, link property, link or joint'):
+        Frame.from_sap2000(path, BEARING, at=["CORE"])
+
+
+def test_bodies_move_as_one(tmp_path: Path) -> None:
+    from frames.assembly.assemble import assemble
+
+    tables = models.building(bays=(1, 1), storeys=1, slabs=False)
+    tables["CONSTRAINT DEFINITIONS - BODY"] = [{"Name": "D1", "CoordSys": "GLOBAL"}]
+    del tables["CONSTRAINT DEFINITIONS - DIAPHRAGM"]
+    for row in tables["JOINT CONSTRAINT ASSIGNMENTS"]:
+        row["Type"] = "Body"
+    frame = Frame.from_sap2000(written(tmp_path, models.text(tables)))
+    assert assemble(frame).transform.shape[1] == 6

@@ -1,0 +1,149 @@
+"""A project's spectrum point by point: how it is read, and what analyses make of it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pydantic")
+pytest.importorskip("pint")
+
+from frames.design import (
+    IsolationSystem,
+    ProjectError,
+    PropertyBounds,
+    PropertyModificationFactors,
+    Spectrum,
+    code_named,
+    equivalent_linear,
+)
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.reading import read_project
+from lir_element import LIRBearing
+
+G = 9.80665
+BEARING = LIRBearing(
+    radius=1.5,
+    slider_height=0.3,
+    slider_radius=0.2,
+    capacity=0.45,
+    friction=0.06,
+    interface_friction=0.25,
+)
+SYSTEM = IsolationSystem(
+    bearings=(BEARING,) * 4,
+    loads=(1.5e6,) * 4,
+    plan=(9.0, 9.0),
+    positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
+)
+BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
+GRID = np.concatenate([[0.0], np.geomspace(0.01, 10.0, 400)])
+PROJECT = """
+[project]
+name = "Site"
+code = "CODE"
+[structure]
+kind = "shear building"
+bays = [1, 1]
+bay_width = ["6 m", "6 m"]
+storey_mass = ["100 t"]
+storey_stiffness = ["300 kN/mm"]
+storey_height = "3 m"
+[motions]
+folder = "motions"
+[bounds]
+friction = [0.8, 1.3]
+[spectrum]
+"""
+POINTS = ((0.0, 0.6), (0.2, 1.4), (0.5, 1.3), (1.0, 0.8), (2.0, 0.36), (4.0, 0.14), (10.0, 0.03))
+LIST = "points = [" + ", ".join(f'["{t} s", "{a} g"]' for t, a in POINTS) + "]\n"
+
+
+def spectrum_of(folder: Path, text: str, code: str = "ASCE 7-22") -> Spectrum:
+    (folder / "site.toml").write_text(PROJECT.replace("CODE", code) + text, encoding="utf-8")
+    return ProjectInputs(read_project(folder / "site.toml"), folder).spectrum()
+
+
+def test_displacement_by_the_ordinate_at_the_period(tmp_path: Path) -> None:
+    """D_M = g S_aM T_M^2 / (4 pi^2 B_M), S_aM linear between the points, by hand."""
+    spectrum = spectrum_of(tmp_path, LIST)
+    periods, levels = np.array(POINTS).T
+    for result in equivalent_linear(SYSTEM, spectrum, bounds=BOUNDS).bounds.values():
+        t = result.trace
+        level = float(np.interp(t.value("T_M"), periods, levels))
+        assert t.value("S_aM") == pytest.approx(level, rel=1e-12)
+        expected = G * level * t.value("T_M") ** 2 / (4.0 * math.pi**2 * t.value("B_M"))
+        assert t.value("D_M") == pytest.approx(expected, rel=1e-9)
+    plain = equivalent_linear(SYSTEM, Spectrum.asce7(s_ms=1.26, s_m1=0.8), bounds=BOUNDS)
+    assert "S_aM" not in plain["lower"].trace
+    assert "6 % low at 3 s" in plain["lower"].trace["D_M"].note
+
+
+@pytest.mark.parametrize(
+    ("code", "spectrum", "symbols"),
+    [
+        ("ASCE 7-22", Spectrum.asce7(s_ms=1.2, s_m1=0.6), ("D_M", "D_TM")),
+        ("EN 1998", Spectrum.en1998(a_g=3.4, ground_type="B"), ("d_dc", "d_max")),
+        ("NCh2745", Spectrum.nch2745(soil="II", zone=3), ("D_D", "D_M", "D_TM")),
+    ],
+)
+def test_points_of_a_codes_spectrum_give_what_its_formulas_give(
+    code: str, spectrum: Spectrum, symbols: tuple[str, ...]
+) -> None:
+    chosen = code_named(code)
+    points = chosen.by_points(GRID.tolist(), np.asarray(spectrum.acceleration(GRID)).tolist())
+    method = chosen.analysis()
+    one, two = (
+        equivalent_linear(SYSTEM, each, bounds=BOUNDS, code=method) for each in (points, spectrum)
+    )
+    for bound, result in one.bounds.items():
+        for symbol in symbols:
+            expected = two.bounds[bound].trace.value(symbol)
+            assert result.trace.value(symbol) == pytest.approx(expected, rel=2e-3)
+
+
+def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
+    in_list = spectrum_of(tmp_path, LIST)
+    for unit, factor in (("g", 1.0), ("m/s2", G), ("gal", 100.0 * G)):
+        rows = "\n".join(f"{t},{factor * a:.12g}" for t, a in POINTS)
+        (tmp_path / "site.csv").write_text(f"# MCE_R\nperiod [s], acceleration [{unit}]\n{rows}\n")
+        table = spectrum_of(tmp_path, 'points = "site.csv"\n')
+        assert np.allclose(table.points, in_list.points, rtol=1e-10)
+        assert table.parameters["S_MS"] == pytest.approx(0.9 * 1.4)
+    own = spectrum_of(tmp_path, LIST + 's_m1 = 0.75\nt_l = "6 s"\nv_s30 = "500 m/s"\n')
+    assert (own.parameters["S_M1"], own.parameters["T_L"]) == (0.75, 6.0)
+    europe = spectrum_of(tmp_path, LIST, "EN 1998-1")
+    assert europe.code == "EN 1998"
+    assert europe.damping_factor(0.10) == pytest.approx(1.0 / math.sqrt(10.0 / 15.0))
+    assert europe.acceleration(0.35) == pytest.approx(1.35 * G)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "words"),
+    [
+        (
+            "points = 3\n",
+            "ASCE 7-22",
+            r'must be a file, "spectrum.csv", or a list',
+        ),
+        ('points = [["0 s", "1 g"]]\n', "EN 1998", r"spectrum.points"),
+        ('points = [["0 s", 1.0], ["3 s", "1 g"]]\n', "EN 1998", "has no unit"),
+        ('points = [["1 s", "1 g"], ["0 s", "1 g"]]\n', "EN 1998", "rising: sort them"),
+        ('points = [["1 s", "1 g"], ["3 s", "1 g"]]\n', "ASCE 7-22", "must begin at 0"),
+        ('points = "none.csv"\n', "NCh2745", "none.csv: No such file"),
+        ('points = "odd.csv"\n', "NCh2745", 'odd.csv begins with "T,Sa": its first line must be'),
+        ('points = "unit.csv"\n', "NCh2745", "accelerations in ft/s2: give them in g"),
+        ('points = "row.csv"\n', "NCh2745", "row.csv, line 3: 1.0,x must be two numbers"),
+        (LIST + 'soil = "II"\n', "NCh2745", "spectrum.soil is not known"),
+        ("s_ms = 1.0\n", "ASCE 7-22", "spectrum.s_m1 is missing"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused(tmp_path: Path, text: str, code: str, words: str) -> None:
+    (tmp_path / "odd.csv").write_text("T,Sa\n0,1\n1,1\n")
+    (tmp_path / "unit.csv").write_text("period [s],acceleration [ft/s2]\n0,1\n1,1\n")
+    (tmp_path / "row.csv").write_text("period [s],acceleration [g]\n0,1\n1.0,x\n")
+    with pytest.raises(ProjectError, match=words):
+        spectrum_of(tmp_path, text, code)
