@@ -78,7 +78,7 @@ def _matched(values: FloatArray, target: Spectrum, faster: float = 1.0) -> Float
         ratio = np.interp(at, periods, wanted / reached)
         found = np.fft.irfft(ratio * np.fft.rfft(found), len(values))
     window = signal.windows.tukey(len(found), 0.1)
-    slow = signal.butter(4, 0.1, "highpass", fs=1.0 / _STEP, output="sos")
+    slow = signal.butter(4, 0.1 * faster, "highpass", fs=1.0 / _STEP, output="sos")
     result: FloatArray = signal.sosfiltfilt(slow, found * window)
     return result
 

@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 
 BUILDINGS = {
     "hospital": "six storeys, L-shaped, walls of shells, by an OpenSees script; NCh2745",
+    "office": "four storeys of concrete with walls, two types of bearing; EN 1998",
+    "near-fault": "eight braced storeys of steel, vertical motion, uplift; ASCE 7-22",
 }
 """Whole buildings beside the plain example, and what each shows."""
 
-_WITH_VERTICAL = ()  # buildings whose motions have a vertical component
+_WITH_VERTICAL = frozenset({"near-fault"})  # buildings whose motions have a vertical component
 _PLAIN = "example.toml"
 _KEPT_AS_TEXT = ".txt"  # ending of files of a building that are not Python of this package
 
