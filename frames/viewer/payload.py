@@ -39,7 +39,7 @@ class ShownCheck(Protocol):
 
     @property
     def verdict(self) -> str:
-        """Outcome: "ok", "FAILS" or "does not apply"."""
+        """Outcome: "ok", "FAILS", "does not apply" or "needs agreement"."""
 
     @property
     def title(self) -> str:

@@ -365,7 +365,11 @@ def compare(project, tally):
         tally.words(verdicts, f"{label} void", bool(row["void"]), void)
         ratio = math.inf if void else ratio_of(demand, limit, row["relation"])
         tally.same(verdicts, f"{label} ratio", row["ratio"], ratio)
-        word = "ok" if ratio <= 1.0 + 1e-9 else "FAILS"
+        # without a rule of the code, rims met early are to be agreed
+        no_rule = title.startswith("displacement where a rim") and not found.own
+        no_rule = no_rule and RIMS_FROM[project.code] >= 1.0
+        beyond = "needs agreement" if no_rule else "FAILS"
+        word = "ok" if ratio <= 1.0 + 1e-9 else beyond
         tally.words(verdicts, f"{label} verdict", row["verdict"], word)
         tally.words(verdicts, f"{label} passed", row["passed"], word == "ok")
         failed += word == "FAILS"

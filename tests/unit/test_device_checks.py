@@ -242,6 +242,13 @@ def test_each_code_has_its_own_rule_for_rims() -> None:
         assert len(checks) == (4 if code == "ASCE 7-22" else 1)
         if code != "ASCE 7-22":
             assert "rims met by intent" in worst.note
+            assert (worst.verdict, checks.passed) == ("needs agreement", True)
+            assert list(checks.to_agree) == [worst]
+            assert "1 checks, 0 failed, 1 to be agreed" in checks.tally
+            project = engagement_checks(device, allowed, code=code, agreed=0.8)[1]  # type: ignore[arg-type]
+            assert project.verdict == "FAILS"  # what was agreed to is a limit
+        else:
+            assert worst.verdict == "FAILS"
     free = engagement_checks(device, 0.1, code="EN 1998-1")[0]
     assert (free.passed, free.note) == (True, "not met below gamma_x d_bd")
     with pytest.raises(CheckError, match="code = 'UBC'"):

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Bound = Literal["lower", "nominal", "upper", ""]
-Scope = Literal["any", "demand", "procedure"]
-Verdict = Literal["ok", "FAILS", "does not apply"]
+Scope = Literal["any", "demand", "procedure", "agreement"]
+Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement"]
 CONFIRMED = "confirmed"
 TO_BE_CONFIRMED = "to be confirmed against the standard"
 _ROUND_OFF = 1e-9
@@ -58,10 +58,11 @@ class Check:
     void : str
         Why the demand is no value for design, as after runs that failed: the check then fails,
         whatever demand and limit are. The demand is what was reached.
-    scope : {"any", "demand", "procedure"}
-        What it holds for: any analysis; a demand that a time history finds anew; or a limit of
-        the equivalent-linear procedure. Where such a limit is exceeded the procedure does not
-        apply: that is no failure of the structure. Not in tables, which show the `verdict`.
+    scope : {"any", "demand", "procedure", "agreement"}
+        What it holds for: any analysis; a demand that a time history finds anew; a limit of
+        the equivalent-linear procedure; or a solution that the code has no rule for. A procedure
+        whose limit is exceeded does not apply, a solution beyond its limit needs the agreement
+        that the note tells: neither is a failure. Not in tables, which show the `verdict`.
     level : str
         Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
         empty where none enters.
@@ -110,7 +111,7 @@ class Check:
         require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
         bounds = ("lower", "nominal", "upper", "")
         require_choice("bound", self.bound, bounds, error=CheckError)
-        scopes = ("any", "demand", "procedure")
+        scopes = ("any", "demand", "procedure", "agreement")
         require_choice("scope", self.scope, scopes, error=CheckError)
         object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
         try:
@@ -149,10 +150,17 @@ class Check:
 
     @property
     def verdict(self) -> Verdict:
-        """Outcome: "ok", "FAILS", or "does not apply" where a limit of a procedure is exceeded."""
+        """Outcome: "ok", "FAILS", or what exceeding the limit means by the `scope`.
+
+        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule.
+        """
         if self.passed:
             return "ok"
-        return "does not apply" if self.scope == "procedure" else "FAILS"
+        beyond: dict[str, Verdict] = {
+            "procedure": "does not apply",
+            "agreement": "needs agreement",
+        }
+        return beyond.get(self.scope, "FAILS")
 
     @property
     def concerns(self) -> str:
@@ -230,12 +238,12 @@ class Checks(Sequence[Check]):
 
     @property
     def passed(self) -> bool:
-        """Whether there are checks and none fails; limits of a procedure do not count."""
+        """Whether there are checks and none has the verdict "FAILS"."""
         return bool(self._checks) and not self.failed
 
     @property
     def failed(self) -> Checks:
-        """Those that fail; limits of a procedure are not among them."""
+        """Those whose verdict is "FAILS"."""
         return Checks(check for check in self if check.verdict == "FAILS")
 
     @property
@@ -244,10 +252,17 @@ class Checks(Sequence[Check]):
         return Checks(check for check in self if check.verdict == "does not apply")
 
     @property
+    def to_agree(self) -> Checks:
+        """Those that need the agreement of the authority: the code has no rule for them."""
+        return Checks(check for check in self if check.verdict == "needs agreement")
+
+    @property
     def tally(self) -> str:
-        """How many there are, how many fail, and how many limits of a procedure are exceeded."""
+        """How many there are, how many fail, exceed limits of a procedure, or need agreement."""
         beyond = len(self.inapplicable)
         more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
+        agree = len(self.to_agree)
+        more += f", {agree} to be agreed with the authority" if agree else ""
         return f"{len(self)} checks, {len(self.failed)} failed{more}"
 
     @property

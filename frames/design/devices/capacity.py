@@ -23,6 +23,7 @@ from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.registry import RimRule
     from lir_element import LIRBearing
 
 
@@ -118,7 +119,8 @@ def engagement_checks(
     -------
     Checks
         A check for each rim and bound; of a code without a rule for rims met by intent that of the
-        rim and bound that are worst. With an agreed share as many again.
+        rim and bound that are worst, whose verdict is "needs agreement" where rims are met
+        earlier. With an agreed share as many again.
 
     Raises
     ------
@@ -154,7 +156,7 @@ def engagement_checks(
     rims = [k for k in range(len(SURFACES)) if math.isfinite(bearing.rim_displacement[k])]
     found: list[Check] = []
     for each in asked:
-        made = [_met(bearing, k, at, rule.symbol, *each) for at in of.items() for k in rims]
+        made = [_met(bearing, k, at, rule, *each) for at in of.items() for k in rims]
         found += made if rule.least < 1.0 else [max(made, key=lambda check: check.ratio)]
     return Checks(found)
 
@@ -163,20 +165,22 @@ def _met(
     bearing: LIRBearing,
     k: int,
     at: tuple[Bound, float],
-    symbol: str,
+    rule: RimRule,
     clause: str,
     least: float,
     said: str,
 ) -> Check:
     # Where a rim is met, over the displacement that a bearing must allow.
-    t = enter_geometry(bearing)
+    t, symbol = enter_geometry(bearing), rule.symbol
     t.given("D_allowed", at[1], "m", shown="mm", note=symbol)
     t.given("eta_least", least)
     name = SURFACES[k]
     t("U_rim", f"L * d_rim_{k + 1} / R_{k + 1}", "m", shown="mm", note=f"{name} rim is met")
     share = t("eta", "U_rim / D_allowed")
     standing = CONFIRMED if clause == PROJECT_LIMIT else TO_BE_CONFIRMED
-    return CheckBuilder(t, at[0], standing).worst(
+    no_rule = clause != PROJECT_LIMIT and rule.least >= 1.0
+    judge = CheckBuilder(t, at[0], standing, "agreement" if no_rule else "any")
+    return judge.worst(
         clause,
         f"displacement where a rim engages, over {symbol}",
         "eta",

@@ -60,7 +60,8 @@ def read_checks(folder: Path) -> Checks:
 
 def _check(row: dict[Any, Any]) -> Check:
     texts = {name: row[name] for name in _TEXTS}
-    scope = "procedure" if row["verdict"] == "does not apply" else "any"
+    beyond = {"does not apply": "procedure", "needs agreement": "agreement"}
+    scope = beyond.get(row["verdict"], "any")
     shown = _SHOWN.get(row["unit"], "")
     numbers = {name: float(row[name]) for name in ("demand", "limit")}
     return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them
