@@ -118,7 +118,9 @@ def test_demands_of_one_run_are_its_peaks(data: xr.Dataset, batch: xr.Dataset, c
 def test_the_report_s_bearings_have_the_peaks(
     frame: Frame, data: xr.Dataset, batch: xr.Dataset
 ) -> None:
-    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs={"": {"nominal": batch}})
+    types = dict.fromkeys(frame.bearings, "standard")
+    runs = {"": {"nominal": batch}}
+    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=runs, types=types, moved={})
     table: pd.DataFrame = bearing_table(run)  # type: ignore[arg-type]
     known = peaks(data)["value"]
     assert table["displacement [m]"].max() == pytest.approx(known["bearing displacement"])
