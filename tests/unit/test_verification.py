@@ -20,7 +20,7 @@ from frames.design.project import verification
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.project.verification import section_of, verified
+from frames.design.project.verification import on_bearing, section_of, verified
 from tests.unit.test_project import ASCE
 
 FEW = ASCE.replace(', "artificial-3", "artificial-5"', "").replace(
@@ -28,6 +28,8 @@ FEW = ASCE.replace(', "artificial-3", "artificial-5"', "").replace(
     '[design]\nradii = ["1.5 m"]\nfrictions = [0.04, 0.05]\nleast_pressure = "1 MPa"\n'
     '[analysis]\nlevel = "pendulum"\nbounds = ["nominal"]\n',
 )
+
+TYPE = '[bearings.wide]\ncolumns = ["0-0"]\nslider_radius = "300 mm"\n\n'
 
 
 @pytest.fixture(scope="module")
@@ -125,3 +127,16 @@ def test_sections_of_one_size_alone_are_verified(folder: Path, found: Design) ->
     )
     with pytest.raises(CheckError, match="2 sizes of slider"):
         next(verified(parts_of(folder / "few.toml"), [several]))
+
+
+def test_a_candidate_is_verified_alone_where_the_file_has_several_types(
+    folder: Path, found: Design
+) -> None:
+    file = folder / "types.toml"
+    file.write_text(FEW.replace("[spectrum]", TYPE + "[spectrum]", 1))
+    parts = parts_of(file)
+    assert len({link.bearing.slider_radius for link in parts.frame().bearings.values()}) == 2
+    best = found.ranked[0].bearings[0]
+    proposed = on_bearing(parts, best)
+    radii = {link.bearing.slider_radius for link in proposed.frame().bearings.values()}
+    assert radii == {round(best.slider_radius, 3)}

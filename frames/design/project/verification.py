@@ -107,9 +107,10 @@ def _failures(failed: Checks) -> str:
 
 
 def on_bearing(parts: ProjectInputs, bearing: LIRBearing) -> ProjectInputs:
-    """Return a project whose section ``[bearing]`` is what `section_of` writes of a bearing."""
+    """Return a project with ``[bearing]`` as `section_of` writes it, and no further types."""
     given = bearing_table().model_validate(tomllib.loads(section_of(bearing))["bearing"])
-    return ProjectInputs(parts.file.model_copy(update={"bearing": given}), parts.folder)
+    alone = {"bearing": given, "bearings": {}}
+    return ProjectInputs(parts.file.model_copy(update=alone), parts.folder)
 
 
 def section_of(bearing: LIRBearing) -> str:
