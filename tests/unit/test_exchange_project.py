@@ -19,7 +19,7 @@ def project(tmp_path: Path, structure: str) -> ProjectInputs:
     (tmp_path / "model.e2k").write_text(etabs_models.building(), encoding="utf-8")
     tables = sap2000_models.building()
     (tmp_path / "model.s2k").write_text(sap2000_models.text(tables), encoding="utf-8")
-    text = (Path(example.__file__).parent / "example.toml").read_text(encoding="utf-8")
+    text = (Path(example.__file__).parent / "examples" / "example.toml").read_text(encoding="utf-8")
     path = tmp_path / "project.toml"
     before, rest = text.split("[structure]", 1)
     after = rest[rest.index("[superstructure]") :]
