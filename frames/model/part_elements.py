@@ -20,7 +20,8 @@ class WithoutForces(NamedTuple):
 
     kind: str
     """Their class, "ShellMITC4"."""
-    count: int
+    number: int
+    """How many."""
     which: str
     """Their tags or names, the first of them where they are many."""
     why: str

@@ -100,7 +100,7 @@ def geometry(
             up[k] = axes @ np.cross(along, side)
     own, length = local_axes(start, end, up)
     arms = np.einsum("nab,nkb->nka", own, offsets @ axes.T)
-    return Geometry(own, length, arms, np.kron(np.eye(2), turn))
+    return Geometry(own, length, arms, np.asarray(np.kron(np.eye(2), turn), dtype=np.float64))
 
 
 def _transformation(printed: Printed, element: ElementEntry) -> dict[str, Any]:
@@ -175,7 +175,7 @@ def _of_basic(basic: FloatArray, length: float, axial: float) -> FloatArray:
     to_basic[5, [3, 9]] = -1.0, 1.0
     used = to_basic[: len(basic)]
     found: FloatArray = used.T @ basic @ used
-    for v in (1, 2):
+    for v in (1, 2) if len(basic) > 3 else (1,):
         for row, column, sign in ((0, 0, 1.0), (0, 6, -1.0), (6, 0, -1.0), (6, 6, 1.0)):
             found[v + row, v + column] += sign * axial / length
     return found

@@ -35,7 +35,7 @@ NUMBERS = (0.12, E_, G_, 1.5e-3, 1e-3, 2e-3)
 
 
 def space_frame(ops, turned=False):
-    """Build four columns of all transformations, beams of all kinds, a bar, a shell and a spring."""
+    """Build columns of all transformations, beams of all kinds, a bar and a shell."""
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     axes, _ = turning(3, "y" if turned else "z")
@@ -185,3 +185,70 @@ def test_forces_of_a_run_hold_nodes_in_balance(ops):
     mean = 0.5 * (beam.sel(station="i") + beam.sel(station="j"))
     sag = (beam.sel(station="mid") - mean).sel(component=["My", "Mz"]).to_numpy()
     assert_allclose(sag, [-20e3 * length**2 / 8.0, -1e3 * length**2 / 8.0], rtol=1e-9)
+
+
+def plane_frame(ops, length=1.0, force=1.0):
+    """Build a portal with a loaded beam, in units of length [m] and force [N]."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("PDelta", 1)
+    ends = ("-jntOffset", 0.3 / length, 0.0, -0.2 / length, 0.0)
+    ops.geomTransf("Linear", 2, *ends)
+    modulus = 30e9 / force * length**2
+    for tag, x, y in ((1, 0.0, 0.0), (2, 5.0, 0.0), (3, 0.0, 3.0), (4, 5.0, 3.0)):
+        ops.node(tag, x / length, y / length)
+        mass = 20e3 * length / force
+        ops.mass(tag, mass, mass, 0.0)
+    for tag in (1, 2):
+        ops.fix(tag, 1, 1, 1)
+        numbers = 0.1 / length**2, modulus, 1e-3 / length**4
+        ops.element("elasticBeamColumn", tag, tag, tag + 2, *numbers, 1)
+    ops.element("elasticBeamColumn", 3, 3, 4, 0.1 / length**2, modulus, 2e-3 / length**4, 2)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.eleLoad("-ele", 3, "-type", "-beamUniform", -40e3 / force * length)
+    ops.eleLoad("-ele", 3, "-type", "-beamPoint", -9e3 / force, 0.25)
+    solve(ops)
+
+
+@pytest.mark.meant("carry no mass")
+def test_a_plane_model_in_its_units(ops):
+    """As OpenSees says of its elements, turned to SI; the middle of the beam by statics."""
+    plane_frame(ops)
+    local = np.array([told(ops, tag) for tag in (1, 2, 3)])
+    found = assemble(Frame.from_opensees([1, 2], BEARING)).elements
+    plane_frame(ops, 1e-3, 1e3)
+    units = {"length_unit": 1e-3, "force_unit": 1e3}
+    other = assemble(Frame.from_opensees([1, 2], BEARING, **units)).elements
+    for word in ("rows", "rest", "middle"):
+        one, two = getattr(found, word), getattr(other, word)
+        assert_allclose(two, one, rtol=1e-6, atol=1e-9 * np.abs(one).max())
+    in_plane = [0, 1, 5, 6, 7, 11]
+    assert_allclose(found.rest[2][in_plane], local[2], rtol=1e-9)
+    assert not np.delete(found.rest, in_plane, axis=1).any()
+    span, at = 4.5, 0.25 * 4.5
+    near, far = local[2][2], local[2][5]
+    # sagging by the end moments and the loads of a simple beam; Mz of a section is far's sign
+    simple = 40e3 * span**2 / 8.0 + 9e3 * at / 2.0
+    middle = 0.5 * (far - near) + found.middle[2][5]
+    assert_allclose(middle, 0.5 * (far - near) + simple, rtol=1e-12)
+    shear = local[2][1] - 40e3 * span / 2.0 - 9e3
+    assert_allclose(0.5 * (local[2][4] - local[2][1]) + found.middle[2][1], -shear, rtol=1e-9)
+
+
+def test_elements_without_forces_are_named(ops):
+    """A corotational bar tells no stiffness, a spring is no member."""
+    space_frame(ops)
+    ops.node(30, *PLACES[5])
+    ops.mass(30, 1e3, 1e3, 1e3, 0.0, 0.0, 0.0)
+    ops.element("zeroLength", 30, 5, 30, "-mat", *[1] * 6, "-dir", *range(1, 7))
+    ops.element("corotTruss", 31, 2, 7, 1e-3, 1)
+    solve(ops)
+    frame = Frame.from_opensees([1, 2, 3, 4], BEARING)
+    part = frame.superelements["opensees"].elements
+    told_of = {one.kind: (one.number, one.which, one.why) for one in part.without}
+    assert set(told_of) == {"ShellMITC4", "ZeroLength", "CorotTruss"}
+    assert told_of["ShellMITC4"] == (1, "20", "no beam, column or bar between two nodes")
+    assert told_of["CorotTruss"][2] == "OpenSees tells another stiffness of it than it assembles"
+    assert "element-31" not in part.names
+    assert len(part.names) == len(LINES)

@@ -75,7 +75,7 @@ def without_forces(frame: Frame) -> pd.DataFrame:
         A row a kind and reason: how many, which, why. Empty where all are told.
     """
     rows = [
-        {"kind": one.kind, "elements": one.count, "which": one.which, "why": one.why}
+        {"kind": one.kind, "elements": one.number, "which": one.which, "why": one.why}
         for part in frame.superelements.values()
         for one in part.elements.without
     ]

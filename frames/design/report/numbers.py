@@ -165,8 +165,8 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     -------
     dict of str to pandas.DataFrame
         "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
-        "member-groups", "members-without-forces"; "members", "storeys" and "reactions" as far as the structure has them
-        (`force_demands`).
+        "member-groups", "members-without-forces"; "members", "storeys" and "reactions" as far as
+        the structure has them (`force_demands`).
     """
     forces = force_demands(run.runs, run.rules)
     return {
