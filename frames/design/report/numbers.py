@@ -10,7 +10,9 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
+from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs
+from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.member_groups import member_groups
 from frames.statics.modes import modes
 
@@ -162,8 +164,8 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     -------
     dict of str to pandas.DataFrame
         "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
-        "member-groups"; "members", "storeys" and "reactions" as far as the structure has them
-        (`force_demands`).
+        "demands-by-motion", "member-groups"; "members", "storeys" and "reactions" as far as the
+        structure has them (`force_demands`).
     """
     forces = force_demands(run.runs, run.rules)
     return {
@@ -172,6 +174,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "modes": mode_table(run),
         "member-groups": member_groups(run, forces.get("members")),
         "programme": run.programme,
+        BY_MOTION: demands_by_motion(run.runs, run.rules, run.moved),
         **forces,
         ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }
