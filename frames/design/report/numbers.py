@@ -10,6 +10,7 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
+from frames.design.histories.least_shears import raises_of_runs
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.report.member_groups import member_groups
 from frames.statics.modes import modes
@@ -165,7 +166,8 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "member-groups"; "members", "storeys" and "reactions" as far as the structure has them
         (`force_demands`).
     """
-    forces = force_demands(run.runs, run.rules)
+    raises = raises_of_runs(run.runs, run.rules, run.equivalent)
+    forces = force_demands(run.runs, run.rules, raises)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),

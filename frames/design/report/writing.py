@@ -96,6 +96,7 @@ def report_in(
         sections=SECTIONS,
         case=run.governing_case,
         failed=[judged(check) for check in run.checks.failed],
+        least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
         doubts=run.doubts,
