@@ -192,7 +192,7 @@ def test_drifts_are_those_that_runs_reached(runs, tables):
 
 
 def test_least_shears_raise_the_earthquakes_part(runs, tables):
-    """Of members, storeys and drifts by one factor, of bearings and the structure's foot by another."""
+    """Of members, storeys and drifts by one factor, of bearings and the foot of all by another."""
     raises = {("MCE_R", "upper"): Raise(above=1.4, isolation=1.1)}
     raised = force_demands({"MCE_R": runs}, RULES, raises)
     foot = str(runs["upper"]["section"].to_numpy()[0])

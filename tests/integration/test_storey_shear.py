@@ -161,9 +161,7 @@ def test_least_storey_shear_of_a_suite(frame: Frame, runs: xr.Dataset) -> None:
     assert (windy.passed, windy.verdict) == (False, "raised")
 
 
-def test_less_than_the_least_shear_raises_forces_and_drifts(
-    frame: Frame, runs: xr.Dataset
-) -> None:
+def test_less_than_the_least_shear_raises_forces_and_drifts(frame: Frame, runs: xr.Dataset) -> None:
     """The earthquake's part of forces above the isolation counts times the ratio, and drifts do."""
     most = runs["reached_storey_shear"].to_numpy()[:, 0].mean()
     windy = linear(frame, wind_shear=1.5 * most / 1.5)  # V_s is 1.5 times the shear of the runs
