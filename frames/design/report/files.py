@@ -60,8 +60,9 @@ def write_run(
         ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
         ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
         ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
-        with members; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one
-        run; ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
+        with members, ``members-without-forces.csv`` of one with shells or springs;
+        ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
+        ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
     """
     folder.mkdir(parents=True, exist_ok=True)

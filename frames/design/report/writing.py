@@ -14,7 +14,7 @@ from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import what_governs
 from frames.design.report.judged import factor_steps, judged
-from frames.design.report.numbers import ECCENTRICITY, devices_by_type
+from frames.design.report.numbers import ECCENTRICITY, WITHOUT_FORCES, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -96,6 +96,7 @@ def report_in(
         sections=SECTIONS,
         case=run.governing_case,
         failed=[judged(check) for check in run.checks.failed],
+        least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
         doubts=run.doubts,
@@ -115,6 +116,7 @@ def report_in(
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
+        untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
         programme=fit(_programme(tables["programme"])),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
@@ -134,6 +136,7 @@ def report_in(
 
 def _words(run: ProjectRun, language: str) -> Words:
     names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
+    names |= {name for part in run.frame.superelements.values() for name in part.elements.names}
     names |= {*run.motions, *(level.name for level in run.frame.levels)}
     return Words(language or run.about.language, run.about.decimal, names)
 
