@@ -8,6 +8,7 @@ import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.histories.demand_table import envelope_said, headed, void_said
+from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
 from frames.design.report.cover import cover_of, css_string
 from frames.design.report.eccentric import eccentricity_said, raised_tables
@@ -125,6 +126,7 @@ def report_in(
         void=void_said(run.demands),
         raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
         eccentricity=eccentricity_said(run),
+        by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=attrs["audit"].splitlines(),
