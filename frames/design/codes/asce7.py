@@ -411,6 +411,7 @@ CODE = DesignCode(
         least=7,
         mean_from=7,
         drift=0.020,
+        second_order=0.010,
         uplift_allowed=True,
         has_minima=True,
         accidental_eccentricity=0.05,

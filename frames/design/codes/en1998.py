@@ -265,7 +265,7 @@ class EN1998:
         t.each("d_all", "d_Ed + d_acc", "m", source="NTC 2018 7.10.6.2.2", shown="mm")
         return limit.worst(
             "NTC 2018 7.10.6.2.2",
-            "no restrainer contact with what earlier events leave",
+            "capacity with accumulated displacement",
             "d_all",
             "<=",
             "d_rim",

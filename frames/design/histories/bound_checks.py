@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES
@@ -110,7 +111,7 @@ class BoundChecks:
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
+        moved = bearings.displacement(clause, self._least("D_TM_dyn"), MEMORY)
         found = [
             *moved,
             *self._engagement(moved),
@@ -289,12 +290,26 @@ class BoundChecks:
         if len(self.frame.levels) < 2:
             return found
         if self.rules.drift is not None:
-            found += self._drift_within(self.rules.drift, self.rules.drift_clause)
+            for check in self._drift_within(self.rules.drift, self.rules.drift_clause):
+                note = "; ".join(part for part in (check.note, self._gravity(check)) if part)
+                found.append(replace(check, note=note))
         if own is not None:
             for check in self._drift_within(own, ""):
                 note = "; ".join(part for part in (check.note, self._beside()) if part)
                 found.append(replace(check, note=note))
         return found
+
+    def _gravity(self, check: Check) -> str:
+        # Whether the drift asks for P-Delta in the analysis, and whether it is there.
+        known = None if self.equivalent is None else self.equivalent.bounds.get(self.bound)
+        if self.rules.second_order is None or known is None or "R_I" not in known.trace:
+            return ""
+        least = self.rules.second_order / known.trace.value("R_I")
+        if not check.demand > least:
+            return ""
+        clause = self._clause(self.rules.drift_clause)
+        there = "the members have it" if self.frame.members else "springs do not have it"
+        return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
 
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
@@ -359,7 +374,7 @@ class BoundChecks:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        standing = MEMORY if clause else OWN
         return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:
