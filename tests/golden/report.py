@@ -51,6 +51,7 @@ def compare(project, tally):
         _linear,
         _limits,
         _demands,
+        _by_motion,
         _checks,
         _programme,
     ]
@@ -71,6 +72,7 @@ def _kind(heading, head):
         ("Equivalent-linear analysis", "bound"): _linear,
         ("Equivalent-linear analysis", "check"): _limits,
         ("Time histories", "quantity"): _demands,
+        ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
         ("Checks", "check"): _checks,
         ("Test programme", "test"): _programme,
@@ -262,6 +264,21 @@ def _demands(project, head, rows, tally):
             else:
                 given_text = " ".join(given[full[title]].split())
                 tally.words("tables of the report", label, "" if text == "-" else text, given_text)
+
+
+def _by_motion(project, head, rows, tally):
+    # A wide table is shown in parts, each with the columns that say of which run a row is.
+    own = project.table("demands-by-motion")
+    tally.same("tables of the report", "rows of each motion", len(rows), len(own))
+    for row, given in zip(rows, own, strict=True):
+        columns = {title.partition(" [")[0]: value for title, value in given.items()}
+        for title, text in zip(head, row, strict=True):
+            plain_title, _, unit = title.removesuffix("]").partition(" [")
+            label, value = f"{row[0]} {title}", columns[plain_title]
+            if unit or plain_title == "scale":
+                shown(tally, label, text, value, FACTORS.get(unit, 1.0) if unit != "-" else 1.0)
+            else:
+                tally.words("tables of the report", label, text, value)
 
 
 def _members(project, head, rows, tally):

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Bound = Literal["lower", "nominal", "upper", ""]
-Scope = Literal["any", "demand", "procedure", "agreement"]
-Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement"]
+Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
+Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement", "raised"]
 CONFIRMED = "confirmed"
 TO_BE_CONFIRMED = "to be confirmed against the standard"
 _ROUND_OFF = 1e-9
@@ -58,11 +58,12 @@ class Check:
     void : str
         Why the demand is no value for design, as after runs that failed: the check then fails,
         whatever demand and limit are. The demand is what was reached.
-    scope : {"any", "demand", "procedure", "agreement"}
+    scope : {"any", "demand", "procedure", "agreement", "minimum"}
         What it holds for: any analysis; a demand that a time history finds anew; a limit of
-        the equivalent-linear procedure; or a solution that the code has no rule for. A procedure
-        whose limit is exceeded does not apply, a solution beyond its limit needs the agreement
-        that the note tells: neither is a failure. Not in tables, which show the `verdict`.
+        the equivalent-linear procedure; a solution that the code has no rule for; or a least
+        value of a demand. A procedure whose limit is exceeded does not apply, a solution beyond
+        its limit needs the agreement that the note tells, a demand below its least value is raised
+        to it, by the ratio: none is a failure. Not in tables, which show the `verdict`.
     level : str
         Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
         empty where none enters.
@@ -111,7 +112,7 @@ class Check:
         require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
         bounds = ("lower", "nominal", "upper", "")
         require_choice("bound", self.bound, bounds, error=CheckError)
-        scopes = ("any", "demand", "procedure", "agreement")
+        scopes = ("any", "demand", "procedure", "agreement", "minimum")
         require_choice("scope", self.scope, scopes, error=CheckError)
         object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
         try:
@@ -152,7 +153,8 @@ class Check:
     def verdict(self) -> Verdict:
         """Outcome: "ok", "FAILS", or what exceeding the limit means by the `scope`.
 
-        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule.
+        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule,
+        "raised" of a demand that counts with its least value; without a value for design "FAILS".
         """
         if self.passed:
             return "ok"
@@ -160,6 +162,8 @@ class Check:
             "procedure": "does not apply",
             "agreement": "needs agreement",
         }
+        if not self.void:
+            beyond["minimum"] = "raised"
         return beyond.get(self.scope, "FAILS")
 
     @property
@@ -267,12 +271,19 @@ class Checks(Sequence[Check]):
         return Checks(check for check in self if check.verdict == "needs agreement")
 
     @property
+    def raised(self) -> Checks:
+        """Those of demands below their least value, to which they are raised."""
+        return Checks(check for check in self if check.verdict == "raised")
+
+    @property
     def tally(self) -> str:
-        """How many there are, how many fail, exceed limits of a procedure, or need agreement."""
+        """How many there are; how many fail, exceed limits of a procedure, and so on."""
         beyond = len(self.inapplicable)
         more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
         agree = len(self.to_agree)
         more += f", {agree} to be agreed with the authority" if agree else ""
+        less = len(self.raised)
+        more += f", {less} below the code's least value: forces are raised to it" if less else ""
         return f"{len(self)} checks, {len(self.failed)} failed{more}"
 
     @property

@@ -147,7 +147,7 @@ class CheckBuilder:
         Properties of the bearings that it is for.
     standing : str
         Of its checks.
-    scope : {"any", "demand", "procedure", "agreement"}
+    scope : {"any", "demand", "procedure", "agreement", "minimum"}
         Of its checks.
     void : str
         Why its demands are no values for design.

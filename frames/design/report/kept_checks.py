@@ -60,7 +60,11 @@ def read_checks(folder: Path) -> Checks:
 
 def _check(row: dict[Any, Any]) -> Check:
     texts = {name: row[name] for name in _TEXTS}
-    beyond = {"does not apply": "procedure", "needs agreement": "agreement"}
+    beyond = {
+        "does not apply": "procedure",
+        "needs agreement": "agreement",
+        "raised": "minimum",
+    }
     scope = beyond.get(row["verdict"], "any")
     shown = _SHOWN.get(row["unit"], "")
     numbers = {name: float(row[name]) for name in ("demand", "limit")}
